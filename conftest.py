@@ -11,10 +11,12 @@ from pathlib import Path
 import pytest
 
 TOP = Path(__file__).parent
-pytest_plugins = ["pyfranka.pytest_plugin"]  # which the wheel's entry point names
+pytest_plugins = ["pyfranka.pytest_plugin", "own_process"]  # the wheel's entry point names the first
 
-SHARED = ("tests", "tests/support", "catkin_ws/src/franka_sim_mujoco/src")
+SHARED = ("tests", "tests/support", "docs/site")
 sys.path[:0] = [str(TOP / folder) for folder in SHARED]
+# Behind the environment's package of that name, which also has its messages.
+sys.path.append(str(TOP / "catkin_ws/src/franka_sim_mujoco/src"))
 
 # A shell's background jobs ignore Ctrl-C, and so would the programs that tests start and interrupt.
 if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
@@ -33,7 +35,23 @@ def pytest_addoption(parser):
     parser.addoption("--long", action="store_true", help="the long forms of soaks and sweeps")
 
 
+def pytest_configure(config):
+    config.addinivalue_line("markers", "long_form(reason): run in the long form only")
+
+
+def is_long(config) -> bool:
+    return config.getoption("--long") or os.environ.get("FRANKA_TEST_LONG") == "1"
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(config, items):
+    for item in items:
+        mark = item.get_closest_marker("long_form")
+        if mark and not is_long(config):
+            item.add_marker(pytest.mark.skip(reason=f"{mark.args[0]}: ./franka test --long"))
+
+
 @pytest.fixture(scope="session")
 def long_run(request) -> bool:
     """Whether the long forms were asked for."""
-    return request.config.getoption("--long") or os.environ.get("FRANKA_TEST_LONG") == "1"
+    return is_long(request.config)

@@ -47,7 +47,7 @@ def install(name: str, folder: Path) -> str | None:
 
 
 def steps(name: str, python: str, processes: int) -> float:
-    """Steps a second of so many processes together. Raises RuntimeError with what a process said."""
+    """Steps a second of so many processes together. Raises RuntimeError with the output of a process."""
     own = dict(os.environ)
     if name != "pyfranka":
         own.pop("PYTHONPATH", None)
@@ -62,7 +62,7 @@ def steps(name: str, python: str, processes: int) -> float:
         out, error = process.communicate(timeout=600)
         found = [line for line in out.splitlines() if line.startswith("steps a second:")]
         if not found:
-            raise RuntimeError((error.strip().splitlines() or ["it said nothing"])[-1])
+            raise RuntimeError((error.strip().splitlines() or ["it printed nothing"])[-1])
         total += float(found[0].split(":")[1])
     return total
 

@@ -4,7 +4,7 @@
 """Runs the benchmarks; each prints its figure as a ratio to a reference measured in the same run.
 
 `./franka bench` runs all, `./franka bench NAME...` some of: fci, hardware, micro, tick, arms, cameras,
-memory, start, python. Exit status 1 if a figure misses its goal. Needs the environment of the built
+memory, start, growth, python. Exit status 1 if a figure misses its goal. Needs the environment of the built
 workspace, which `./franka bench` provides.
 """
 
@@ -15,6 +15,7 @@ from pathlib import Path
 TESTS = Path(__file__).resolve().parents[1] / "tests"
 sys.path[:0] = [str(TESTS), str(TESTS / "support")]  # simulated robots are described once
 
+import growth
 import hardware
 import lock_step_pairs
 import micro
@@ -40,6 +41,7 @@ BENCHMARKS = {
     "cameras": simulation.cameras,
     "memory": simulation.memory,
     "start": simulation.start,
+    "growth": growth.growth,
     "python": python,
 }
 

@@ -5,7 +5,7 @@ from setuptools import setup
 
 setup(
     **generate_distutils_setup(
-        packages=["pyfranka", "pyfranka.desk", "pyfranka.gym", "pyfranka.sim"],
+        packages=["pyfranka", "pyfranka.desk", "pyfranka.gym", "pyfranka.plot", "pyfranka.sim"],
         package_dir={"": "src"},
         package_data={"pyfranka": ["py.typed", "*.pyi"], "pyfranka.desk": ["page/**/*"]},
     )

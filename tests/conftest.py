@@ -2,48 +2,74 @@
 # SPDX-License-Identifier: Apache-2.0
 """Fixtures of all end-to-end tests."""
 
+import fcntl
 import os
-import shutil
 import subprocess
+import sys
+import time
+from functools import partial
 from pathlib import Path
 
 import pytest
+from bare_debian import possible
 
 TOP = Path(__file__).resolve().parent.parent
 WORKSPACE = TOP / "catkin_ws"
 
 
+@pytest.fixture
+def desk_client(tmp_path):
+    """Starts a robot with its Desk and one genuine client: see desk_and_client()."""
+    from desk_clients import desk_and_client
+
+    return partial(desk_and_client, tmp_path)
+
+
 @pytest.fixture(scope="session")
-def installed(tmp_path_factory) -> Path:
-    """The workspace's packages, installed in a separate prefix."""
-    prefix = tmp_path_factory.mktemp("install")
-    environment = dict(os.environ, PATH=f"/usr/bin:{os.environ['PATH']}")
-    subprocess.run(
-        ["cmake", f"-DCMAKE_INSTALL_PREFIX={prefix}", "."],
-        cwd=WORKSPACE / "build",
-        env=environment,
-        check=True,
-        capture_output=True,
-        timeout=300,
-    )
-    try:
-        result = subprocess.run(
-            ["make", "install"],
-            cwd=WORKSPACE / "build",
-            env=environment,
-            text=True,
-            capture_output=True,
-            timeout=800,
-        )
-        assert result.returncode == 0, (result.stdout + result.stderr)[-4000:]
-    finally:
-        subprocess.run(
-            ["cmake", f"-DCMAKE_INSTALL_PREFIX={WORKSPACE / 'install'}", "."],
-            cwd=WORKSPACE / "build",
-            env=environment,
-            check=True,
-            capture_output=True,
-            timeout=300,
-        )
-    yield prefix
-    shutil.rmtree(prefix, ignore_errors=True)
+def installed() -> Path:
+    """The workspace's install space. The build keeps its configuration, which other tests read meanwhile."""
+    prefix = WORKSPACE / "install"
+    make_once("installed", ["bash", "-c", f"rm -rf {prefix} && make -C {WORKSPACE / 'build'} install"], 900)
+    return prefix
+
+
+def last_change() -> float:
+    """When a file of the repository was last changed [s]."""
+    files = subprocess.run(["git", "ls-files", "-z"], cwd=TOP, text=True, capture_output=True, check=True)
+    paths = (TOP / name for name in files.stdout.split("\0") if name)
+    return max(path.stat().st_mtime for path in paths if path.exists())
+
+
+def make_once(name: str, command: list[str | Path], timeout: float) -> None:
+    """Runs a command unless that was done after the last change of a file. Each file of tests has its own
+    process; the first one runs the command, the others wait for it and find its results."""
+    made = TOP / "out" / f"{name}.made"
+    made.parent.mkdir(exist_ok=True)
+    with open(made.with_suffix(".lock"), "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        if made.exists() and made.stat().st_mtime > last_change():
+            return
+        begin = time.time()
+        environment = {**os.environ, "PATH": f"/usr/bin:{os.environ['PATH']}"}
+        options = {"text": True, "capture_output": True, "timeout": timeout, "env": environment}
+        result = subprocess.run(command, **options)
+        assert result.returncode == 0, (result.stdout + result.stderr)[-6000:]
+        made.touch()
+        os.utime(made, (begin, begin))
+
+
+@pytest.fixture(scope="session")
+def repository(long_run) -> Path:
+    """The Debian packages of this release, built and checked by lintian. Tests that use it are long forms."""
+    assert long_run, "Only a test with the mark `long_form` may use the Debian packages."
+    if reason := possible():
+        pytest.skip(reason)
+    make_once("deb", [TOP / "franka", "deb"], 7200)
+    return TOP / "dist" / "deb"
+
+
+@pytest.fixture(scope="session")
+def site() -> Path:
+    """The documentation site's pages, built without a warning."""
+    make_once("docs", [sys.executable, TOP / "docs" / "site" / "build_site.py"], 900)
+    return TOP / "out" / "docs" / "html"

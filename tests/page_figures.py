@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The figures of docs/fidelity.md and docs/limits.md, each with its source in the code.
+"""The figures of docs/fidelity.md and docs/design/limits.md, each with its source in the code.
 
 An entry is (words of the page, value). Each `#` in the words stands for one figure. The value, in the page's
 unit, is a number for all figures or a list with one number for each; all numbers of a list must equal a
@@ -130,7 +130,7 @@ def profiles(physics):
         (f"R2 {seven} Nm, R1 {seven} Nm. `recorded`: within # %", second[0] + second[1] + [noise_share]),
         ("FR3 #, Panda # rad/s", [fr3["noise"]["dq_noise"][0], panda["noise"]["dq_noise"][0]]),
         ("rad/s. `recorded`: within # %", noise_share),
-        ("adds up to # ms", constant(HEADERS + "robot/realism.h", "kLongestCommandDelay = #;")),
+        ("adds up to # ms", constant(HEADERS + "robot/realism.h", "kMaxCommandDelay = #;")),
         ("`recorded`: # s until", panda["gripper"]["start"]),
         ("(chosen here), # s at least", panda["gripper"]["shortest"]),
     ]
@@ -163,10 +163,10 @@ def fidelity():
         # State
         ("# Hz low-pass", cutoff),
         ("q + tau_J/#, dq + dtau_J/#", elasticity),
-        ("without gravity; # in Idle", constant(ROBOT + "motion_supervisor.cpp", "state_.tau_J_d.fill(#);")),
+        ("without gravity; # in Idle", constant(ROBOT + "motion_supervisor.cpp", "state_->tau_J_d.fill(#);")),
         (
             "singular value is below #",
-            constant(ROBOT + "external_wrench.cpp", "kSmallestSingularValue = #;"),
+            constant(ROBOT + "external_wrench.cpp", "kMinSingularValue = #;"),
         ),
         ("sign of q4 + #", round(-constant(CORE + "limits.h", "kElbowFlip = #;"), 3)),
         ("the last # commands", constant(HEADERS + "robot/command_window.h", "kSlots = #;")),
@@ -248,7 +248,7 @@ def fidelity():
         ("within #;", constant(CORE + "transform.h", "kTransformTolerance = #;")),
         (
             "velocity limit is #",
-            constant(CORE + "limits.h", "std::max(#, std::sqrt(room) - limits.offset[joint])"),
+            constant(CORE + "limits.h", "std::max(#, std::sqrt(margin) - limits.offset[joint])"),
         ),
         # FrankaHWSim, other devices, SDF worlds, hand, ros_control
         ("is # in Move and # in Idle", [rate_in_move, rate_in_idle]),
@@ -266,11 +266,19 @@ def fidelity():
         ("nothing for # s", constant("franka_gripper/src/franka_gripper/gripper_node.py", "SILENCE = #")),
         (
             "polls every # ms",
-            constant("ros_control/realtime_tools/src/publishing_thread.cpp", "kFirstWait{#};") / 1000,
+            constant(
+                "ros_control/realtime_tools/include/realtime_tools/detail/publishing_schedule.h",
+                "kMinWait{#};",
+            )
+            / 1000,
         ),
         (
             "down to every # ms",
-            constant("ros_control/realtime_tools/src/publishing_thread.cpp", "kLongestWait{#};") / 1000,
+            constant(
+                "ros_control/realtime_tools/include/realtime_tools/detail/publishing_schedule.h",
+                "kMaxWait{#};",
+            )
+            / 1000,
         ),
     ]
 
@@ -297,7 +305,7 @@ def longest_way(velocity, acceleration, tick):
 
 
 def limits():
-    """The entries of docs/limits.md, except its table, which test_limits_page.py compares."""
+    """The entries of docs/design/limits.md, except its table, which test_limits_page.py compares."""
     tick = constant(CORE + "tick.h", "kTick = #;")
     panda, fr3 = arm_limits("kFerLimits"), arm_limits("kFr3Limits")
     way = TESTS + "robot/limit_way.h"

@@ -3,52 +3,34 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs every test of the built workspace and ends with one line, `N passed, N failed`.
 
-In this order: style, compiler warnings, gtest and rostest (as many at a time as there are processors), and
-pytest (`test/test_*.py` of each package, then `tests/`). Cases are counted from the result files, since
-catkin's own summary counts some twice. Called by `./franka test`, which provides the environment.
+In this order: style, compiler warnings, gtest, rostest, and pytest (`tests/test_*.py`, `test/test_*.py` of
+packages), three programs at a time on two processors. Each file of pytest has a process of its own, because
+rospy can be initialised once in a process. Cases are counted from the result files, since catkin's own
+summary counts some twice. A table lists the reasons of skipped tests; the run fails if a reason names neither
+a missing package nor the long form. Called by `./franka test`, which provides the environment.
 """
 
 import argparse
 import os
+import re
 import shutil
 import subprocess
 import sys
 import time
-import xml.etree.ElementTree as ElementTree
-from dataclasses import dataclass, field
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from subprocess import PIPE, STDOUT
 
 TOP = Path(__file__).resolve().parent.parent
+sys.path.append(str(TOP / "tests" / "support"))
+from tally import Tally  # noqa: E402
+
 SOURCE = TOP / "catkin_ws" / "src"
 BUILD = TOP / "catkin_ws" / "build"
 RESULTS = BUILD / "test_results"
 PYTEST_RESULTS = TOP / "out" / "pytest"
-
-
-@dataclass
-class Tally:
-    """Counts from the result files."""
-
-    passed: int = 0
-    failed: list[str] = field(default_factory=list)
-    skipped: int = 0
-
-    def add(self, path: Path, only_failures: bool = False) -> None:
-        try:
-            root = ElementTree.parse(path).getroot()
-        except ElementTree.ParseError as error:
-            self.failed.append(f"{path.stem}: the result file is broken ({error})")
-            return
-        for case in root.iter("testcase"):
-            name = f"{path.parent.name}: {case.get('classname', '')}.{case.get('name', '')}"
-            if case.find("failure") is not None or case.find("error") is not None:
-                self.failed.append(name)
-            elif only_failures:
-                continue
-            elif case.find("skipped") is not None or case.get("status") == "notrun":
-                self.skipped += 1
-            else:
-                self.passed += 1
+# Programs of rostest and pytest at a time: they sleep for 42 % of their time (measured on two processors).
+WORKERS = round(1.5 * (os.cpu_count() or 2))
 
 
 def packages() -> dict[str, Path]:
@@ -66,19 +48,47 @@ def run(title: str, command: list[str], **options) -> int:
     return code
 
 
-def run_ctest(kind: str, names: list[str]) -> None:
+def run_ctest(kind: str, names: list[str], workers: int) -> None:
     pattern = f"_ctest_({'|'.join(names)})_{kind}" if names else f"_ctest_.*_{kind}"
-    command = ["ctest", "-R", pattern, f"-j{os.cpu_count() or 2}", "--timeout", "600", "--output-on-failure"]
+    command = ["ctest", "-R", pattern, f"-j{workers}", "--timeout", "600", "--output-on-failure"]
     run(kind, command, cwd=BUILD)
 
 
-def run_pytest(title: str, paths: list[Path], long: bool) -> int:
-    if not paths:
-        return 0
-    command = [sys.executable, "-m", "pytest", "-q", "-rs", "--durations=8"]
-    command += [f"--junitxml={PYTEST_RESULTS / (title.replace(' ', '-') + '.xml')}"]
-    command += ["--timeout=900"] + (["--long"] if long else []) + [str(path) for path in paths]
-    return run(f"pytest {title}", command, cwd=TOP)
+# Files whose tests count lost milliseconds, or change what other tests use, say so in this line.
+ALONE = re.compile(r"^pytestmark = .*pytest\.mark\.alone", re.MULTILINE)
+
+
+def run_pytest_file(path: Path, long: bool) -> bool:
+    """Prints the output if a test failed, otherwise the number of tests.
+
+    @returns whether pytest could run the file
+    """
+    name = ".".join(path.relative_to(TOP).with_suffix("").parts)
+    command = [sys.executable, "-m", "pytest", "-q", "--timeout=900", str(path)]
+    command += [f"--junitxml={PYTEST_RESULTS / name}.xml"] + (["--long"] if long else [])
+    if "hypothesis" not in path.read_text(encoding="utf-8"):
+        command += ["-p", "no:hypothesispytest"]  # it takes seconds to import
+    result = subprocess.run(command, cwd=TOP, text=True, errors="replace", stdout=PIPE, stderr=STDOUT)
+    output = result.stdout.rstrip()
+    lines = output.splitlines() or ["pytest printed nothing"]
+    if result.returncode:
+        print(f"{output}\n-- {path.relative_to(TOP)}: status {result.returncode}", flush=True)
+    else:
+        print(f"{path.relative_to(TOP)}: {lines[-1]}", flush=True)
+    return result.returncode in (0, 1)
+
+
+def run_pytest(paths: list[Path], long: bool) -> bool:
+    """@returns whether pytest could run all files"""
+    print("\n== pytest", flush=True)
+    begin = time.monotonic()
+    alone = [path for path in paths if ALONE.search(path.read_text(encoding="utf-8"))]
+    together = [path for path in paths if path not in alone]
+    with ThreadPoolExecutor(WORKERS) as pool:
+        ran = list(pool.map(lambda path: run_pytest_file(path, long), together))
+    ran += [run_pytest_file(path, long) for path in alone]
+    print(f"== pytest: {time.monotonic() - begin:.0f} s", flush=True)
+    return all(ran)
 
 
 def main() -> int:
@@ -106,21 +116,16 @@ def main() -> int:
     style_failed = not arguments.packages and run("style", style)
     compiler_warnings = [sys.executable, str(TOP / "tests" / "compiler_warnings.py")]
     warned = not arguments.packages and run("compiler warnings", compiler_warnings)
-    pytest_broken = 0
+    files = []
     if selected or not arguments.packages:
-        run_ctest("gtest", selected)
-        run_ctest("rostest", selected)
-        tests = [
-            p
-            for n, folder in known.items()
-            if not selected or n in selected
-            for p in sorted(folder.glob("test/**/test_*.py"))
-        ]
-        pytest_broken |= run_pytest("packages", tests, arguments.long) > 1
-    if end_to_end:
-        pytest_broken |= (
-            run_pytest("end to end", sorted((TOP / "tests").glob("test_*.py")), arguments.long) > 1
-        )
+        run_ctest("gtest", selected, os.cpu_count() or 2)
+        run_ctest("rostest", selected, WORKERS)
+    if end_to_end:  # first, as they take longest
+        files += sorted((TOP / "tests").glob("test_*.py"))
+    for name, folder in known.items():
+        if name in selected or not arguments.packages:
+            files += sorted(folder.glob("test/**/test_*.py"))
+    pytest_broken = not run_pytest(files, arguments.long)
 
     tally = Tally()
     for path in sorted(RESULTS.glob("**/*.xml")):
@@ -138,8 +143,8 @@ def main() -> int:
     print()
     for name in tally.failed:
         print(f"FAILED {name}")
-    if tally.skipped:
-        print(f"{tally.skipped} skipped")
+    for line in tally.table_of_skips():
+        print(line)
     print(f"{tally.passed} passed, {len(tally.failed)} failed")
     return 1 if tally.failed or not tally.passed else 0
 

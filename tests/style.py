@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The style checks: our own rules, ruff, clang-format, shellcheck, codespell and clang-tidy.
+"""The style checks: our own rules, ruff, clang-format, shellcheck, codespell, clang-tidy, and noexcept
+functions that call what throws (nothrow.py).
 
 Called by `./franka test --style`, by continuous integration and by the hooks of pre-commit. Each finding is
 a line `file:line: what`. Exit status 1 if a check has findings or its tool is missing.
@@ -18,6 +19,8 @@ import time
 from collections.abc import Callable, Iterator, Set
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+
+import nothrow
 
 TOP = Path(__file__).resolve().parent.parent
 VENV = TOP / ".venv" / "bin"
@@ -41,6 +44,30 @@ INCLUDE_RULES = [
     ),
 ]
 MARKERS = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
+# A word between two lines of a comment or of a documentation text.
+GAP = r"(?:[ -]|\s*\n\s*(?:///?|#|\*)?\s*)"
+# Every spelling of a note on threads or real-time safety, and the three that are allowed (CONTRIBUTING.md).
+THREAD_NOTE = re.compile(
+    rf"\b(?:not{GAP})?(?:(?:real-?{GAP}?time|rt){GAP}safe|thread{GAP}safe)\b"
+    rf"|\bsafe{GAP}in{GAP}the{GAP}(?:1{GAP}kHz|control){GAP}loop\b"
+    rf"|\bnot{GAP}for{GAP}the{GAP}(?:1{GAP}kHz|control){GAP}loop\b"
+    rf"|[.;]{GAP}(?:any|one){GAP}thread[.,;]",
+    re.IGNORECASE,
+)
+FIXED_NOTE = re.compile(
+    r"(?:^|(?<=[.)/#] )|(?<=  )|(?<=\"\"\"))(?:Real-time safe|Not real-time safe|Thread-safe)\.(?=[\s\"])",
+    re.MULTILINE,
+)
+# Words that docs/glossary.md replaces, and their replacements.
+REPLACED_WORDS = [
+    (
+        re.compile(r"\bk(Most|Least|Longest|Shortest|Farthest|Fastest|Slowest|Strongest)([A-Z]\w*)?\b"),
+        "kMax or kMin",
+    ),
+    (re.compile(r"(?<!here )\b(is|are|was|were) no (?!longer|more|other)[a-z]+"), "'is not a ...'"),
+    (re.compile(r"\banew\b"), "'again'"),
+    (re.compile(r"\b(?i:whoever|whomever)\b"), "the caller, the client or the user"),
+]
 MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(work|home|root|Users)/\w+")
 
 
@@ -108,18 +135,40 @@ def include_findings(name: str, lines: list[str]) -> Iterator[str]:
                 yield f"{name}:{number}: {reason}: {line.strip()}"
 
 
+def note_findings(name: str, text: str) -> Iterator[str]:
+    """Notes on threads and real-time safety that a search for the fixed sentences does not find."""
+    fixed = [match.span() for match in FIXED_NOTE.finditer(text)]
+    for match in THREAD_NOTE.finditer(text):
+        if not any(begin <= match.start() and match.end() <= end for begin, end in fixed):
+            spelling = " ".join(re.sub(r"\n\s*(?:///?|#|\*)?", " ", match[0]).split())
+            line = text.count("\n", 0, match.start()) + 1
+            yield f"{name}:{line}: '{spelling}' is not one of the fixed notes (CONTRIBUTING.md, How we write)"
+
+
+def word_findings(name: str, text: str) -> Iterator[str]:
+    """Words that the glossary replaces."""
+    for words, replacement in REPLACED_WORDS:
+        for match in words.finditer(text):
+            line = text.count("\n", 0, match.start()) + 1
+            yield f"{name}:{line}: '{match[0]}': write {replacement} (docs/glossary.md)"
+
+
 def text_findings(path: Path) -> Iterator[str]:
     name = str(path.relative_to(TOP))
     try:
-        lines = path.read_text(encoding="utf-8").splitlines()
+        text = path.read_text(encoding="utf-8")
     except UnicodeDecodeError:
         return
+    lines = text.splitlines()
     if path.suffix in NEEDS_HEADER and lines and not any(HEADER in line for line in lines[:6]):
         yield f"{name}:1: the licence header is missing"
     if path.suffix in {".cpp", ".h"}:
         yield from include_findings(name, lines)
         if path.suffix == ".h" and "#pragma once" not in lines:
             yield f"{name}:1: #pragma once is missing"
+    if path.suffix in {".cpp", ".h", ".hpp", ".py"} and name not in {"tests/style.py", "tests/test_style.py"}:
+        yield from note_findings(name, text)
+        yield from word_findings(name, text)
     for number, line in enumerate(lines, 1):
         if path.suffix != ".md" and name != "tests/style.py" and MARKERS.search(line):
             yield f"{name}:{number}: a left-over marker: {line.strip()}"
@@ -207,29 +256,58 @@ def tidy(program: str, path: Path) -> str:
     return (result.stdout or result.stderr).replace(f"{TOP}/", "")
 
 
-def check_clang_tidy(files: list[Path], long: bool) -> bool:
-    program = debian_tool("clang-tidy-22")
+def units_to_check(name: str, files: list[Path], long: bool) -> dict[Path, dict]:
+    """The sources that a check by a compiler reads, and how the present build compiles them."""
     candidates = sources(files) if long else sources(changed(files))
     if not candidates:
-        return True
+        return {}
     if not COMPILE_COMMANDS.exists():
-        raise ToolMissing("clang-tidy needs compile_commands.json: run ./franka build, which makes it.")
+        raise ToolMissing(f"{name} needs compile_commands.json: run ./franka build, which makes it.")
     entries = json.loads(COMPILE_COMMANDS.read_text(encoding="utf-8"))
     # A package that is linked into the workspace is compiled under the link's name.
-    built = {path.resolve(): path for path in (Path(entry["directory"], entry["file"]) for entry in entries)}
+    built = {Path(entry["directory"], entry["file"]).resolve(): entry for entry in entries}
     compiled = built.keys() & set(files)
-    units = units_of(candidates, compiled)
     left_out = [path for path in candidates if path.suffix == ".cpp" and path not in compiled]
     if left_out:
         names = ", ".join(str(path.relative_to(TOP)) for path in left_out[:3])
-        print(f"clang-tidy: {len(left_out)} sources are not part of the present build ({names} ...)")
+        print(f"{name}: {len(left_out)} sources are not part of the present build ({names} ...)")
+    return {path: built[path] for path in units_of(candidates, compiled)}
+
+
+def print_findings(name: str, units: dict[Path, dict], find: Callable[[dict], list[str]]) -> bool:
+    """Prints what is found in each source. @returns whether that is nothing"""
     with ThreadPoolExecutor(int(os.environ.get("FRANKA_JOBS") or os.cpu_count() or 2)) as pool:
-        findings = [text for text in pool.map(lambda path: tidy(program, built[path]), units) if text]
+        found = list(pool.map(find, units.values()))
     # Each source that includes a header repeats its findings.
-    lines = dict.fromkeys(line for text in findings for line in text.splitlines())
+    lines = dict.fromkeys(line for part in found for line in part)
     print("\n".join(lines), end="\n" if lines else "")
-    print(f"clang-tidy: {len(units)} sources")
-    return not findings
+    print(f"{name}: {len(units)} sources")
+    return not lines
+
+
+def check_clang_tidy(files: list[Path], long: bool) -> bool:
+    program = debian_tool("clang-tidy-22")
+    units = units_to_check("clang-tidy", files, long)
+
+    def find(entry: dict) -> list[str]:
+        return tidy(program, Path(entry["directory"], entry["file"])).splitlines()
+
+    return not units or print_findings("clang-tidy", units, find)
+
+
+# ---- functions that must not throw -----------------------------------------------------------------------
+
+
+def is_program(path: Path) -> bool:
+    """Whether a source is part of what users run, not of tests and benchmarks."""
+    return not {"test", "tests", "bench"}.intersection(path.relative_to(TOP).parts)
+
+
+def check_nothrow(files: list[Path], long: bool) -> bool:
+    debian_tool(nothrow.COMPILER)
+    units = units_to_check("nothrow", [path for path in files if is_program(path)], long)
+    own = nothrow.own_namespaces(sources(files))
+    return not units or print_findings("nothrow", units, lambda entry: nothrow.findings(entry, own, TOP))
 
 
 CHECKS: dict[str, Callable[[list[Path], bool], bool]] = {
@@ -239,13 +317,16 @@ CHECKS: dict[str, Callable[[list[Path], bool], bool]] = {
     "shellcheck": check_shellcheck,
     "codespell": check_codespell,
     "clang-tidy": check_clang_tidy,
+    "nothrow": check_nothrow,
 }
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="./franka test --style")
     parser.add_argument("checks", nargs="*", metavar="CHECK", help=f"only these of {', '.join(CHECKS)}")
-    parser.add_argument("--long", action="store_true", help="clang-tidy on all sources, not only the changed")
+    parser.add_argument(
+        "--long", action="store_true", help="clang-tidy and nothrow on all sources, not only the changed"
+    )
     arguments = parser.parse_args()
     unknown = [name for name in arguments.checks if name not in CHECKS]
     if unknown:

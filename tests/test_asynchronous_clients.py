@@ -32,13 +32,13 @@ for number in range(rounds):
     sent, end, seen = 0, time.monotonic() + 40, None
     while time.monotonic() < end:
         if way == "stream" or sent == 0:
-            told = handler.set_joint_position_target(Handler.JointPositionTarget(goal))
+            accepted = handler.set_joint_position_target(Handler.JointPositionTarget(goal))
             sent += 1
         time.sleep(0.02)
         seen = handler.get_target_feedback()
         if seen.status.name != "kExecuting":
             break
-    print(json.dumps({"told": told.was_successful, "sent": sent, "status": seen.status.name,
+    print(json.dumps({"accepted": accepted.was_successful, "sent": sent, "status": seen.status.name,
                       "error": seen.error_message}), flush=True)
 handler.stop_control()
 state = robot.read_once()
@@ -67,7 +67,7 @@ def test_targets_are_reached_at_any_update_rate(sim, way):
     assert done.returncode == 0, done.stderr
     *ways, end = [json.loads(line) for line in done.stdout.splitlines()]
     for seen in ways:
-        assert seen["told"] and seen["status"] == "kTargetReached", seen
+        assert seen["accepted"] and seen["status"] == "kTargetReached", seen
         assert seen["sent"] == 1 if way == "once" else seen["sent"] > 3, seen
     assert len(ways) == 2
     assert end["mode"] == "Idle" and end["off"] < 1e-6, end  # single precision

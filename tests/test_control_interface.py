@@ -10,19 +10,9 @@ import subprocess
 import time
 
 import pytest
+from fci_motion import begin, drive, finish, hold
 from fci_session import go_first, go_with_all, simulated
-from fci_wire import (
-    COMMUNICATION,
-    IDLE,
-    JOINT_IMPEDANCE,
-    JOINT_POSITION,
-    LAYOUTS,
-    MOVE,
-    REFLEX,
-    Client,
-    command,
-    connected,
-)
+from fci_wire import COMMUNICATION, IDLE, LAYOUTS, MOVE, REFLEX, Client, connected
 from genuine_clients import client_python
 from pyfranka.remote import LineRefused
 
@@ -60,42 +50,10 @@ def client(sim):
     sim.remote.load(0)
 
 
-def begin(client):
-    """@returns the first state of a motion, and where it starts."""
-    state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
-    return state, state.joints("q_d")
-
-
-def drive(client, state, positions, cycles, finish=False):
-    """Commands `positions(k)` for a number of cycles, while the robot moves. @returns the states."""
-    seen = []
-    for k in range(cycles):
-        client.send(
-            command(client.version, state.message_id, positions(k), finished=finish and k == cycles - 1)
-        )
-        state = client.state()
-        seen.append(state)
-        if state.mode != MOVE:
-            break
-    return seen
-
-
-def hold(first):
-    return lambda k: first
-
-
 def force(state):
     """The force of O_F_ext_hat_K [N]."""
     number, offset = ("d", 1728) if state.layout is LAYOUTS[5] else ("f", 868)
     return struct.unpack_from("<3" + number, state.data, offset)
-
-
-def finish(client, state, first):
-    """Ends a motion at its position; fails unless it succeeds."""
-    while state.mode == MOVE:  # the finishing command may be late or lost
-        state = drive(client, state, hold(first), 1, finish=True)[-1]
-    assert state.mode == IDLE, state.reasons
-    assert client.reply()[1][0] == 0
 
 
 def set_load(client):

@@ -2,20 +2,49 @@
 # SPDX-License-Identifier: Apache-2.0
 """Each service, each topic and each report of franka_control_node."""
 
-import json
+import csv
+import time
 import xmlrpc.client
 from pathlib import Path
+from statistics import median
 
+import numpy as np
 import pytest
+import rigid_arm
+import rospy
+import tf2_ros
+from control_nodes import SUCCEEDED, ControlNode
+from diagnosis import ERROR, OK, Diagnosis
 from fci_session import go_first, simulated
-from franka_sim_mujoco.session import Session
+from franka_msgs.msg import FrankaState
+from geometry_msgs.msg import WrenchStamped
+from pyfranka.plot import read_log
+from ros_client import call, latest, launched
+from rosgraph_msgs.msg import Log
+from scipy.spatial.transform import Rotation
+from sensor_msgs.msg import JointState
+from setters import SETTERS
+from std_msgs.msg import String
+from tf2_msgs.msg import TFMessage
+from transform_sweep import check
+from waiting import holds, wait_for
 
-HERE = Path(__file__).resolve().parent
-
-SUCCEEDED, IDLE, MOVE = 3, 1, 2
-OK, ERROR = 0, 2  # levels of diagnostics
 CONTROLLER = "position_joint_trajectory_controller"
 AT_ONCE = 5.0  # [s] for an answer, on a busy machine
+LONG = 120.0  # [s] for many messages, on a busy machine
+PUSH = [0.0, 0.0, -8.0]  # at the seventh link [N]
+BRIEFLY = 50  # [ms]
+NEWEST = {"panda": 5, "fr3": 10}  # versions of the protocol
+REST = 1e-6  # [rad/s] of an arm at rest
+STILL = 1e-3  # [rad/s] of an arm at rest under a push
+SETTLED, SLOWLY_SETTLED = 0.6, 8.0  # [s] of the robot, from the first state that shows a push
+WIDE = {"torque": [60.0] * 7, "force": [60.0] * 6}  # thresholds that are never reached here [Nm], [N, Nm]
+SOFT_JOINTS = [600.0] * 7  # [Nm/rad]
+SOFT_HAND = [800.0, 800.0, 800.0, 60.0, 60.0, 60.0]  # [N/m], [Nm/rad]
+STIFF_JOINTS = [3000.0] * 7  # [Nm/rad]
+FRAMES = {"set_EE_frame": "NE_T_EE", "set_K_frame": "EE_T_K"}  # services and their arguments
+
+pytestmark = pytest.mark.own_process("robot")
 
 
 @pytest.fixture(scope="module", params=["panda", "fr3"])
@@ -29,49 +58,346 @@ def all_go_first(pid: int) -> None:
         go_first(int(thread.name))
 
 
-def pid_of(session, node: str) -> int:
-    master = xmlrpc.client.ServerProxy(session.environment["ROS_MASTER_URI"])
-    return xmlrpc.client.ServerProxy(master.lookupNode("/test", node)[2]).getPid("/test")[2]
+class Node(ControlNode):
+    """The node, its robot, and all that it publishes."""
+
+    def __init__(self, robot, address):
+        super().__init__({robot: address})
+        (self.arm,) = self.arms
+        self._chosen = ""  # the internal controller of the last switch
+        rospy.Subscriber("/rosout", Log, self._hear)
+        self.topics, self.diagnosis = Topics(robot), Diagnosis("franka_control")
+        self.controllers.load(CONTROLLER)
+        server = xmlrpc.client.ServerProxy(rospy.get_master().lookupNode("/franka_control")[2])
+        all_go_first(server.getPid("/test")[2])
+        self.frames = {"NE_T_EE": self.arm.state.NE_T_EE, "EE_T_K": self.arm.state.EE_T_K}
+
+    def _hear(self, line):
+        if "prepared switching" in line.msg:
+            self._chosen = line.msg.rpartition("internal_controller=")[2]
+
+    def wait_for_rest(self):
+        wait_for(lambda: self.arm.is_in("idle") and max(map(abs, self.arm.state.dq)) < REST, "Rest", LONG)
+
+    def set(self, name, **values):
+        """(success, error)"""
+        answer = call(f"/franka_control/{name}", SETTERS[name], **values)
+        return answer.success, answer.error
+
+    def sets(self, name, **values):
+        assert self.set(name, **values) == (True, "")
+
+    def start(self, internal_controller="joint_impedance"):
+        """Starts the controller. The node reads the parameter in the background, so that a switch may come
+        too early for it."""
+        rospy.set_param("/franka_control/internal_controller", internal_controller)
+
+        def chosen():
+            self._chosen = ""
+            self.controllers.start(CONTROLLER)
+            wait_for(lambda: self.arm.is_in("moving"), "The motion")
+            wait_for(lambda: self._chosen, "A report of the switch")
+            return self._chosen == internal_controller or self.stop()
+
+        wait_for(chosen, internal_controller)
+
+    def stop(self):
+        """Stops the controller, and waits for the states that show it: the next Move is another one."""
+        self.controllers.stop(CONTROLLER)
+        wait_for(lambda: not self.arm.is_in("moving"), "The end of the motion")
+        wait_for(lambda: abs(self.arm.state.O_F_ext_hat_K[2]) < 0.1 * abs(PUSH[2]), "The end of the push")
+
+    def push(self, settling=SETTLED):
+        """Pushes the moving arm until it rests under the push; returns its state before, and one at rest.
+
+        Topics drop messages on a busy machine: if too many are missing, the arm is pushed again, for twice as
+        long each time.
+        """
+        before = self.arm.state
+        for seconds in (10, 20, 40, 80, 160):
+            self.topics.forget()
+            self.arm.operator.push(f"{self.arm.name}_link7", PUSH, 1000 * seconds)
+            felt = self.topics.states_of_push(seconds)
+            # A state of an earlier moment may arrive late, so the last one must show an arm at rest.
+            if felt and felt[-1].time - felt[0].time > settling and max(map(abs, felt[-1].dq)) < STILL:
+                return before, felt[-1]
+        raise AssertionError(f"{len(felt)} states were published under a push of {seconds} s.")
 
 
 @pytest.fixture(scope="module")
-def report(robot, tmp_path_factory):
-    log = tmp_path_factory.mktemp("control") / "launch.log"
+def node(robot, tmp_path_factory):
     launch = ["franka_control", "franka_control.launch", f"robot:={robot}"]
     launch += ["load_gripper:=false", "realtime_config:=ignore"]
+    log = tmp_path_factory.mktemp("control") / "launch.log"
     # Patient, not in lock-step: its time is at most as fast as the clock, so that topics keep up with it.
     with (
         simulated(robot, "patient") as simulation,
-        Session(*launch, f"robot_ip:={simulation.address}", log=log) as session,
+        launched(*launch, f"robot_ip:={simulation.address}", log=log),
     ):
         all_go_first(simulation.server.process.pid)
-        session.wait_for_master()
-        load = ["rosrun", "controller_manager", "controller_manager", "load", CONTROLLER]
-        loaded = session.run(*load, check=False, timeout=60)
-        assert "Loaded" in loaded.stdout, f"{loaded}\n{session.tail(60)}"
-        all_go_first(pid_of(session, "/franka_control"))
-        client = ["/usr/bin/python3", str(HERE / "control_node_client.py"), robot, simulation.address]
-        result = session.run(*client, check=False, timeout=400)
-        print(result.stdout, result.stderr, session.tail(60), sep="\n")
-        assert result.returncode == 0, result.stderr
-        session.check()
-        return json.loads(result.stdout.strip().splitlines()[-1])
+        yield Node(robot, simulation.address)
 
 
-def test_setters_take_effect(report):
-    idle = report["idle"]
-    for name, (success, error, seen) in idle["good"].items():
-        assert success and not error and seen, (name, error)
-    assert idle["m_total"] == pytest.approx(0.0, abs=1e-6)
+@pytest.fixture
+def resting(node):
+    """The arm rests without an error, with the node's first settings, whatever happened before."""
+    if CONTROLLER in node.controllers.running():
+        node.stop()
+    assert node.recover() == SUCCEEDED
+    node.wait_for_rest()
+    node.sets("set_load", mass=0.0, F_x_center_load=[0.0] * 3, load_inertia=[0.0] * 9)
+    node.sets("set_EE_frame", NE_T_EE=node.frames["NE_T_EE"])
+    node.sets("set_K_frame", EE_T_K=node.frames["EE_T_K"])
+    node.sets("set_joint_impedance", joint_stiffness=STIFF_JOINTS)
+    node.sets("set_full_collision_behavior", **thresholds())
+    wait_for(lambda: apart(node.arm.state.EE_T_K, node.frames["EE_T_K"]) < 1e-6, "The first frames")
+    wait_for(lambda: node.arm.state.m_load == 0.0, "The end of the load")
+    return node
 
 
-def test_impossible_values_are_refused(report):
-    assert len(report["idle"]["bad"]) == 22
-    for name, what, success, error, seconds in report["idle"]["bad"]:
-        assert not success, (name, what)
-        assert "invalid argument!" in error and error.endswith(("!", ".")), (name, what, error)
-        assert seconds < AT_ONCE
-    assert report["idle"]["still"] < 1e-6
+@pytest.fixture
+def configured(resting):
+    """The same with frames and a load."""
+    for name, (values, _) in good_values().items():
+        resting.sets(name, **values)
+    resting.arm.operator.push(f"{resting.arm.name}_link7", (0, 0, 0), 10)  # the world runs: states show it
+    hand = good_values()["set_EE_frame"][1]["NE_T_EE"]
+    wait_for(lambda: apart(resting.arm.state.NE_T_EE, hand) < 1e-6, "The new frame")
+    wait_for(lambda: shown_pose_is_apart(resting.arm.state) < 1e-5, "The pose of the new frame")
+    resting.wait_for_rest()
+    return resting
+
+
+@pytest.fixture
+def moving(resting):
+    resting.start()
+    return resting
+
+
+def transform(position=(0, 0, 0), about_x=0.0, about_z=0.0):
+    """A translation, then a rotation about x, then one about z; 4x4."""
+    cx, sx, cz, sz = np.cos(about_x), np.sin(about_x), np.cos(about_z), np.sin(about_z)
+    matrix = np.eye(4)
+    matrix[:3, :3] = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]]) @ [[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]]
+    matrix[:3, 3] = position
+    return matrix
+
+
+def torques_of_push(q):
+    """J^T F at the origin of the seventh link [Nm]."""
+    links = rigid_arm.poses(q)
+    return rigid_arm.jacobian(links, links[7, :3, 3])[:3].T @ PUSH
+
+
+def matrix(columns):
+    return np.array(columns).reshape(4, 4).T
+
+
+def columns(pose):
+    return pose.T.flatten().tolist()
+
+
+def matrix_of(message):
+    """A geometry_msgs/Transform."""
+    at, turn = message.translation, message.rotation
+    pose = np.eye(4)
+    pose[:3, :3] = Rotation.from_quat([turn.x, turn.y, turn.z, turn.w]).as_matrix()
+    pose[:3, 3] = [at.x, at.y, at.z]
+    return pose
+
+
+def apart(a, b):
+    """The largest difference of two arrays."""
+    return float(np.abs(np.asarray(a, float) - np.asarray(b, float)).max())
+
+
+def shown_pose_is_apart(state):
+    """Difference between a state's O_T_EE and the pose from its joints and frames."""
+    pose = rigid_arm.poses(state.q)[rigid_arm.FLANGE] @ matrix(state.F_T_NE) @ matrix(state.NE_T_EE)
+    return apart(matrix(state.O_T_EE), pose)
+
+
+def thresholds(**changed):
+    """Arguments of set_full_collision_behavior: wide, except those named as in lower_force=5."""
+    arguments = {}
+    for bound in ("lower", "upper"):
+        for what, wide in WIDE.items():
+            values = [changed[f"{bound}_{what}"]] * len(wide) if f"{bound}_{what}" in changed else wide
+            for phase in ("acceleration", "nominal"):
+                arguments[f"{bound}_{what}_thresholds_{phase}"] = values
+    return arguments
+
+
+def nominal(**changed):
+    """Those of set_force_torque_collision_behavior."""
+    return {name: values for name, values in thresholds(**changed).items() if name.endswith("nominal")}
+
+
+def good_values():
+    """Request of each setter, and the state's field that shows it (None: only the motion shows it)."""
+    hand = transform((0.01, -0.02, 0.15), 0.0, 0.5)
+    stiffness = transform((0.0, 0.0, 0.05), 0.3)
+    inertia = np.diag([1e-3, 2e-3, 2.5e-3]).flatten().tolist()
+    return {
+        "set_EE_frame": ({"NE_T_EE": columns(hand)}, {"NE_T_EE": columns(hand)}),
+        "set_K_frame": ({"EE_T_K": columns(stiffness)}, {"EE_T_K": columns(stiffness)}),
+        "set_load": (
+            {"mass": 0.4, "F_x_center_load": [0.0, 0.01, 0.06], "load_inertia": inertia},
+            {"m_load": 0.4, "F_x_Cload": [0.0, 0.01, 0.06], "I_load": inertia},
+        ),
+    }
+
+
+def bad_values():
+    """Values that every robot refuses."""
+    nan = float("nan")
+    mirrored = np.diag([1.0, 1.0, -1.0, 1.0])
+    stretched = np.diag([1.1, 1.0, 1.0, 1.0])
+    no_bottom = transform()
+    no_bottom[3, 0] = 0.1
+    load = {"mass": 0.4, "F_x_center_load": [0.0] * 3, "load_inertia": [0.0] * 9}
+    poses = {"mirrored": mirrored, "stretched": stretched, "no bottom row": no_bottom, "NaN": np.eye(4) * nan}
+    return [
+        *((s, what, {f: columns(pose)}) for s, f in FRAMES.items() for what, pose in poses.items()),
+        ("set_joint_impedance", "NaN", {"joint_stiffness": [nan] + [1000.0] * 6}),
+        ("set_joint_impedance", "negative", {"joint_stiffness": [-1.0] + [1000.0] * 6}),
+        ("set_joint_impedance", "too stiff", {"joint_stiffness": [1e5] * 7}),
+        ("set_cartesian_impedance", "NaN", {"cartesian_stiffness": [nan] + [100.0] * 5}),
+        ("set_cartesian_impedance", "too soft", {"cartesian_stiffness": [9.0] * 3 + [100.0] * 3}),
+        ("set_cartesian_impedance", "too stiff", {"cartesian_stiffness": [3001.0] * 3 + [100.0] * 3}),
+        ("set_force_torque_collision_behavior", "NaN", nominal(lower_force=nan)),
+        ("set_force_torque_collision_behavior", "negative", nominal(upper_torque=-1.0)),
+        ("set_full_collision_behavior", "NaN", thresholds(upper_force=nan)),
+        ("set_full_collision_behavior", "negative", thresholds(lower_torque=-1.0)),
+        ("set_load", "NaN", dict(load, mass=nan)),
+        ("set_load", "negative", dict(load, mass=-0.1)),
+        ("set_load", "infinitely far", dict(load, F_x_center_load=[float("inf"), 0.0, 0.0])),
+        ("set_load", "no inertia", dict(load, load_inertia=[-1e-3, 0, 0, 0, 1e-3, 0, 0, 0, 1e-3])),
+    ]
+
+
+def periods_of(messages):
+    """Times between consecutive messages, given by their stamps [s]; a busy machine drops some between."""
+    headers = [messages[stamp].header for stamp in sorted(messages)]
+    return [(b.stamp - a.stamp).to_sec() for a, b in zip(headers, headers[1:]) if b.seq == a.seq + 1]
+
+
+class Topics:
+    """All messages of the state controller, by their number."""
+
+    NAMES = {
+        "franka_states": FrankaState,
+        "F_ext": WrenchStamped,
+        "joint_states": JointState,
+        "joint_states_desired": JointState,
+    }
+
+    def __init__(self, robot):
+        self.kept, self._robot = {}, robot
+        for name, kind in self.NAMES.items():
+            rospy.Subscriber(f"/franka_state_controller/{name}", kind, self._keep, callback_args=name)
+        rospy.Subscriber("/tf", TFMessage, self._keep_frames)
+        self.forget()
+
+    def forget(self):
+        self.kept = {name: {} for name in [*self.NAMES, "tf"]}
+
+    def _keep(self, message, name):
+        self.kept[name][message.header.stamp.to_nsec()] = message
+
+    def _keep_frames(self, message):
+        if message.transforms[0].child_frame_id == f"{self._robot}_NE":
+            self.kept["tf"][message.transforms[0].header.stamp.to_nsec()] = message
+
+    def compare(self, count):
+        """Largest differences between topics of one cycle, over a number of cycles."""
+        self.forget()
+
+        def enough():
+            nonlocal kept, complete, periods
+            kept = {name: dict(messages) for name, messages in self.kept.items()}
+            complete = sorted(set.intersection(*(set(messages) for messages in kept.values())))
+            periods = periods_of(kept["franka_states"])
+            return len(complete) >= count and periods
+
+        kept, complete, periods = {}, [], []
+        holds(enough, LONG)
+        differences = dict.fromkeys(kept, 0.0)
+        for stamp in complete:
+            cycle = {name: messages[stamp] for name, messages in kept.items()}
+            for name, difference in self._differences(cycle).items():
+                differences[name] = max(differences[name], difference)
+        wrench, joints, frames = (kept[name][complete[0]] for name in ("F_ext", "joint_states", "tf"))
+        return {
+            "cycles": len(complete),
+            "differences": differences,
+            "rate": 1.0 / median(periods),  # the machine delays some messages
+            "wrench_frame": wrench.header.frame_id,
+            "names": joints.name,
+            "frames": [(t.header.frame_id, t.child_frame_id) for t in frames.transforms],
+        }
+
+    @staticmethod
+    def _differences(cycle):
+        state, wrench = cycle["franka_states"], cycle["F_ext"].wrench
+        measured, desired = cycle["joint_states"], cycle["joint_states_desired"]
+        force = [*(getattr(wrench.force, c) for c in "xyz"), *(getattr(wrench.torque, c) for c in "xyz")]
+        frames = [matrix_of(t.transform) for t in cycle["tf"].transforms]
+        return {
+            "F_ext": apart(force, state.K_F_ext_hat_K),
+            "joint_states": apart(
+                measured.position + measured.velocity + measured.effort, state.q + state.dq + state.tau_J
+            ),
+            "joint_states_desired": apart(
+                desired.position + desired.velocity + desired.effort, state.q_d + state.dq_d + state.tau_J_d
+            ),
+            "tf": apart(frames, [matrix(m) for m in (state.F_T_NE, state.NE_T_EE, state.EE_T_K)]),
+            "franka_states": shown_pose_is_apart(state),
+        }
+
+    def states_of_push(self, seconds):
+        """States during a push of that duration, collected until published states are past its end."""
+        deadline = time.monotonic() + LONG  # the robot waits for each answer
+        states, felt = [], []
+        while not states or states[-1].time < (felt[-1].time + 0.3 if felt else states[0].time + 2 * seconds):
+            assert time.monotonic() < deadline, "The robot's time hardly passes: the push is not over."
+            time.sleep(0.01)
+            states = [s for _, s in sorted(self.kept["franka_states"].copy().items())]
+            felt = [s for s in states if abs(s.O_F_ext_hat_K[2]) > 0.8 * abs(PUSH[2])]
+        return felt
+
+
+def fastest(call, *arguments, **values):
+    """The answer of three refused calls that took the least time: a machine may stall in one of them."""
+    times = []
+    for _ in range(3):
+        begin = time.monotonic()
+        answer = call(*arguments, **values)
+        times.append(time.monotonic() - begin)
+    assert min(times) < AT_ONCE, arguments
+    return answer
+
+
+def test_setters_take_effect(resting):
+    for name, (values, effect) in good_values().items():
+        resting.sets(name, **values)
+
+        def seen(effect=effect):
+            return all(apart(getattr(resting.arm.state, field), v) < 1e-6 for field, v in effect.items())
+
+        wait_for(seen, f"The effect of {name}")
+    assert resting.arm.state.m_total == pytest.approx(resting.arm.state.m_ee + 0.4, abs=1e-6)
+
+
+@pytest.mark.parametrize("bad", bad_values(), ids=lambda bad: " ".join(bad[:2]))
+def test_impossible_values_are_refused(node, bad):
+    name, _, values = bad
+    node.wait_for_rest()
+    before = node.arm.state.q
+    success, error = fastest(node.set, name, **values)
+    assert not success
+    assert "invalid argument!" in error and error.endswith(("!", ".")), error
+    assert apart(node.arm.state.q, before) < 1e-6
 
 
 def check_topics(robot, topics):
@@ -84,102 +410,186 @@ def check_topics(robot, topics):
     assert topics["wrench_frame"] == f"{robot}_K"
     assert topics["names"] == [f"{robot}_joint{i}" for i in range(1, 8)]
     chain = [f"{robot}_{name}" for name in ("link8", "NE", "EE", "K")]
-    assert topics["frames"] == [list(pair) for pair in zip(chain, chain[1:])]
+    assert topics["frames"] == list(zip(chain, chain[1:]))
 
 
-def test_topics_of_a_resting_robot_agree(robot, report):
-    check_topics(robot, report["idle"]["topics"])
-    assert report["idle"]["topics"]["rate"] == pytest.approx(30.0, rel=0.05)
+def test_topics_of_a_resting_robot_agree(robot, configured):
+    topics = configured.topics.compare(20)
+    check_topics(robot, topics)
+    assert topics["rate"] == pytest.approx(30.0, rel=0.05)
 
 
-def test_topics_of_a_moving_robot_agree(robot, report):
-    check_topics(robot, report["soft_joints"]["topics"])
+def test_topics_of_a_moving_robot_agree(robot, moving):
+    check_topics(robot, moving.topics.compare(20))
 
 
-def test_published_states_match_the_robots_states(report):
-    assert report["idle"]["second_source"] < 1e-5  # the robot's own report, besides its client's
+def test_published_states_match_the_robots_states(configured):
+    arm = configured.arm
+    # The robot's own report, besides its client's: they agree as soon as the last of the motion has ended.
+    wait_for(lambda: apart(arm.operator.state().q, arm.state.q) < 1e-5, "The same joints in both reports")
 
 
-def test_transforms_connect_the_base_with_the_end_effector(report):
-    assert report["idle"]["tree"] < 1e-5
+def test_transforms_connect_the_base_with_the_end_effector(robot, configured):
+    """The chain of /tf against the robot's O_T_EE."""
+    buffer = tf2_ros.Buffer()
+    listener = tf2_ros.TransformListener(buffer)
+
+    def match():
+        if not buffer.can_transform(f"{robot}_link0", f"{robot}_EE", rospy.Time()):
+            return False
+        found = buffer.lookup_transform(f"{robot}_link0", f"{robot}_EE", rospy.Time()).transform
+        return apart(matrix_of(found), matrix(configured.arm.state.O_T_EE)) < 1e-5
+
+    wait_for(match, "A transform that matches")
+    listener.unregister()
 
 
-def test_joint_impedance_takes_effect(report):
-    soft = report["soft_joints"]
-    assert soft["set"] == [True, True] and soft["started"]
-    assert soft["spring"] < 0.02  # K (q - q_d) against J^T F
-    assert soft["external"] < 0.02  # the robot's estimate
+def test_joint_impedance_and_thresholds_of_forces_take_effect(resting):
+    resting.sets("set_joint_impedance", joint_stiffness=SOFT_JOINTS)
+    resting.sets("set_force_torque_collision_behavior", **nominal(lower_force=5.0))
+    resting.start()
+    before, last = resting.push()
+    expected = torques_of_push(np.array(last.q))
+    spring = np.array(SOFT_JOINTS) * (np.array(last.q) - np.array(last.q_d))
+    assert apart(spring, expected) / np.abs(expected).max() < 0.02  # K (q - q_d) against J^T F
+    # The robot's estimate.
+    assert apart(last.tau_ext_hat_filtered, -expected) / np.abs(expected).max() < 0.02
+    assert not any(before.cartesian_contact)
+    assert any(last.cartesian_contact) and not any(last.joint_contact)
+    assert last.robot_mode == FrankaState.ROBOT_MODE_MOVE
 
 
-def test_thresholds_of_forces_take_effect(report):
-    soft = report["soft_joints"]
-    assert soft["contacts"] == [True, False, MOVE]
-    assert not soft["contact_before"]
-
-
-def test_cartesian_impedance_takes_effect(report):
-    soft = report["soft_hand"]
-    assert soft["set"] == [True, True] and soft["started"] and soft["stopped"]
-    x, y, z = soft["gives"]  # the hand's displacement over F / K
+def test_cartesian_impedance_and_thresholds_of_torques_take_effect(resting):
+    resting.sets("set_cartesian_impedance", cartesian_stiffness=SOFT_HAND)
+    resting.sets("set_full_collision_behavior", **thresholds(lower_torque=2.0))
+    resting.start("cartesian_impedance")
+    before, last = resting.push(SLOWLY_SETTLED)  # the null space comes to rest slowly
+    moved = np.array(last.O_T_EE[12:15]) - np.array(before.O_T_EE_d[12:15])
+    x, y, z = moved / (PUSH[2] / SOFT_HAND[2])  # the hand's displacement over F / K
     assert z == pytest.approx(1.0, abs=0.01)
     assert abs(x) < 0.01 and abs(y) < 0.01
+    assert not any(last.cartesian_contact) and any(last.joint_contact)
 
 
-def test_all_thresholds_take_effect(report):
-    assert report["soft_hand"]["contacts"] == [False, True]
+@pytest.mark.parametrize("service", FRAMES)
+def test_frames_with_rounding_errors_are_taken_as_the_robot_takes_them(resting, service):
+    frame = transform((0.01, -0.02, 0.15), 0.0, 0.5)
+    check(
+        frame,
+        lambda perturbed: resting.set(service, **{FRAMES[service]: perturbed.column_major})[1],
+        because="invalid argument",
+    )
 
 
-def test_a_moving_robot_refuses_each_setter_at_once(report):
-    refused = report["soft_joints"]["refused"]
-    assert len(refused) == 9
+def test_lower_thresholds_may_lie_above_the_upper_ones(resting):
+    resting.sets("set_full_collision_behavior", **thresholds(lower_force=70.0))
+    resting.sets("set_force_torque_collision_behavior", **nominal(lower_torque=70.0))
+
+
+def test_a_moving_robot_refuses_each_setter_at_once(moving):
+    refused = {"set_joint_impedance": {"joint_stiffness": STIFF_JOINTS}}
+    refused["set_cartesian_impedance"] = {"cartesian_stiffness": SOFT_HAND}
+    refused["set_force_torque_collision_behavior"] = nominal()
+    refused["set_full_collision_behavior"] = thresholds()
+    refused.update({name: values for name, (values, _) in good_values().items()})
+    assert refused.keys() == SETTERS.keys()
+    for name, values in refused.items():
+        success, error = fastest(moving.set, name, **values)
+        assert not success and "Stop that controller" in error, name
     sentences = {
         "connect": "Already connected to robot. Cannot connect twice.",
         "disconnect": "Controller is active. Cannot disconnect while a controller is running.",
     }
-    for name, (success, error, seconds) in refused.items():
-        assert not success, name
-        assert sentences.get(name, "Stop that controller") in error
-        assert seconds < AT_ONCE, name
-    assert report["soft_joints"]["goes_on"] == MOVE and report["soft_joints"]["stopped"]
+    for name, sentence in sentences.items():
+        success, error = fastest(moving.trigger, name)
+        assert not success and sentence in error, name
+    assert moving.arm.is_in("moving")
+    moving.stop()
 
 
-def test_a_reflex_is_published_and_logged(report):
-    reflex = report["reflex"]
-    assert reflex["started"] and reflex["reflex"] and reflex["flagged"] and reflex["has_error"]
-    assert "cartesian_reflex" in reflex["abort"].splitlines()[0]
-    log = reflex["log"]
-    assert log["rows"] == log["announced"] > 1
-    assert log["rising"] and log["before_the_state"]
-    assert log["apart"] < 0.01  # the last row is the arm's position at the start of braking [rad]
-    assert log["echo"] < 1e-3
-    assert log["columns"] == 2 + 6 * 7 + 7 + 7 + 16 + 6 + 7
-    assert reflex["recovered"] == [SUCCEEDED, ""] and reflex["error_gone"]
-
-
-def test_diagnostics_report_the_state(robot, report):
-    for phase, mode in (("idle", "Idle"), ("soft_joints", "Move")):
-        level, hardware, values = report[phase]["diagnosis"]
-        assert (level, hardware, values["Mode"]) == (OK, robot, mode)
-    _, _, values = report["soft_joints"]["response"]
-    longest = float(values["From a state to its command, longest [ms]"])
-    assert 0.0 < float(values["From a state to its command, mean [ms]"]) <= longest
-    assert float(values["Latest state behind the promptest [ms]"]) > 0.0
-    level, _, values = report["reflex"]["diagnosis"]
+def test_a_reflex_is_published_and_logged(robot, resting):
+    """A push above a threshold, and the node's reports about it."""
+    arm = resting.arm
+    resting.sets("set_full_collision_behavior", **thresholds(upper_force=4.0))
+    resting.start()
+    arm.operator.push(f"{robot}_link7", PUSH, BRIEFLY)
+    wait_for(lambda: arm.is_in("in reflex") and arm.has_error, "The reflex")
+    wait_for(lambda: arm.state.current_errors.cartesian_reflex, "The flag of the reflex")
+    # A diagnostics message at the time of the reflex may still hold the last state of the motion.
+    level, _, values = resting.diagnosis.shows(
+        "Robot", "In error; call the action error_recovery", Mode="Reflex"
+    )
     assert level == ERROR and values["Mode"] == "Reflex"
     assert "cartesian_reflex" in values["Current errors"]
-    assert report["connection"]["diagnosis"][0] == ERROR
-    assert report["connection"]["diagnosis_again"][0] == OK
-    level, _, values = report["idle"]["loop"]
+    # Latched: late subscribers get it too.
+    abort = latest("/franka_control/abort", String).data
+    assert "cartesian_reflex" in abort.splitlines()[0]
+    check_log(abort, arm.state, NEWEST[robot])
+    assert resting.recover() == SUCCEEDED
+    wait_for(lambda: not arm.has_error, "The end of the error")
+
+
+def check_log(abort, state, version):
+    """Content of the files that the text names: the log, and the reason beside it."""
+    words, path = abort.splitlines()[-1].split(": ", 1)
+    with open(path, encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    times = [int(row["time"]) for row in rows]
+    assert len(rows) == int(words.split()[2]) > 1
+    assert all(b > a for a, b in zip(times, times[1:]))
+    assert 0 <= 1000 * state.time - times[-1]  # all is before the state
+    # The last row is the arm's position at the start of braking [rad].
+    assert apart([float(rows[-1][f"state.q[{i}]"]) for i in range(7)], state.q) < 0.01
+    # The last rows may show the braking, the first ones no command yet.
+    echoes = [
+        apart(*([float(row[f"{source}.q_d[{i}]"]) for i in range(7)] for source in ("cmd", "state")))
+        for row in rows[-5:]
+    ]
+    assert min(echoes) < 1e-3
+    assert len(rows[0]) == 2 + 6 * 7 + 7 + 7 + 16 + 6 + 7
+    # franka_plot shows the reason.
+    reason = Path(path).with_suffix(".txt").read_text(encoding="utf-8")
+    assert reason.splitlines()[0] == abort.splitlines()[0]
+    recording, logged = read_log(Path(path))
+    assert len(recording) == len(rows) and recording.version == version
+    assert "cartesian_reflex" in logged.errors
+
+
+def test_diagnostics_report_the_state(robot, resting):
+    level, hardware, values = resting.diagnosis.shows("Robot", "Ready", Mode="Idle")
+    assert (level, hardware, values["Mode"]) == (OK, robot, "Idle")
+    level, _, values = resting.diagnosis.shows("Control loop", "The controllers keep time")
     assert level == OK
     assert int(values["Cycles since the last report"]) > 0
     longest = float(values["Longest time of the controllers [ms]"])
     assert 0.0 < float(values["Mean time of the controllers [ms]"]) <= longest <= 1.0
+    resting.start()
+    level, hardware, values = resting.diagnosis.shows("Robot", "Ready", Mode="Move")
+    assert (level, hardware, values["Mode"]) == (OK, robot, "Move")
+    _, _, values = resting.diagnosis.status_when(
+        "Robot", lambda _, v: int(v["Commands since the last report"]) > 0
+    )
+    longest = float(values["From a state to its command, longest [ms]"])
+    assert 0.0 < float(values["From a state to its command, mean [ms]"]) <= longest
+    assert float(values["Latest state behind the promptest [ms]"]) > 0.0
 
 
-def test_robot_services_exist_only_while_connected(report):
-    connection = report["connection"]
-    assert connection["offered"] == connection["offered_again"] == 8
-    assert connection["disconnect"][:2] == [True, ""]
-    assert connection["withdrawn"] == []
-    assert connection["disconnect_again"][:2] == [True, ""]
-    assert connection["connect"][:2] == [True, ""] and connection["set"]
+def offered():
+    """Names of the node's own services and of its action's goal topic."""
+    _, _, (publishers, subscribers, services) = rospy.get_master().getSystemState()
+    names = [name for name, _ in services + subscribers if name.startswith("/franka_control/")]
+    return {*SETTERS, "error_recovery/goal"} & {name.split("/", 2)[2] for name in names}
+
+
+def test_robot_services_exist_only_while_connected(resting):
+    assert len(offered()) == 8
+    assert resting.trigger("disconnect") == (True, "")
+    try:
+        assert offered() == set()
+        assert resting.diagnosis.shows("Robot", "Not connected to the robot")[0] == ERROR
+        assert resting.trigger("disconnect") == (True, "")
+    finally:
+        assert resting.trigger("connect") == (True, "")
+    assert len(offered()) == 8
+    assert resting.diagnosis.shows("Robot", "Ready")[0] == OK
+    resting.sets("set_joint_impedance", joint_stiffness=STIFF_JOINTS)

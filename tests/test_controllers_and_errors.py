@@ -6,14 +6,11 @@ A controller that throws, in starting() or in update(), ends none of them; and w
 restart_controllers_after_recovery false no arm moves by itself after a recovery.
 """
 
-import json
-from pathlib import Path
-
 import pytest
-from franka_sim_mujoco.session import Session
-
-HERE = Path(__file__).resolve().parent
-SUCCEEDED = 3
+import rospy
+from control_nodes import COMBINED, ONE, SUCCEEDED, ControlNode
+from ros_client import launched
+from waiting import holds, wait_for
 
 PACKAGE = """<package format="2">
   <name>throwing_controllers</name> <version>0.0.0</version> <description>For a test.</description>
@@ -25,101 +22,170 @@ PLUGINS = """<library path="lib/libfranka_control_throwing_controller">
   <class name="test/Throwing" type="franka_control_test::ThrowingController"
          base_class_type="controller_interface::ControllerBase"/>
 </library>"""
-
-# A node, and its arms with their addresses.
-ONE = ("/franka_control", {"fr3": "127.0.7.31"})
-TWO = ("/combined_panda", {"panda_1": "127.0.7.32", "panda_2": "127.0.7.33"})
-SIMULATED = ("/franka_control", {"panda": "nowhere"})  # the controllers run in the simulation's process
 LAUNCH = """<launch>
   <param name="{node}/restart_controllers_after_recovery" value="{restart}"/>
   <include file="$(find franka_control)/launch/{file}"> {arguments} <arg name="sim" value="true"/> </include>
 </launch>"""
+SIMULATION = """<launch> <include file="$(find franka_sim_mujoco)/launch/panda.launch">
+  <arg name="headless" value="true"/> </include> </launch>"""
+
+# Arms with their addresses, and whether their node restarts controllers after a recovery.
+ONE_ARM = {"fr3": "127.0.7.31"}
+TWO_ARMS = {"panda_1": "127.0.7.32", "panda_2": "127.0.7.33"}
+SIMULATED = {"panda": "nowhere"}  # the controllers run in the simulation's process
+SETUPS = {
+    "one arm": (ONE_ARM, True),
+    "two arms": (TWO_ARMS, True),
+    "simulated": (SIMULATED, True),
+    "one arm without restart": (ONE_ARM, False),
+    "two arms without restart": (TWO_ARMS, False),
+}
+WORDS = {"starting": "I do not want to start", "update": "I have had enough"}
+BEST_EFFORT = 1
+
+pytestmark = pytest.mark.own_process("setup")
 
 
-def launch(node, arms, restart):
-    if arms == SIMULATED[1]:
-        return """<launch> <include file="$(find franka_sim_mujoco)/launch/panda.launch">
-          <arg name="headless" value="true"/> </include> </launch>"""
-    if node == ONE[0]:
-        file = "franka_control.launch"
+def with_setups(*names):
+    return pytest.mark.parametrize("setup", names, indirect=True, scope="module")
+
+
+def launch_file(arms, restart):
+    if arms == SIMULATED:
+        return SIMULATION
+    if arms == ONE_ARM:
+        node, file = ONE, "franka_control.launch"
         given = {"robot": "fr3", "load_gripper": "false", "robot_ip": arms["fr3"]}
     else:
-        file = "franka_combined_control.launch"
+        node, file = COMBINED, "franka_combined_control.launch"
         addresses = ", ".join(f"{arm}/robot_ip: {address}" for arm, address in arms.items())
         given = {"robot_ips": f"{{{addresses}}}"}
     arguments = " ".join(f'<arg name="{name}" value="{value}"/>' for name, value in given.items())
-    return LAUNCH.format(node=node, restart=restart, file=file, arguments=arguments)
+    return LAUNCH.format(node=node, restart=str(restart).lower(), file=file, arguments=arguments)
 
 
-def report_of(what, node, arms, restart, folder):
-    """The client's report, and the log."""
-    (folder / "package.xml").write_text(PACKAGE)
-    (folder / "plugins.xml").write_text(PLUGINS)
-    (folder / "robot.launch").write_text(launch(node, arms, restart))
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setenv("ROS_PACKAGE_PATH", str(folder), prepend=":")
-        with Session(str(folder / "robot.launch"), log=folder / "log") as session:
-            session.wait_for_master()
-            client = ["/usr/bin/python3", str(HERE / "controllers_and_errors_client.py"), what, node]
-            client += [f"{arm}={address}" for arm, address in arms.items()]
-            result = session.run(*client, check=False, timeout=180)
-            print(result.stdout, session.tail(60), sep="\n")
-            assert result.returncode == 0, f"{result}\n{session.tail(60)}"
-            session.check()
-            return json.loads(result.stdout.strip().splitlines()[-1]) | {"log": session.tail(200)}
+class Node(ControlNode):
+    """With two controllers of all joints, one of which throws."""
 
+    def __init__(self, arms, log):
+        super().__init__(arms)
+        self._log = log
+        joints = [f"{arm}_joint{i}" for arm in arms for i in range(1, 8)]
+        for name in ("thrower", "good"):
+            rospy.set_param(
+                f"{self.controllers.namespace}/{name}", {"type": "test/Throwing", "joints": joints}
+            )
+            self.controllers.load(name)
 
-@pytest.fixture(scope="module", params=[ONE, TWO], ids=["one arm", "two arms"])
-def report(request, tmp_path_factory):
-    return report_of("throw", *request.param, "true", tmp_path_factory.mktemp("throwing"))
+    @property
+    def log(self):
+        return self._log.read_text(errors="replace")
+
+    def start(self, controller, throws_in="none"):
+        """@returns whether the controller manager started it."""
+        rospy.set_param(f"{self.controllers.namespace}/{controller}/throws_in", throws_in)
+        return self.controllers.switches([controller])
+
+    def end(self, controller):
+        self.controllers.switches(stop=[controller], strictness=BEST_EFFORT)
+        assert controller not in self.controllers.running()
+
+    def check_that_states_go_on(self):
+        before = [arm.states for arm in self.arms]
+        wait_for(
+            lambda: all(arm.states > count + 20 for arm, count in zip(self.arms, before)), "Twenty states"
+        )
 
 
 @pytest.fixture(scope="module")
-def simulated(tmp_path_factory):
-    return report_of("simulate", *SIMULATED, "true", tmp_path_factory.mktemp("simulated"))
+def setup(request):
+    return SETUPS[request.param]
 
 
-@pytest.fixture(scope="module", params=[ONE, TWO], ids=["one arm", "two arms"])
-def without_restart(request, tmp_path_factory):
-    return report_of("stop", *request.param, "false", tmp_path_factory.mktemp("stopping"))
+@pytest.fixture(scope="module")
+def node(setup, tmp_path_factory):
+    arms, restart = setup
+    folder = tmp_path_factory.mktemp("throwing")
+    (folder / "package.xml").write_text(PACKAGE)
+    (folder / "plugins.xml").write_text(PLUGINS)
+    (folder / "robot.launch").write_text(launch_file(arms, restart))
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("ROS_PACKAGE_PATH", str(folder), prepend=":")
+        with launched(str(folder / "robot.launch"), log=folder / "log") as session:
+            yield Node(arms, session.log)
 
 
-WORDS = {"starting": "I do not want to start", "update": "I have had enough"}
+@pytest.fixture
+def ready(node):
+    """No controller runs, and no error is left, whatever happened before."""
+    for controller in ("thrower", "good"):
+        node.end(controller)
+    node.recover()
+    node.wait_until_all_are("idle")
+    return node
 
 
+@with_setups("one arm", "two arms")
 @pytest.mark.parametrize("where", WORDS)
-def test_the_node_survives_and_reports_the_exception(report, where):
-    outcome = report[where]
-    assert outcome["has_error"], outcome
-    assert outcome["states_go_on"], outcome
-    assert WORDS[where] in report["log"]
+def test_the_node_survives_a_controller_that_throws(ready, where):
+    ready.start("thrower", where)
+    ready.wait_for(lambda arm: arm.has_error, "The error of all arms")
+    ready.check_that_states_go_on()
+    assert WORDS[where] in ready.log
+    # Another controller moves the recovered robot.
+    ready.end("thrower")
+    assert ready.recover() == SUCCEEDED
+    ready.wait_for(lambda arm: not arm.has_error, "The end of the error")
+    ready.start("good")
+    ready.wait_until_all_are("moving")
 
 
+@with_setups("simulated")
 @pytest.mark.parametrize("where", WORDS)
-def test_another_controller_moves_the_recovered_robot(report, where):
-    outcome = report[where]
-    assert outcome["stopped"], outcome
-    assert outcome["recovered"] == SUCCEEDED, outcome
-    assert outcome["moves"], outcome
-    assert outcome["error_gone"], outcome
+def test_the_simulation_continues_with_the_robot_at_rest(ready, where):
+    ready.start("thrower", where)
+    if where == "update":
+        ready.wait_until_all_are("moving")
+    ready.wait_until_all_are("idle")
+    ready.check_that_states_go_on()
+    assert WORDS[where] in ready.log
+    ready.end("thrower")
+    ready.start("good")
+    ready.wait_until_all_are("moving")
 
 
-@pytest.mark.parametrize("where", WORDS)
-def test_the_simulation_continues_with_the_robot_at_rest(simulated, where):
-    assert all(simulated[where].values()), simulated[where]
-    assert WORDS[where] in simulated["log"]
+def check_that_all_stay_at_rest(node):
+    """After a cleared error."""
+    node.wait_for(lambda arm: not arm.has_error, "The end of the error")
+    node.wait_until_all_are("idle")
+    assert "good" not in node.controllers.running()
+    begin = {arm.name: arm.state.time for arm in node.arms}
+    # In this time they would move.
+    while any(arm.state.time < begin[arm.name] + 0.5 for arm in node.arms):
+        assert all(arm.is_in("idle") for arm in node.arms)
+        count = node.arms[0].states
+        assert holds(lambda count=count: node.arms[0].states > count)
+    node.start("good")
+    node.wait_until_all_are("moving")
 
 
-def test_controllers_that_must_not_restart_are_stopped_before_a_recovery(without_restart):
-    assert without_restart["moves"] and without_restart["hit"]
-    assert without_restart["recovered"] == SUCCEEDED
-    outcome = without_restart["after_reflex"]
-    assert outcome == {"error_gone": True, "running": False, "rests": True, "moves_when_told": True}
+@with_setups("one arm without restart", "two arms without restart")
+def test_controllers_that_must_not_restart_are_stopped_before_a_recovery(ready):
+    ready.start("good")
+    ready.wait_until_all_are("moving")
+    ready.arms[0].push()
+    ready.wait_for(lambda arm: arm.has_error, "The error of all arms")
+    assert ready.recover() == SUCCEEDED
+    check_that_all_stay_at_rest(ready)
 
 
 # Several arms wait for a recovery instead.
-@pytest.mark.parametrize("without_restart", [ONE], ids=["one arm"], indirect=True)
-def test_they_are_stopped_when_the_user_stop_is_released(without_restart):
-    assert without_restart["stopped"]
-    outcome = without_restart["after_user_stop"]
-    assert outcome == {"error_gone": True, "running": False, "rests": True, "moves_when_told": True}
+@with_setups("one arm without restart")
+def test_they_are_stopped_when_the_user_stop_is_released(ready):
+    (arm,) = ready.arms
+    ready.start("good")
+    ready.wait_until_all_are("moving")
+    arm.operator.user_stop(True)
+    wait_for(lambda: arm.has_error, "The error of the user stop")
+    arm.operator.user_stop(False)
+    check_that_all_stay_at_rest(ready)

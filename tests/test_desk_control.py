@@ -9,10 +9,11 @@ import threading
 import time
 
 import pytest
-from desk_fixtures import desk_with_robot
+from desk_fixtures import desk_with_robot, fresh_desk, fresh_robot
 from desk_robot import OPEN
 from desk_server import basic
 from pyfranka.desk import v1
+from waiting import wait_for
 
 TOKEN = "/admin/api/control-token"
 TAKE, RELEASE = "/api/system/control-token:take", "/api/system/control-token:release"
@@ -28,19 +29,12 @@ def place(tmp_path_factory):
 
 @pytest.fixture
 def robot(place):
-    robot, _ = place
-    robot.report.update(fci=False, brakes=OPEN)
-    robot.report["buttons"]["circle"] = False
-    return robot
+    return fresh_robot(place, brakes=OPEN)
 
 
 @pytest.fixture
 def desk(place, robot):
-    _, desk = place
-    desk.clear()
-    desk.refresh()
-    robot.lines.clear()
-    return desk
+    return fresh_desk(place)
 
 
 @pytest.fixture
@@ -63,13 +57,6 @@ def release(desk, request, cookie):
 
 def take(desk, owner="other", **more):
     return desk.send("POST", TAKE, {"owner": owner, **more}, **basic())
-
-
-def until(condition):
-    deadline = time.monotonic() + DEADLINE
-    while not condition():
-        assert time.monotonic() < deadline, "It has not happened."
-        time.sleep(0.01)
 
 
 class Later(threading.Thread):
@@ -100,14 +87,14 @@ class Later(threading.Thread):
 # ---- the older interface ---------------------------------------------------------------------------------
 
 
-def test_a_request_is_granted_at_once_while_nobody_has_control(desk, cookie):
+def test_request_is_granted_at_once_while_no_user_has_control(desk, cookie):
     assert state(desk) == {"activeToken": None, "fciActive": False, "tokenRequest": None}
     request = desk.take_control("me", **cookie)
     assert type(request["id"]) is int and type(request["token"]) is str
     assert state(desk)["activeToken"] == {"id": request["id"], "ownedBy": "me"}
 
 
-def test_a_request_is_pending_while_someone_has_control_and_follows_its_release(desk, cookie):
+def test_request_is_pending_until_the_holder_releases_control(desk, cookie):
     first, second = desk.take_control("me", **cookie), desk.take_control("you", **cookie)
     assert active_id(desk) == first["id"]
     assert state(desk)["tokenRequest"]["id"] == second["id"]
@@ -123,7 +110,7 @@ def test_a_newer_request_replaces_a_pending_one(desk, cookie):
     assert active_id(desk) == newest["id"]
 
 
-def test_ones_own_pending_request_can_be_withdrawn_in_two_ways(desk, cookie):
+def test_pending_request_can_be_withdrawn_in_two_ways(desk, cookie):
     first = desk.take_control("me", **cookie)
     pending = desk.take_control("you", **cookie)
     assert release(desk, pending, cookie).status == 200
@@ -190,8 +177,8 @@ def test_the_circle_button_confirms_a_forced_request(desk, cookie, robot, query)
     second = desk.take_control("you", query, **cookie)
     assert active_id(desk) == first["id"]
     robot.report["buttons"]["circle"] = True
-    until(lambda: active_id(desk) == second["id"])
-    until(lambda: not state(desk)["fciActive"])
+    wait_for(lambda: active_id(desk) == second["id"])
+    wait_for(lambda: not state(desk)["fciActive"])
     assert release(desk, first, cookie).status == 404
 
 
@@ -203,16 +190,16 @@ def test_the_circle_button_does_not_grant_other_requests(desk, cookie, robot):
     assert active_id(desk) == first["id"]
 
 
-def test_a_forced_request_is_granted_at_once_while_nobody_has_control(desk, cookie):
+def test_forced_request_is_granted_at_once_while_no_user_has_control(desk, cookie):
     request = desk.take_control("me", "?force", **cookie)
     assert active_id(desk) == request["id"]
 
 
-def test_a_forced_request_lapses(desk, cookie):
+def test_forced_request_expires(desk, cookie):
     assert desk.send("GET", "/admin/api/safety", **cookie).json() == {"tokenForceTimeout": 0.5}
     first = desk.take_control("me", **cookie)
     second = desk.take_control("you", "?force", **cookie)
-    until(lambda: state(desk)["tokenRequest"] is None)
+    wait_for(lambda: state(desk)["tokenRequest"] is None)
     assert active_id(desk) == first["id"]
     assert release(desk, second, cookie).json()["error"] == "ControlTokenUnknown"
 
@@ -245,8 +232,8 @@ def test_taking_waits_for_its_time_also_for_the_same_owner(desk):
 
 
 def test_a_long_wait_is_answered_before_the_clients_own_limit(desk, monkeypatch):
-    monkeypatch.setattr(v1, "LONG", 0.5)
-    monkeypatch.setattr(v1, "EARLIER", 0.3)
+    monkeypatch.setattr(v1, "LONG_TIMEOUT", 0.5)
+    monkeypatch.setattr(v1, "EARLY_ANSWER", 0.3)
     take(desk, "me")
     begin = time.monotonic()
     assert take(desk, "you", timeout=1.0).json()["code"] == "Timeout"
@@ -257,7 +244,7 @@ def test_a_long_wait_is_answered_before_the_clients_own_limit(desk, monkeypatch)
 def test_taking_is_answered_when_the_holder_releases(desk, cookie):
     first = desk.take_control("me", **cookie)
     later = Later(desk, {"owner": "you", "timeout": DEADLINE})
-    until(lambda: state(desk)["tokenRequest"])
+    wait_for(lambda: state(desk)["tokenRequest"])
     release(desk, first, cookie)
     status, body = later.result()
     assert status == 200 and active_id(desk) == body["tokenId"]
@@ -266,7 +253,7 @@ def test_taking_is_answered_when_the_holder_releases(desk, cookie):
 def test_taking_ends_when_a_newer_request_replaces_it(desk, cookie):
     desk.take_control("me", **cookie)
     later = Later(desk, {"owner": "you"})
-    until(lambda: state(desk)["tokenRequest"])
+    wait_for(lambda: state(desk)["tokenRequest"])
     assert take(desk, "her", timeout=0.01).status == 424
     status, body = later.result()
     assert status == 424 and body["code"] == "RequestOverride"
@@ -275,9 +262,9 @@ def test_taking_ends_when_a_newer_request_replaces_it(desk, cookie):
 def test_a_client_that_goes_away_withdraws_its_request(desk, cookie):
     desk.take_control("me", **cookie)
     later = Later(desk, {"owner": "you"})
-    until(lambda: state(desk)["tokenRequest"])
+    wait_for(lambda: state(desk)["tokenRequest"])
     later.go_away()
-    until(lambda: state(desk)["tokenRequest"] is None)
+    wait_for(lambda: state(desk)["tokenRequest"] is None)
 
 
 @pytest.mark.parametrize("timeout", [0, -1, "1", True, [], 1e999])
@@ -295,7 +282,7 @@ def test_the_holder_can_deny_or_accept(desk, cookie):
 
     for grant in (False, True):
         later = Later(desk, {"owner": "you"})
-        until(lambda: state(desk)["tokenRequest"])
+        wait_for(lambda: state(desk)["tokenRequest"])
         desk.call(decide(grant))
         status, body = later.result()
         assert status == (200 if grant else 424)
@@ -306,7 +293,7 @@ def test_the_holder_can_deny_or_accept(desk, cookie):
 # ---- options ---------------------------------------------------------------------------------------------
 
 
-def test_options_change_what_the_sources_disagree_about(tmp_path):
+def test_options_select_behaviour_on_which_sources_disagree(tmp_path):
     options = {"release_status": 204, "token_id": False, "fci_after_release": True}
     with desk_with_robot(tmp_path, report={"brakes": OPEN}, **options) as (robot, desk):
         taken = take(desk, "me").json()
@@ -329,6 +316,6 @@ def test_the_older_generation_of_the_panda_has_no_tokens_and_its_fci_is_always_o
         )
         multipart = {"Content_Type": "multipart/form-data; boundary=x"}
         assert desk.send("POST", "/desk/api/robot/open-brakes", body, **headers, **multipart).status == 200
-        until(lambda: robot.lines == ["joints unlock", "fci on"])
+        wait_for(lambda: robot.lines == ["joints unlock", "fci on"])
         assert desk.send("POST", "/desk/api/robot/close-brakes", b"force=false", **headers).status == 200
         assert robot.lines[2:] == ["fci off", "joints lock"]

@@ -369,7 +369,7 @@ def test_without_a_login_only_public_endpoints_answer(desk, profile):
             assert answer.status == 401 and is_sentence(answer), case
 
 
-def test_a_wrong_login_is_no_login(desk, profile):
+def test_wrong_login_is_refused(desk, profile):
     for wrong in ({"Cookie": "authorization=None"}, {"authorization": "none"}):
         for case in of(profile):
             answer = send(desk, case, "any", **wrong)
@@ -387,7 +387,7 @@ def test_a_wrong_password_is_refused_everywhere(desk, profile, wrong):
 
 
 @pytest.mark.parametrize("login", ["cookie", "header", "basic"])
-def test_without_a_token_no_action_is_done(desk, profile, login):
+def test_action_without_a_token_is_refused(desk, profile, login):
     statuses = {C: 400, Needs.CONTROL_OR_FORM: 400, Needs.BODY_TOKEN: 400, Needs.CONTROL_LOCKED: 423}
     cookie = desk.log_in()
     word = cookie["Cookie"].removeprefix("authorization=")
@@ -419,7 +419,7 @@ def test_a_wrong_token_is_locked(desk, profile):
     assert desk.lines[sent:] == []
 
 
-def test_with_login_and_control_every_endpoint_does_its_work(desk, profile):
+def test_every_endpoint_works_with_login_and_control(desk, profile):
     headers = desk.log_in()
     token = control_of(desk, profile, headers)
     if profile.fr3:  # the case that changes a profile comes before the one that adds it has an effect
@@ -451,7 +451,7 @@ def check_fields(case, answer):
         assert answer.headers["Content-Type"].startswith("application/json"), case
 
 
-def test_what_a_generation_lacks_is_not_found(desk, profile):
+def test_endpoints_of_the_other_generation_are_not_found(desk, profile):
     headers = {**desk.log_in(), "X_Control_Token": "x"}
     there = {(case.method, case.path) for case in of(profile)}
     for case in CASES:
@@ -476,7 +476,7 @@ def test_head_answers_as_get_without_a_body(desk, profile):
             assert answer.status == 200 and answer.body == b"", case
 
 
-def test_other_methods_are_refused_with_those_that_there_are(desk, profile):
+def test_other_methods_are_refused_with_a_list_of_methods(desk, profile):
     answer = desk.send("PATCH", "/admin/api/login")
     assert answer.status == 405 and answer.headers["Allow"] == "POST" and is_sentence(answer)
 

@@ -11,9 +11,11 @@ from desk_server import DeskServer
 from pyfranka.desk import Options
 from pyfranka.desk.robot import PORT
 from pyfranka.franka_sim import FrankaSim, SimRobot
+from stalls import in_time
+from waiting import wait_for
 
 SOON = 0.5  # [s] in which the client learns of it
-BRIEFLY = 0.3  # [s] in which Desk still answers before a reboot
+LAST_ANSWERS = 0.3  # [s] in which Desk still answers before a reboot
 DEADLINE = 30.0  # [s]
 TICKS = 100  # of a motion before it is ended
 SPEED = 0.1  # [rad/s]
@@ -61,13 +63,6 @@ class Motion(threading.Thread):
         return pyfranka.JointVelocities([0.0] * 6 + [min(SPEED, self.ticks * 1e-4)])
 
 
-def wait_for(condition):
-    deadline = time.monotonic() + DEADLINE
-    while not condition():
-        assert time.monotonic() < deadline, "It has not happened."
-        time.sleep(0.01)
-
-
 def make_ready(desk):
     """Desk's sequence of a new client. @returns headers that have control."""
     desk.clear()
@@ -89,6 +84,15 @@ def motion_of(served):
 @pytest.mark.parametrize("how", ENDS)
 def test_desk_ends_a_motion_and_its_sequence_makes_the_next_one_possible(place, how):
     served, desk = place
+    limit = SOON + (LAST_ANSWERS if how == "reboot" else 0.0)
+    assert in_time(lambda: end_a_motion(served, desk, how), lambda took: took < limit) < limit
+    make_ready(desk)
+    motion_of(served)  # which the next test, or the end, aborts
+    assert desk.send("POST", "/desk/api/joints/lock", **desk.log_in()).status == 200
+
+
+def end_a_motion(served, desk, how):
+    """@returns how long after Desk's request the client learned of the end [s]."""
     headers = make_ready(desk)
     motion = motion_of(served)
     method, path, body = ENDS[how]
@@ -99,7 +103,6 @@ def test_desk_ends_a_motion_and_its_sequence_makes_the_next_one_possible(place, 
     assert answer.status in (200, 204), answer
     motion.join(DEADLINE)
     assert isinstance(motion.error, pyfranka.ControlException) and "aborted" in str(motion.error)
-    assert motion.ended - begin < SOON + (BRIEFLY if how == "reboot" else 0.0)
     if how == "reboot":
         desk.close_connection()
         wait_for(lambda: is_back(desk))
@@ -107,10 +110,7 @@ def test_desk_ends_a_motion_and_its_sequence_makes_the_next_one_possible(place, 
         assert not desk.send("GET", "/admin/api/control-token").json()["fciActive"]
     with pytest.raises(pyfranka.NetworkException):
         served.connect()
-
-    make_ready(desk)
-    motion_of(served)  # which the next test, or the end, aborts
-    assert desk.send("POST", "/desk/api/joints/lock", **desk.log_in()).status == 200
+    return motion.ended - begin
 
 
 def is_back(desk):
@@ -121,7 +121,7 @@ def is_back(desk):
         return False
 
 
-def test_a_forced_take_over_ends_the_motion_of_the_one_who_had_control(place):
+def test_forced_take_over_ends_the_motion_of_the_holder(place):
     served, desk = place
     make_ready(desk)
     motion = motion_of(served)

@@ -128,12 +128,12 @@ READS = ["/page/robots", "/page/scene", "/page/mesh?name=x", "/page/robot-mesh/f
 
 
 @pytest.mark.parametrize("path", READS)
-def test_nothing_is_shown_without_a_login(desk, path):
+def test_pages_require_a_login(desk, path):
     assert desk.send("GET", path).status == 401
 
 
 @pytest.mark.parametrize("path", ["/page/command", "/page/control"])
-def test_nothing_is_done_without_a_login(desk, robot, path):
+def test_commands_require_a_login(desk, robot, path):
     robot.lines.clear()
     assert post(desk, path, {"action": "user_stop", "words": ["on"], "what": "take"}).status == 401
     assert robot.lines == [] and desk.desk.tokens.active is None
@@ -150,7 +150,7 @@ def test_requests_of_other_sites_are_refused(desk, cookie, path, header):
     assert post(desk, path, {}, **cookie, **header).status == 403
 
 
-def test_a_form_of_another_site_is_no_command(desk, cookie):
+def test_form_of_another_site_is_refused(desk, cookie):
     body = json.dumps({"action": "user_stop", "words": ["on"]}).encode()
     answer = desk.send("POST", "/page/command", body, Content_Type="text/plain", **cookie)
     assert answer.status == 415
@@ -200,7 +200,7 @@ def test_commands_reach_the_robot_as_lines(desk, robot, cookie, words, needs_con
 
 
 def meaning(word):
-    """Numbers are written anew."""
+    """Numbers are formatted again."""
     try:
         return float(word)
     except ValueError:
@@ -262,7 +262,7 @@ def test_unknown_robots_are_refused(desk, cookie, number):
     assert post(desk, "/page/command", body, **cookie).status == 404
 
 
-def test_a_refusal_of_the_robot_comes_with_its_sentence(desk, cookie):
+def test_refusal_of_the_robot_is_shown_with_its_message(desk, cookie):
     token = control(desk, cookie)["token"]
     answer = command(desk, cookie, "hand", "move", "0.04", "0.1", token=token)
     assert answer.status == 200

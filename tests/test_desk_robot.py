@@ -2,13 +2,12 @@
 # SPDX-License-Identifier: Apache-2.0
 """Desk and the safety controller of simulated robots: errors, stops, self-tests, lights, end effectors."""
 
-import time
-
 import pytest
 from desk_server import DeskServer, basic
 from pyfranka.desk.robot import PORT
 from pyfranka.desk.status import RECOVERABLE
 from pyfranka.franka_sim import FrankaSim, SimRobot
+from waiting import wait_for
 
 SAFETY, SYSTEM = "/admin/api/safety/status", "/admin/api/system-status"
 ACKNOWLEDGE = "/admin/api/safety/recoverable-safety-errors/acknowledge?error_id="
@@ -73,14 +72,7 @@ def listens(desk):
         return False
 
 
-def wait_for(condition):
-    deadline = time.monotonic() + DEADLINE
-    while not condition():
-        assert time.monotonic() < deadline, "It has not happened."
-        time.sleep(0.01)
-
-
-def tell(served, desk, *lines):
+def send_lines(served, desk, *lines):
     for line in lines:
         served.remote.send(line)
     desk.refresh()
@@ -105,7 +97,7 @@ def light(desk):
 def test_an_error_locks_the_robot_until_it_is_acknowledged(fr3, name):
     served, desk, control = fr3
     assert desk.send("POST", "/desk/api/joints/unlock", **control).status == 200
-    tell(served, desk, f"inject {name} on")
+    send_lines(served, desk, f"inject {name} on")
     safety = get(desk, SAFETY)
     assert safety["safetyControllerStatus"] == "Recovery" and safety["recoverableErrors"][name]
     for path in ("/desk/api/joints/unlock", "/desk/api/system/fci", "/api/fci:activate"):
@@ -113,11 +105,11 @@ def test_an_error_locks_the_robot_until_it_is_acknowledged(fr3, name):
     assert get(desk, "/api/safety/recovery")["recovery"]["type"]
     assert get(desk, "/api/system/operating-mode") == {"status": "SafetyRecovery"}
     if name == "jointPositionError":
-        tell(served, desk, "input x4 on")  # a person beside the robot confirms it
+        send_lines(served, desk, "input x4 on")  # the operator beside the robot confirms it
     answer = desk.send("POST", ACKNOWLEDGE + ERROR_IDS.get(name, name), **control)
     assert answer.status == 200, answer
     assert not get(desk, SAFETY)["recoverableErrors"][name]
-    tell(served, desk, "input x4 off")
+    send_lines(served, desk, "input x4 off")
     assert desk.send("POST", "/desk/api/joints/unlock", **control).status == 200
 
 
@@ -125,9 +117,9 @@ def test_an_error_locks_the_robot_until_it_is_acknowledged(fr3, name):
     "name, part",
     [("jointLimitViolation", "jointLimitViolation"), ("jointPositionErrorDemand", "jointPositionError")],
 )
-def test_a_joint_that_must_be_recovered_is_not_acknowledged_away(fr3, name, part):
+def test_joint_recovery_is_not_cleared_by_an_acknowledgement(fr3, name, part):
     served, desk, control = fr3
-    tell(served, desk, f"inject {name} 3 on")
+    send_lines(served, desk, f"inject {name} 3 on")
     assert get(desk, SAFETY)["demandedRecoveries"][part] == [False, False, True] + [False] * 4
     assert refusal(desk.send("POST", "/desk/api/joints/unlock", **control)) == (
         424,
@@ -137,11 +129,11 @@ def test_a_joint_that_must_be_recovered_is_not_acknowledged_away(fr3, name, part
     confirmed = desk.send("POST", CONFIRM, **basic())
     assert refusal(confirmed) == (424, ["JointRecoveryRequired"])
     assert any(get(desk, SAFETY)["demandedRecoveries"][part])
-    tell(served, desk, "input x4 on")  # the person beside the robot
+    send_lines(served, desk, "input x4 on")  # the operator beside the robot
     kind = get(desk, "/api/safety/recovery")["recovery"]
     assert desk.send("POST", CONFIRM, kind, **basic()).status == 204
     assert not any(get(desk, SAFETY)["demandedRecoveries"][part])
-    tell(served, desk, "input x4 off")
+    send_lines(served, desk, "input x4 off")
     assert desk.send("POST", "/desk/api/joints/unlock", **control).status == 200
 
 
@@ -151,21 +143,21 @@ def test_a_joint_that_must_be_recovered_is_not_acknowledged_away(fr3, name, part
 def test_a_self_test_locks_refuses_and_sets_its_clock(fr3):
     served, desk, control = fr3
     assert desk.send("POST", "/desk/api/joints/unlock", **control).status == 200
-    tell(served, desk, "step 500")
+    send_lines(served, desk, "step 500")
     before = get(desk, SAFETY)["timeToTd2"]
     assert before < 86400.0
-    tell(served, desk, "timing self_test 60")
+    send_lines(served, desk, "timing self_test 60")
     answer = desk.send("POST", "/admin/api/safety/td2-tests/execute", **control)
     assert answer.json() == {"code": "SuccessResponse"}
     wait_for(lambda: get(desk, SAFETY)["safetyControllerStatus"] == "SelfTest")
     assert get(desk, "/api/safety/self-tests")["status"] == "Running"
     assert refusal(desk.send("POST", "/desk/api/joints/unlock", **control)) == (503, ["SelfTestRunning"])
-    tell(served, desk, "power off", "power on", "timing self_test 0.2")
+    send_lines(served, desk, "power off", "power on", "timing self_test 0.2")
 
 
 def test_the_newer_interface_waits_for_the_self_test(fr3):
     served, desk, control = fr3
-    tell(served, desk, "timing self_test 0.2", "step 500")
+    send_lines(served, desk, "timing self_test 0.2", "step 500")
     before = get(desk, SAFETY)["timeToTd2"]
     assert desk.send("POST", "/api/safety/self-tests:execute", **control).status == 204
     assert get(desk, SAFETY)["timeToTd2"] > before
@@ -175,7 +167,7 @@ def test_the_newer_interface_waits_for_the_self_test(fr3):
 
 def test_an_overdue_self_test_is_an_error(fr3):
     served, desk, control = fr3
-    tell(served, desk, "self_test due 0.1", "step 300")
+    send_lines(served, desk, "self_test due 0.1", "step 300")
     wait_for(lambda: get(desk, SAFETY)["recoverableErrors"]["td2Timeout"])
     assert get(desk, "/api/safety/recovery") == {"recovery": {"type": "SelfTestsElapsed"}}
     answer = desk.send("POST", CONFIRM, {"type": "SelfTestsElapsed"}, **basic())
@@ -209,7 +201,7 @@ def test_lights_and_modes_of_an_fr3(fr3):
 def test_other_stops_of_an_fr3_are_shown_and_keep_the_brakes_open(fr3, name):
     served, desk, control = fr3
     assert desk.send("POST", "/desk/api/joints/unlock", **control).status == 200
-    tell(served, desk, f"input {name} on")
+    send_lines(served, desk, f"input {name} on")
     safety = get(desk, SAFETY)
     assert safety["safeInputState"][name] == "Active" and safety["brakeState"] == ["Unlocked"] * 7
 
@@ -219,7 +211,7 @@ def test_the_activation_device_of_a_panda(panda):
     assert desk.send("POST", "/desk/api/robot/open-brakes", **control).status == 200
     status = get(desk, "/desk/api/system/status")
     assert status["brakesOpen"] == [True] * 7 and status["x4Enabled"]
-    tell(served, desk, "input x4 on")
+    send_lines(served, desk, "input x4 on")
     status = get(desk, "/desk/api/system/status")
     assert status["operationalMode"] == "SS1" and not status["x4Enabled"]
     assert desk.desk.report.light.color == "white"
@@ -242,7 +234,7 @@ def test_the_pack_pose_needs_open_brakes_and_no_fci(fr3):
 # ---- the FCI's state shows it ----------------------------------------------------------------------------
 
 
-def test_an_end_effector_is_seen_by_clients_of_the_fci(fr3):
+def test_fci_clients_receive_the_end_effector(fr3):
     served, desk, control = fr3
     inertia = {"x11": 0.01, "x12": 0.001, "x13": 0.0, "x22": 0.02, "x23": 0.0, "x33": 0.03}
     tool = {

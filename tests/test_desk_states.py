@@ -1,13 +1,12 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What Desk tells of a robot's states, refusals and errors, in the words of both interfaces."""
-
-import copy
+"""What Desk reports of a robot's states, refusals and errors, in the words of both interfaces."""
 
 import pytest
-from desk_fixtures import desk_with_robot
+from desk_fixtures import desk_with_robot, fresh_desk, fresh_robot
 from desk_robot import CLOSED, OPEN, REPORT
 from desk_server import basic
+from waiting import wait_for
 
 SAFETY, SYSTEM = "/admin/api/safety/status", "/admin/api/system-status"
 ACKNOWLEDGE = "/admin/api/safety/recoverable-safety-errors/acknowledge?error_id="
@@ -24,19 +23,12 @@ def place(tmp_path_factory):
 
 @pytest.fixture
 def robot(place):
-    robot, _ = place
-    robot.report.update(copy.deepcopy(REPORT))
-    robot.answers.clear()
-    return robot
+    return fresh_robot(place)
 
 
 @pytest.fixture
 def desk(place, robot):
-    _, desk = place
-    desk.clear()
-    desk.refresh()
-    robot.lines.clear()
-    return desk
+    return fresh_desk(place)
 
 
 @pytest.fixture
@@ -152,7 +144,7 @@ def test_a_panda_shows_its_brakes_and_switches(tmp_path):
         assert status["x3Enabled"] and not status["x4Enabled"]
 
 
-def test_the_arrow_keys_are_the_hands_or_nobodys_while_the_fci_is_active(desk, robot):
+def test_arrow_keys_control_the_hand_or_nothing_while_the_fci_is_active(desk, robot):
     change(desk, robot, buttons={"up": True, "cross": True})
     assert get(desk, "/desk/api/navigation/events")["up"]
     for parts in ({"navigation": "robot"}, {"navigation": "desk", "fci": True}):
@@ -260,10 +252,10 @@ def test_recoveries_are_confirmed(desk, robot, recoverable, expected, with_body)
     "part, kind",
     [("joint_limit_violation", "JointLimitViolation"), ("joint_position_error", "JointPositionError")],
 )
-def test_joints_are_recovered_by_a_person_only(desk, robot, part, kind):
+def test_joints_are_recovered_by_the_operator_only(desk, robot, part, kind):
     change(desk, robot, **{part: [True] + [False] * 6})
     assert get(desk, RECOVERY) == {"recovery": {"type": kind}}
-    robot.answers["acknowledge"] = "error: JointRecoveryRequired: A person has to recover the joint."
+    robot.answers["acknowledge"] = "error: JointRecoveryRequired: A joint needs manual recovery."
     answer = desk.send("POST", CONFIRM, {"type": kind}, **basic())
     assert answer.status == 424 and answer.json()["details"] == ["JointRecoveryRequired"]
 
@@ -397,12 +389,3 @@ def test_with_an_option_the_fci_comes_back_after_a_stop(tmp_path):
         assert robot.lines == []
         change(desk, robot, brakes=OPEN)
         wait_for(lambda: robot.lines == ["fci on"])
-
-
-def wait_for(condition, limit=20.0):
-    import time
-
-    deadline = time.monotonic() + limit
-    while not condition():
-        assert time.monotonic() < deadline, "It has not happened."
-        time.sleep(0.01)

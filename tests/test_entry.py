@@ -3,6 +3,7 @@
 """The entry script: its help, its errors, and its environment."""
 
 import os
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -10,6 +11,10 @@ import pytest
 
 TOP = Path(__file__).resolve().parent.parent
 FRANKA = str(TOP / "franka")
+COMMANDS = (
+    *("install", "build", "demo", "test", "wheel", "deb", "docs", "bench"),
+    *("lock", "clean", "shell", "completion"),
+)
 
 
 def franka(*arguments: str, **environment: str) -> subprocess.CompletedProcess:
@@ -47,7 +52,7 @@ def foreign_python(tmp_path):
 
 @pytest.mark.parametrize("release", ["bookworm", "trixie"])
 def test_packages_depend_on_the_release(release):
-    names = in_script(f"debian_release() {{ echo {release}; }}; wanted_packages").splitlines()
+    names = in_script(f"debian_release() {{ echo {release}; }}; required_packages").splitlines()
     assert {"catkin", "libmujoco-dev"} <= set(names)
     assert {"libsdformat-dev", "python3-nose"} & set(names) == (
         {"libsdformat-dev", "python3-nose"} if release == "bookworm" else set()
@@ -71,7 +76,7 @@ def test_another_system_is_refused(tmp_path, system):
 def test_help_names_every_command():
     result = franka("--help")
     assert result.returncode == 0
-    for command in ("install", "build", "demo", "test", "wheel", "bench", "lock", "shell", "completion"):
+    for command in COMMANDS:
         assert f"\n  {command} " in result.stdout
 
 
@@ -82,15 +87,13 @@ def test_unknown_command_is_refused_with_help():
     assert "usage:" in result.stderr
 
 
-@pytest.mark.parametrize(
-    "command", ["install", "build", "demo", "test", "wheel", "bench", "lock", "shell", "completion"]
-)
+@pytest.mark.parametrize("command", COMMANDS)
 def test_each_command_explains_itself_without_doing_anything(command):
     result = franka(command, "--help")
     assert result.returncode == 0
     assert result.stdout.startswith(f"  {command} ")
     assert "== " not in result.stdout  # a build would print this
-    others = {"install", "build", "demo", "test", "wheel", "bench", "lock", "shell"} - {command}
+    others = set(COMMANDS) - {command, "completion"}
     assert not [other for other in others if f"\n  {other} " in result.stdout]
 
 
@@ -106,6 +109,9 @@ def test_each_command_explains_itself_without_doing_anything(command):
         ["test", "--long", "--quick"],
         ["bench", "fci", "jitter"],
         ["wheel", "dist"],
+        ["deb", "franka_hw"],
+        ["shell", "--rviz"],
+        ["docs", "html"],
     ],
 )
 def test_unknown_arguments_are_refused_before_a_build(arguments):
@@ -118,7 +124,7 @@ def test_unknown_arguments_are_refused_before_a_build(arguments):
 
 def test_an_option_without_a_value_is_refused_before_a_build():
     result = franka("demo", "--speed")
-    assert result.returncode == 1 and result.stdout == ""
+    assert result.returncode == 2 and result.stdout == ""
     assert "--speed needs a value" in result.stderr
 
 
@@ -164,7 +170,7 @@ def test_benchmarks_find_their_parts():
 
 
 def test_requested_packages_are_names_only():
-    names = in_script("wanted_packages").split()
+    names = in_script("required_packages").split()
     assert "libmujoco-dev" in names
     assert all(name.isascii() and "#" not in name for name in names)
 
@@ -207,14 +213,24 @@ def interactive(commands: str, home: Path) -> str:
 
 def test_a_shell_has_roscd_and_completion(tmp_path):
     (tmp_path / ".bashrc").write_text("export PATH=/usr/bin:/bin\n")  # it overwrites PATH
-    said = interactive(
-        "roscd franka_description && pwd; complete -p roslaunch rosrun franka; command -v franka_sim",
+    printed = interactive(
+        "roscd franka_description && pwd; "
+        "complete -p roslaunch rosrun rosservice rostopic roscd franka franka_info; "
+        "command -v franka_sim",
         tmp_path,
     )
-    assert "/franka_description\n" in said
-    for line in (r"-F _roscomplete_launch roslaunch", r"_roscomplete_exe rosrun", r"-F _franka franka"):
-        assert line in said, said
-    assert "/devel/bin/franka_sim\n" in said
+    assert "/franka_description\n" in printed
+    for line in (
+        "-F _roscomplete_launch roslaunch",
+        "_roscomplete_exe rosrun",
+        "_roscomplete_rosservice rosservice",
+        "_roscomplete_rostopic rostopic",
+        "_roscomplete_sub_dir roscd",
+        "-F _franka franka",
+        "-F _franka_program franka_info",
+    ):
+        assert line in printed, printed
+    assert "/devel/bin/franka_sim\n" in printed
 
 
 @pytest.mark.parametrize(
@@ -222,7 +238,7 @@ def test_a_shell_has_roscd_and_completion(tmp_path):
     [
         (
             "./franka ",
-            {"install", "build", "demo", "test", "wheel", "bench", "lock", "shell", "completion", "--help"},
+            {*COMMANDS, "--help"},
         ),
         ("./franka be", {"bench"}),
         ("./franka bench ti", {"tick"}),
@@ -242,8 +258,36 @@ def test_its_own_commands_are_completed(line, expected):
     assert set(result.stdout.split()) == expected, result.stderr
 
 
+@pytest.mark.parametrize(
+    ("words", "expected"),
+    [
+        ("franka_plot ", {"robot", "topic", "bag", "log", "--list", "--help"}),
+        ("franka_plot log --lim", {"--limits"}),
+        ("franka_sim --vi", {"--viewer"}),
+        ("franka_info record --mo", {"--move"}),
+        ("new_controller --int", {"--interfaces"}),
+    ],
+)
+def test_options_of_programs_are_completed(words, expected):
+    code = f"""
+        source <({FRANKA} completion)
+        COMP_WORDS=({words} ) COMP_CWORD={len(words.split(" ")) - 1}
+        complete -p {words.split()[0]} >/dev/null || exit
+        _franka_program {words.split()[0]}
+        printf '%s\\n' "${{COMPREPLY[@]}}"
+    """
+    result = franka("shell", "bash", "-c", code)
+    assert set(result.stdout.split()) == expected, result.stderr
+
+
 def test_shell_keeps_the_status_of_its_command():
     assert franka("shell", "bash", "-c", "exit 7").returncode == 7
+
+
+def test_a_shell_names_a_command_that_is_not_there():
+    result = franka("shell", "roslunch")
+    assert (result.returncode, result.stdout) == (127, "")
+    assert result.stderr == 'franka: there is no command "roslunch" in this shell.\n'
 
 
 def test_originals_replace_the_whole_group(tmp_path):
@@ -274,8 +318,8 @@ def test_style_runs_the_style_checks_without_a_build(tmp_path, arguments, taken)
     python.parent.mkdir()
     python.write_text('#!/bin/sh\necho "$@"\n')
     python.chmod(0o755)
-    said = in_script(f"venv={tmp_path}; cmd_install() {{ :; }}; cmd_test {arguments}")
-    assert said.split() == [str(TOP / "tests" / "style.py"), *taken.split()]
+    printed = in_script(f"venv={tmp_path}; cmd_install() {{ :; }}; cmd_test {arguments}")
+    assert printed.split() == [str(TOP / "tests" / "style.py"), *taken.split()]
 
 
 def build_that_ends_with(message: str, tmp_path: Path) -> str:
@@ -290,18 +334,18 @@ def build_that_ends_with(message: str, tmp_path: Path) -> str:
 
 
 def test_a_crashed_compiler_is_run_again_once(tmp_path):
-    said = build_that_ends_with("a.h:919:5: internal compiler error: Segmentation fault", tmp_path)
-    assert "going on with 2 at a time" in said and said.endswith("\n2\n")
+    printed = build_that_ends_with("a.h:919:5: internal compiler error: Segmentation fault", tmp_path)
+    assert "going on with 2 at a time" in printed and printed.endswith("\n2\n")
 
 
 def test_after_a_killed_compiler_one_job_runs_at_a_time(tmp_path):
-    said = build_that_ends_with("g++: fatal error: Killed signal terminated program cc1plus", tmp_path)
-    assert "going on with 1 at a time" in said and said.endswith("\n1\n")
+    printed = build_that_ends_with("g++: fatal error: Killed signal terminated program cc1plus", tmp_path)
+    assert "going on with 1 at a time" in printed and printed.endswith("\n1\n")
 
 
 def test_a_source_error_is_not_retried(tmp_path):
-    said = build_that_ends_with("a.cpp:3: error: expected a sentence", tmp_path)
-    assert said.endswith("given up\n") and "expected a sentence" in said
+    printed = build_that_ends_with("a.cpp:3: error: expected a sentence", tmp_path)
+    assert printed.endswith("given up\n") and "expected a sentence" in printed
 
 
 BUILD = """
@@ -311,8 +355,8 @@ BUILD = """
 
 def test_a_build_prints_its_progress(tmp_path):
     (tmp_path / "out").mkdir()
-    said = in_script(f"top={tmp_path}; once() {{ {BUILD}; }}; quietly build once")
-    assert said.split("\n") == [f"   {percent} %" for percent in (3, 10, 57, 100, 2, 99)] + [""]
+    printed = in_script(f"top={tmp_path}; once() {{ {BUILD}; }}; quietly build once")
+    assert printed.split("\n") == [f"   {percent} %" for percent in (3, 10, 57, 100, 2, 99)] + [""]
     assert "Building 9.o" in (tmp_path / "out" / "build.log").read_text()
 
 
@@ -322,15 +366,70 @@ def test_a_build_shows_one_line_on_a_terminal(tmp_path):
     code = f"source {FRANKA}; COLUMNS=80; top={tmp_path}; once() {{ {BUILD}; false; }}; quietly build once"
     result = subprocess.run(["bash", "-c", code], stdout=terminal, stderr=subprocess.PIPE, timeout=60)
     os.close(terminal)
-    said = os.read(ours, 65536).decode()
+    printed = os.read(ours, 65536).decode()
     os.close(ours)
     assert result.returncode == 1
-    assert "\r\x1b[K   reading one" in said and "\r\x1b[K   57 % Building 57.o" in said
-    assert "\n" not in said and said.endswith("\r\x1b[K")
+    assert "\r\x1b[K   reading one" in printed and "\r\x1b[K   57 % Building 57.o" in printed
+    assert "\n" not in printed and printed.endswith("\r\x1b[K")
 
 
 def test_a_verbose_build_shows_everything(tmp_path):
     (tmp_path / "out").mkdir()
-    said = in_script(f"top={tmp_path}; once() {{ {BUILD}; }}; quietly build once", FRANKA_VERBOSE="1")
-    assert "[ 57%] Building 57.o" in said
+    printed = in_script(f"top={tmp_path}; once() {{ {BUILD}; }}; quietly build once", FRANKA_VERBOSE="1")
+    assert "[ 57%] Building 57.o" in printed
     assert "FRANKA_VERBOSE" in franka("--help").stdout
+
+
+# ---- steps that fail, two commands at once ---------------------------------------------------------------
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        # no mirror answers
+        'as_root() { [[ "$*" != *update* ]]; }; missing_packages() { echo x; }; step Begin install_packages',
+        'as_root() { [[ "$*" != *install* ]]; }; missing_packages() { echo x; }; step Begin install_packages',
+        # a file is in the way of the workspace
+        "touch $top/ws; workspace=$top/ws; catkin_make() { :; }; step Begin configure_and_make OFF OFF",
+        "touch $top/dist; step Begin build_wheel",
+    ],
+)
+def test_a_step_that_failed_in_its_middle_has_failed(code, tmp_path):
+    (tmp_path / "out").mkdir()
+    code = f"source {FRANKA}; top={tmp_path}; offline() {{ false; }}; {code}; echo went on"
+    result = subprocess.run(["bash", "-c", code], text=True, capture_output=True, timeout=60)
+    assert result.returncode == 1 and "went on" not in result.stdout
+    assert "Begin failed" in result.stderr
+
+
+def test_two_commands_wait_for_each_other(tmp_path):
+    def begun() -> subprocess.Popen:
+        """A command that has begun, or waits for the other one."""
+        code = f"source {FRANKA}; top={tmp_path}; begin_alone; echo begun; read -r; echo done"
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+        return subprocess.Popen(["bash", "-c", code], **pipes)
+
+    with begun() as first:
+        assert first.stdout.readline() == "begun\n"
+        with begun() as second:
+            assert "Waiting until another ./franka" in second.stdout.readline()
+            assert first.communicate("\n", timeout=60)[0] == "done\n"
+            assert second.communicate("\n", timeout=60)[0] == "begun\ndone\n"
+
+
+def test_a_folder_that_cannot_be_written_is_named(tmp_path):
+    (tmp_path / "out").touch()
+    code = f"source {FRANKA}; top={tmp_path}; begin_alone"
+    result = subprocess.run(["bash", "-c", code], text=True, capture_output=True, timeout=60)
+    assert result.returncode == 1 and f"{tmp_path}/out cannot be written" in result.stderr
+
+
+def test_clean_removes_what_was_made_and_nothing_else(tmp_path):
+    subprocess.run(["git", "init", "--quiet", tmp_path], check=True, timeout=60)
+    for name in ("franka", ".gitignore"):
+        shutil.copy(TOP / name, tmp_path)
+    for name in ("out/a", ".venv/b", "catkin_ws/build/c", "mine.txt"):
+        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / name).touch()
+    subprocess.run([tmp_path / "franka", "clean"], check=True, timeout=60)
+    assert sorted(path.name for path in tmp_path.iterdir()) == [".git", ".gitignore", "franka", "mine.txt"]

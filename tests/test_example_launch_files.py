@@ -43,11 +43,16 @@ def running(session: Session) -> set[str]:
     return {controller["name"] for controller in listed if controller["state"] == "running"}
 
 
-@pytest.mark.parametrize("robot", ROBOTS)
-@pytest.mark.parametrize("name", sorted(set(LAUNCH_FILES) - TWO_ARMS))
-def test_a_launched_example_runs(name, robot, tmp_path, long_run):
-    if robot != ROBOTS[LAUNCH_FILES.index(name) % 2] and not long_run:
-        pytest.skip("Launched for the other robot; for both in the long form.")
+def launches():
+    """Each launch file with one of the robots; with the other one in the long form."""
+    again = pytest.mark.long_form("the same with the other robot")
+    for index, name in enumerate(sorted(set(LAUNCH_FILES) - TWO_ARMS)):
+        yield name, ROBOTS[index % 2]
+        yield pytest.param(name, ROBOTS[1 - index % 2], marks=again)
+
+
+@pytest.mark.parametrize("name, robot", launches())
+def test_a_launched_example_runs(name, robot, tmp_path):
     expected = {name.removesuffix(".launch"), "franka_state_controller"}
     with launch(name, robot, tmp_path) as session:
         session.wait_for_master()

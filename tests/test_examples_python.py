@@ -10,12 +10,17 @@ import subprocess
 import sys
 from pathlib import Path
 
+import nbformat
 import pytest
+from nbclient import NotebookClient
 from PIL import Image, ImageStat
 
 TOP = Path(__file__).resolve().parents[1]
 EXAMPLES = TOP / "examples" / "python"
 NO_PROGRAMS = {"common", "sweep_stiffness"}
+QUICK = {"first_steps", "impedance_in_python"}
+sys.path.append(str(TOP / "docs" / "site"))
+from docsite import notebooks  # noqa: E402
 
 
 @pytest.fixture(params=["panda", "fr3"])
@@ -64,6 +69,48 @@ def test_record_and_plot(run, tmp_path):
     assert samples == 1200
     assert force == pytest.approx(-400 * (0.42 - 0.37), rel=0.1), "of the spring, on the table"
     assert (tmp_path / "recording.npz").stat().st_size > 10000
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Of the notebooks."""
+    folder = tmp_path_factory.mktemp("notebooks")
+    notebooks.write(folder)
+    return folder
+
+
+def test_each_program_is_a_notebook_with_the_same_code(folder):
+    assert {path.stem for path in folder.glob("*.ipynb")} == {path.stem for path in EXAMPLES.glob("*.py")} - {
+        "common"
+    }
+    for path in folder.glob("*.ipynb"):
+        notebook = nbformat.read(path, as_version=4)
+        assert notebook.cells[0].cell_type == "markdown" and notebook.cells[0].source.startswith("# ")
+        code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+        assert len(code) >= 3
+        text = [f"# {cell.source}" for cell in notebook.cells[1:] if cell.cell_type == "markdown"]
+        _, _, program = (EXAMPLES / f"{path.stem}.py").read_text().partition("# %%\n")
+        rest = [
+            line for line in program.splitlines() if line and line not in ("# %%", "# %% [markdown]", *text)
+        ]
+        assert rest == [line for cell in code for line in cell.splitlines() if line]
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        pytest.param(name, marks=() if name in QUICK else pytest.mark.long_form("all notebooks"))
+        for name in sorted(path.stem for path in notebooks.programs())
+    ],
+)
+def test_a_notebook_runs_in_jupyter_and_shows_its_picture(folder, name):
+    notebook = nbformat.read(folder / f"{name}.ipynb", as_version=4)
+    NotebookClient(notebook, timeout=900, resources={"metadata": {"path": str(folder)}}).execute()
+    outputs = [output for cell in notebook.cells for output in cell.get("outputs", [])]
+    assert any("image/png" in output.get("data", {}) for output in outputs), "a picture"
+    assert not any(output.output_type == "error" for output in outputs)
+    picture = "stiffness" if name == "sweep_stiffness" else name
+    assert (folder / f"{picture}.png").exists()
 
 
 def test_each_example_has_a_test_and_each_picture_stands_in_the_documentation():

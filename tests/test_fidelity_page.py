@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """docs/fidelity.md: each line has its kind and names existing tests.
 
-Its figures, and those of docs/limits.md, equal the values in the code (page_figures.py).
+Its figures, and those of docs/design/limits.md, equal the values in the code (page_figures.py).
 """
 
 import re
@@ -25,7 +25,7 @@ IN_WORDS = (
     r"(?:(?:milli|micro)?seconds?|minutes?|(?:milli|centi)?metres?|degrees|percent|times)\b"
 )
 FIGURE = re.compile(rf"(?<![\w.]){page_figures.NUMBER}(?!\w)|{IN_WORDS}")
-ENTRIES = {"docs/fidelity.md": page_figures.fidelity, "docs/limits.md": page_figures.limits}
+ENTRIES = {"docs/fidelity.md": page_figures.fidelity, "docs/design/limits.md": page_figures.limits}
 KINDS = {"physics", "exact", "approximation"}
 
 
@@ -69,9 +69,9 @@ def test_rows_have_a_known_kind():
 
 
 def text_of(page):
-    """The text in one line, without the table of docs/limits.md, which test_limits_page.py compares."""
+    """The text in one line, without the table of docs/design/limits.md: test_limits_page.py compares it."""
     text = (TOP / page).read_text()
-    if page == "docs/limits.md":
+    if page == "docs/design/limits.md":
         text = re.sub(r"^\|.*$", "", text, flags=re.MULTILINE)
     return " ".join(text.split())
 

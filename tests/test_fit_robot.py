@@ -100,21 +100,39 @@ def test_recordings_that_cannot_be_used_are_refused(tmp_path):
     assert missing.returncode == 1 and str(recording) in missing.stderr
     recording.write_text("time,q1\n0,1\n20,1\n")
     wrong = fit(recording, tmp_path / "robot.yaml")
-    assert wrong.returncode == 1 and "is no recording" in wrong.stderr
+    assert wrong.returncode == 1 and "is not a recording" in wrong.stderr
     assert not (tmp_path / "robot.yaml").exists()
+
+
+def test_without_scipy_it_says_what_to_install(tmp_path):
+    """An image without plots has no SciPy."""
+    (tmp_path / "scipy").mkdir()
+    (tmp_path / "scipy" / "__init__.py").write_text("raise ImportError('no scipy')\n")
+    program = subprocess.check_output(["rospack", "find", "franka_description"], text=True).strip()
+    command = [f"{program}/scripts/fit_robot", "none.csv", tmp_path / "none.yaml"]
+    environment = os.environ | {"PYTHONPATH": f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"}
+    done = subprocess.run(command, text=True, capture_output=True, env=environment, timeout=60)
+    assert (done.returncode, done.stderr) == (
+        1,
+        "fit_robot: it needs the Python package scipy. Install python3-scipy.\n",
+    )
 
 
 def test_a_recording_at_rest_is_refused(tmp_path):
     recording = tmp_path / "recording.csv"
-    with simulated("panda", "100") as sim:
+    with simulated("panda", "lockstep") as sim:
         assert call("franka_info", "record", sim.address, recording, 10).returncode == 0
     result = fit(recording, tmp_path / "robot.yaml")
     assert result.returncode == 1 and "hardly move" in result.stderr
+    samples = recording.read_text().splitlines(keepends=True)
+    recording.write_text("".join([samples[0], *samples[1::10]]))
+    result = fit(recording, tmp_path / "robot.yaml")
+    assert result.returncode == 1 and "a sample is 0.05 s after the one before it" in result.stderr
 
 
 def test_a_recording_that_the_user_stop_ends_is_kept(tmp_path):
     recording = tmp_path / "recording.csv"
-    with simulated("panda", "5") as sim:
+    with simulated("panda", "patient") as sim:
         command = ["franka_info", "record", sim.address, str(recording), "30", "--move"]
         process = subprocess.Popen(command, text=True, stderr=subprocess.PIPE)
         deadline = time.monotonic() + 60
@@ -122,8 +140,8 @@ def test_a_recording_that_the_user_stop_ends_is_kept(tmp_path):
             assert time.monotonic() < deadline and process.poll() is None
         time.sleep(0.5)
         sim.remote.user_stop(True)
-        _, said = process.communicate(timeout=60)
-    assert process.returncode != 0 and str(recording) in said and "User" in said
+        _, printed = process.communicate(timeout=60)
+    assert process.returncode != 0 and str(recording) in printed and "User" in printed
     rows = recording.read_text().splitlines()
     assert len(rows) > 10 and len({row.count(",") for row in rows}) == 1
 

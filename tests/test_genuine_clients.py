@@ -294,8 +294,8 @@ print(before, robot.read_once().O_T_EE[14])
         assert "ended well" in text
         assert after == pytest.approx(before - 0.1, abs=1e-3)
         for line, sentence in (
-            ("wall 8 off", "no number of a wall"),
-            ("wall 0 0 0 0 1 1 1 0 0 0 0", "no orientation"),
+            ("wall 8 off", "not a number of a wall"),
+            ("wall 0 0 0 0 1 1 1 0 0 0 0", "not an orientation"),
             ("wall 0 0 0 0 -1 1 1", "negative edge"),
             ("wall 0 1 2 3", "Words are missing"),
         ):

@@ -2,44 +2,73 @@
 # SPDX-License-Identifier: Apache-2.0
 """The hand's latency over ROS: by the simulation's own controller, and by a hand's node on the network."""
 
-import json
-from pathlib import Path
-
 import pytest
-from franka_sim_mujoco.session import Session
+import rospy
+from actionlib_msgs.msg import GoalStatus
+from franka_gripper.msg import MoveAction, MoveActionResult, MoveGoal
+from ros_client import Action, launched
+from sensor_msgs.msg import JointState
 from stalls import in_time
+from waiting import wait_for
 
-CLIENT = Path(__file__).resolve().parent / "hand_latency_client.py"
-START, SHORTEST = 0.2, 1.0  # [s], franka_description's physics.yaml
-
-
-def moves_of(launch, log):
-    """Times of a small and a large move."""
-    with Session(*launch, log=log) as session:
-        session.wait_for_master()
-        result = session.run("/usr/bin/python3", str(CLIENT), check=False, timeout=200)
-        assert result.returncode == 0, f"{result.stderr}\n{session.tail(40)}"
-        session.check()
-    return json.loads(result.stdout.strip().splitlines()[-1])
-
-
-@pytest.mark.parametrize(
-    "launch",
-    [
-        ["franka_gazebo", "panda.launch", "headless:=true", "realism:=real"],
-        ["franka_control", "franka_control.launch", "sim:=true", "robot:=fr3", "robot_ip:=127.0.62.1"],
+START, MIN_DURATION = 0.2, 1.0  # [s], franka_description's physics.yaml
+WAIT = 120.0  # [s]
+MOVED = 2e-4  # [m]
+LAUNCHES = {
+    "ideal": ["franka_gazebo", "fr3.launch", "headless:=true"],
+    "in-simulation": ["franka_gazebo", "panda.launch", "headless:=true", "realism:=real"],
+    "over-the-network-by-default": [
+        *["franka_control", "franka_control.launch", "sim:=true", "robot:=fr3", "robot_ip:=127.0.62.1"]
     ],
-    ids=["in-simulation", "over-the-network-by-default"],
-)
-def test_moves_of_a_real_hand_take_a_second(launch, tmp_path):
-    moves = moves_of(launch, tmp_path / "launch.log")
-    assert all(move["took"] >= SHORTEST for move in moves.values()), moves
+}
+
+
+class Hand:
+    """The hand of a simulated robot, and how long each of its moves takes in simulated time."""
+
+    def __init__(self):
+        self._widths = []  # of all joint states: time, width [m]
+        self._results = []
+        rospy.Subscriber("/franka_gripper/joint_states", JointState, self._take, queue_size=1000)
+        rospy.Subscriber("/franka_gripper/move/result", MoveActionResult, self._results.append)
+        self._action = Action("/franka_gripper/move", MoveAction, WAIT)
+        wait_for(lambda: self._widths, "The first width")
+
+    def _take(self, state):
+        self._widths.append((state.header.stamp, sum(state.position)))
+
+    def move(self, width):
+        """Moves the fingers [m]. @returns times [s] until the first motion and until the result."""
+        before, count = self._widths[-1][1], len(self._results)
+        status, text = self._action.run(MoveGoal(width=width, speed=0.1), WAIT)
+        wait_for(lambda: len(self._results) > count, "The result")
+        result = self._results[-1]  # whose times do not depend on when this process gets it
+        begin = result.status.goal_id.stamp
+        assert status == GoalStatus.SUCCEEDED, text
+        moved = [time for time, value in list(self._widths) if time > begin and abs(value - before) > MOVED]
+        return {
+            "first": (moved[0] - begin).to_sec() if moved else None,
+            "took": (result.header.stamp - begin).to_sec(),  # exact, in whole nanoseconds
+        }
+
+    def moves(self):
+        """Times of a small and of a large move."""
+        self.move(0.04)
+        return {"small": self.move(0.041), "large": self.move(0.08)}
+
+
+@pytest.mark.own_process
+@pytest.mark.parametrize("name", ["in-simulation", "over-the-network-by-default"])
+def test_moves_of_a_real_hand_take_a_second(name, tmp_path):
+    with launched(*LAUNCHES[name], log=tmp_path / "launch.log"):
+        moves = Hand().moves()
+    assert all(move["took"] >= MIN_DURATION for move in moves.values()), moves
     assert moves["large"]["first"] >= START, moves
 
 
+@pytest.mark.own_process
 def test_an_ideal_hand_moves_at_once(tmp_path):
-    launch = ["franka_gazebo", "fr3.launch", "headless:=true"]
-    moves = in_time(
-        lambda: moves_of(launch, tmp_path / "launch.log"), lambda moves: moves["small"]["took"] < SHORTEST / 2
-    )
-    assert moves["small"]["took"] < SHORTEST / 2 and moves["large"]["first"] < START, moves
+    with launched(*LAUNCHES["ideal"], log=tmp_path / "launch.log"):
+        hand = Hand()
+        moves = in_time(hand.moves, lambda moves: moves["small"]["took"] < MIN_DURATION / 2)
+    assert moves["small"]["took"] < MIN_DURATION / 2 and moves["large"]["first"] < START, moves

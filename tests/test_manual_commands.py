@@ -1,18 +1,32 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The command lines of the manual's simulation chapter in a shell, with rviz on a screen."""
+"""The manual's pick and place with its own command lines in a shell, with rviz on a screen.
 
-import json
+Where the manual lets the user drag rviz's marker, the marker's feedback is published as rviz does it.
+"""
+
+import math
 import re
 import subprocess
 import time
 from pathlib import Path
 
 import pytest
+import rospy
+from franka_gripper.msg import (
+    GraspActionResult,
+    HomingActionResult,
+    MoveActionResult,
+    StopActionResult,
+)
+from franka_msgs.msg import ErrorRecoveryActionResult, FrankaState
+from franka_sim_mujoco.geometry import pose_of
+from franka_sim_mujoco.pick_and_place import Arm, Gripper, PickAndPlace, Scene, TaskError, wait_until
 from franka_sim_mujoco.session import ShellSession
-from screen import colours, move_window, virtual_screen, window_of
-
-HERE = Path(__file__).resolve().parent
+from franka_sim_mujoco.srv import SetRealTimeFactor
+from ros_client import call, join
+from screen import colours, move_window, virtual_screen, window_of, with_rviz
+from visualization_msgs.msg import InteractiveMarkerFeedback
 
 LAUNCH = """roslaunch franka_gazebo panda.launch x:=-0.5 \\
   world:=$(rospack find franka_gazebo)/world/stone.sdf \\
@@ -20,13 +34,179 @@ LAUNCH = """roslaunch franka_gazebo panda.launch x:=-0.5 \\
   rviz:=true
 """
 SUCCEEDED = 3
-PATIENCE = 120  # wall seconds
+PATIENCE = 120.0  # wall seconds for any wait
 WINDOW_WIDTH = 1200  # of the simulation and of rviz
 STONE_WIDTH = 0.032  # [m] between the fingers
 
 # Allowed warnings: about the stop; by Debian's joint_state_publisher, which after a stall of the machine
 # publishes twice at the same simulated time; by Debian's rviz, which searches for an optional package.
 LAWFUL = ["panda: user stop (pressed|released)", "TF_REPEATED_DATA", "no such package media_export"]
+
+NULLSPACE = """rosrun dynamic_reconfigure dynparam set \\
+  /cartesian_impedance_example_controller/dynamic_reconfigure_compliance_param_node nullspace_stiffness 10"""
+HOMING = "rostopic pub --once /franka_gripper/homing/goal franka_gripper/HomingActionGoal {}"
+OPEN = """rostopic pub --once /franka_gripper/move/goal franka_gripper/MoveActionGoal "goal: {
+width: 0.08, speed: 0.1 }\""""
+GRASP = """rostopic pub --once /franka_gripper/grasp/goal franka_gripper/GraspActionGoal "goal: {
+width: 0.03, epsilon: { inner: 0.005, outer: 0.005 }, speed: 0.1, force: 5.0 }\""""
+STOP = "rostopic pub --once /franka_gripper/stop/goal franka_gripper/StopActionGoal {}"
+PRESS = 'rosservice call /franka_control/set_user_stop "data: true"'
+RELEASE = 'rosservice call /franka_control/set_user_stop "data: false"'
+RECOVER = 'rostopic pub -1 /franka_control/error_recovery/goal franka_msgs/ErrorRecoveryActionGoal "{}"'
+CONFIGURE = """rosservice call /set_franka_model_configuration "joint_names: [panda_joint1]
+joint_positions: [{:.3f}]\""""
+
+JOINT_STEP = 0.05  # [rad]
+RVIZ_PERIOD = 1 / 30  # [s] between rviz's messages while its marker is dragged
+
+pytestmark = pytest.mark.own_process
+
+
+class Shell:
+    """Types lines; does not wait for a line that keeps running (rostopic pub, after its message)."""
+
+    def __init__(self):
+        self._lines = []
+
+    def begin(self, line: str) -> None:
+        pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.STDOUT, "stdin": subprocess.DEVNULL}
+        self._lines.append((line, subprocess.Popen(["bash", "-c", line], text=True, **pipes)))
+
+    def run(self, line: str) -> str:
+        self.begin(line)
+        return self._end(*self._lines.pop())
+
+    def end(self) -> None:
+        while self._lines:
+            self._end(*self._lines.pop(0))
+
+    def close(self) -> None:
+        for _, process in self._lines:
+            process.kill()
+
+    @staticmethod
+    def _end(line: str, process: subprocess.Popen) -> str:
+        output, _ = process.communicate(timeout=PATIENCE)
+        if process.returncode != 0:
+            raise TaskError(f"{line} ended with status {process.returncode}:\n{output}")
+        return output
+
+
+class DraggedArm(Arm):
+    """An arm whose target is the dragged marker."""
+
+    def __init__(self, arm_id: str, shell: Shell):
+        super().__init__(arm_id)
+        self._shell, self._last_sent = shell, 0.0
+        topic = "equilibrium_pose_marker/feedback"
+        self._publisher = rospy.Publisher(topic, InteractiveMarkerFeedback, queue_size=1)
+
+    def configure(self, **_) -> None:
+        self._shell.run(NULLSPACE)
+
+    def set_load(self, *_) -> None:
+        """Does nothing: the manual sets no load."""
+
+    def _lead(self, target) -> None:
+        if time.monotonic() - self._last_sent < RVIZ_PERIOD:
+            return
+        self._last_sent = time.monotonic()
+        feedback = InteractiveMarkerFeedback(client_id="/rviz", marker_name="equilibrium_pose")
+        feedback.header.frame_id = f"{self.arm_id}_link0"
+        feedback.event_type = InteractiveMarkerFeedback.POSE_UPDATE
+        feedback.pose = pose_of(target)
+        self._publisher.publish(feedback)
+
+
+class TypedGripper(Gripper):
+    """A gripper whose goals are typed, with the manual's widths, speeds and forces."""
+
+    RESULTS = {
+        "homing": HomingActionResult,
+        "move": MoveActionResult,
+        "grasp": GraspActionResult,
+        "stop": StopActionResult,
+    }
+
+    def __init__(self, shell: Shell):
+        super().__init__()
+        self._shell, self._results = shell, {name: [] for name in self.RESULTS}
+        for name, kind in self.RESULTS.items():
+            rospy.Subscriber(f"franka_gripper/{name}/result", kind, self._results[name].append)
+
+    def homing(self) -> None:
+        self._type("homing", HOMING)
+
+    def move(self, *_, **__) -> None:
+        self._type("move", OPEN)
+
+    def grasp(self, *_, **__) -> None:
+        self._type("grasp", GRASP)
+
+    def stop(self) -> None:
+        self._type("stop", STOP)
+
+    def _type(self, name: str, line: str) -> None:
+        results = self._results[name]
+        known = len(results)
+        self._shell.begin(line)
+        wait_until(lambda: len(results) > known, f"the result of: {line}", math.inf, PATIENCE)
+        if not results[-1].result.success:
+            raise TaskError(f"{line} failed: {results[-1].result.error or results[-1].status.text}")
+
+
+class Observed(PickAndPlace):
+    """Records the observations that the manual describes."""
+
+    def __init__(self, arm, gripper, scene):
+        super().__init__(arm, gripper, scene, lambda _: None)
+        self.seen = {}
+
+    def finger_gap(self) -> float:
+        hand = self.scene
+        left, right = (hand.pose(finger)[:3, 3] for finger in self.arm.fingers)
+        return math.dist(left, right)
+
+    def grip_force(self) -> float:
+        return self.scene.grip_force("stone", self.arm.fingers)
+
+    def note(self, name: str) -> None:
+        x, y, z = self.scene.pose("stone")[:3, 3]
+        self.seen[name] = {"gap": self.finger_gap(), "force": self.grip_force(), "stone": [x, y, z]}
+
+    def all_steps(self) -> dict:
+        self.note("begin")
+        self.prepare()
+        self.note("open")
+        self.pick()
+        self.note("lifted")
+        self.carry()
+        self.note("above the red tray")
+        self.place()
+        self.note("let go")
+        placed = self.placement()
+        self.seen["placed"] = {"in_tray": placed.in_tray, "distance": placed.distance}
+        return self.seen
+
+
+def stops(arm: Arm, shell: Shell) -> dict:
+    """The user stop; a joint is moved while the controller is disconnected; then recovery."""
+    recoveries = []
+    rospy.Subscriber("franka_control/error_recovery/result", ErrorRecoveryActionResult, recoveries.append)
+
+    def until(condition, what):
+        wait_until(condition, what, math.inf, PATIENCE)
+
+    answers = {"press": shell.run(PRESS)}
+    until(lambda: arm.state.robot_mode == FrankaState.ROBOT_MODE_USER_STOPPED, "the stop")
+    answers["release"] = shell.run(RELEASE)
+    until(lambda: arm.state.robot_mode == FrankaState.ROBOT_MODE_IDLE, "the end of the stop")
+    elsewhere = arm.state.q[0] + JOINT_STEP
+    answers["configure"] = shell.run(CONFIGURE.format(elsewhere))
+    until(lambda: abs(arm.state.q[0] - elsewhere) < 0.1 * JOINT_STEP, "joint 1 where it was put")
+    shell.begin(RECOVER)
+    until(lambda: arm.state.robot_mode == FrankaState.ROBOT_MODE_MOVE and recoveries, "the recovery")
+    return {"answers": answers, "recovery": recoveries[-1].status.status}
 
 
 def rviz_is_drawn(session, picture: Path) -> bool:
@@ -43,21 +223,41 @@ def rviz_is_drawn(session, picture: Path) -> bool:
     return False
 
 
-@pytest.fixture(scope="module")
-def seen(tmp_path_factory, long_run):
-    folder = tmp_path_factory.mktemp("manual")
-    with virtual_screen("2400x900x24"), ShellSession(LAUNCH, log=folder / "launch.log") as session:
+def shown_in_rviz(folder: Path) -> ShellSession:
+    """The launch, once rviz shows the robot."""
+    session = ShellSession(LAUNCH, log=folder / "launch.log").__enter__()
+    try:
         session.wait_for_master()
-        client = ["/usr/bin/python3", str(HERE / "manual_commands_client.py"), "1" if long_run else "4"]
-        result = session.run(*client, check=False, timeout=400)
-        print(result.stdout, result.stderr, session.tail(80), sep="\n")
-        assert result.returncode == 0, f"{result.stderr}\n{session.tail(60)}"
-        outcome = json.loads(result.stdout.strip().splitlines()[-1])
-        outcome["rviz_drawn"] = rviz_is_drawn(session, folder / "rviz.png")
-        outcome["rviz"] = session.run("rosnode", "info", "/rviz").stdout
-        session.check()
-        outcome["log"] = session.log.read_text(errors="replace")
-    return outcome
+        assert rviz_is_drawn(session, folder / "rviz.png"), session.tail(60)
+        return session
+    except BaseException:
+        session.stop()
+        raise
+
+
+@pytest.fixture(scope="module")
+def seen(tmp_path_factory, long_run) -> dict:
+    """What is seen while the manual's commands are typed."""
+    folder, shell = tmp_path_factory.mktemp("manual"), Shell()
+    with virtual_screen("2400x900x24"):
+        session = with_rviz(lambda: shown_in_rviz(folder), folder / "launch.log")
+        try:
+            join(session.environment["ROS_MASTER_URI"])
+            call("/gazebo/set_real_time_factor", SetRealTimeFactor, 1.0 if long_run else 4.0)
+            arm = DraggedArm("panda", shell)
+            seen = Observed(arm, TypedGripper(shell), Scene()).all_steps()
+            seen["stops"] = stops(arm, shell)
+            shell.end()
+            seen["rviz_drawn"] = rviz_is_drawn(session, folder / "rviz.png")
+            seen["rviz"] = session.run("rosnode", "info", "/rviz").stdout
+            session.check()
+            seen["log"] = session.log.read_text(errors="replace")
+            return seen
+        finally:
+            print(session.tail(80))
+            shell.close()
+            rospy.signal_shutdown("the test has ended")
+            session.stop()
 
 
 def test_the_fingers_open(seen):
@@ -78,7 +278,7 @@ def test_the_stone_stands_on_the_red_pad(seen):
 
 
 def test_the_user_stop_disconnects_until_recovery(seen):
-    assert all("success: True" in said for said in seen["stops"]["said"].values())
+    assert all("success: True" in answers for answers in seen["stops"]["answers"].values())
     assert seen["stops"]["recovery"] == SUCCEEDED
 
 

@@ -48,6 +48,8 @@ from network_fixtures import (
 )
 from stalls import TRIES, in_time
 
+pytestmark = pytest.mark.alone  # counts lost commands
+
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 ENDLESS = 60.0  # [s] of the robot's time: longer than any motion that a fault ends
 

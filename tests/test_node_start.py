@@ -22,14 +22,18 @@ ONE, ALL = "/franka_control", "/combined_panda"  # names of the nodes
 
 # The robot becomes silent, and shortly later a recovery is requested.
 ASK_RECOVERY = f"""
-import actionlib, os, rospy, rospy_connections, signal, sys
+import actionlib, os, rospy, rospy_connections, signal, sys, time
+from actionlib_msgs.msg import GoalStatus
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal
 rospy_connections.init_node("asks_for_recovery")
 client = actionlib.ActionClient("{ONE}/error_recovery", ErrorRecoveryAction)
 assert client.wait_for_server(rospy.Duration(20))
 os.kill(int(sys.argv[1]), signal.SIGSTOP)
 goal = client.send_goal(ErrorRecoveryGoal())
-rospy.sleep(1.0)  # no answer comes that could be waited for: the goal is to leave before the program does
+deadline = time.monotonic() + 20.0
+while goal.get_goal_status() != GoalStatus.ACTIVE:  # it has left before the program does
+    assert time.monotonic() < deadline, goal.get_goal_status()
+    time.sleep(0.01)
 """
 
 
@@ -205,9 +209,9 @@ def test_a_robot_of_another_type_is_reported_and_not_commanded(master, there, de
         assert node.prints(sentence), node.output
         assert node.prints(f"robot_description is {is_described}'s"), node.output
         assert node.prints("'/franka_control/ignore_robot_mismatch' is not true"), node.output
-        said = node.output.count(sentence)
-        assert said == 1
-        assert "Started" in manager(master, "spawn", STATES), "who only looks does no harm"
+        count = node.output.count(sentence)
+        assert count == 1
+        assert "Started" in manager(master, "spawn", STATES), "a read-only controller is accepted"
         assert "Started" not in manager(master, "spawn", TRAJECTORY)
         assert node.prints(f"'{TRAJECTORY}' cannot command 'panda'"), node.output
         assert node.output.count(sentence) == 2
@@ -266,7 +270,7 @@ def test_read_only_nodes_warn_about_another_robot(bare, master):
             ("franka_gripper", "franka_gripper_node", "hand"),
         ):
             with bare.node(package, kind, name) as node:
-                assert node.prints("'left_finger_joint1', which is no joint of '/robot_description'"), (
+                assert node.prints("'left_finger_joint1', which is not a joint of '/robot_description'"), (
                     node.output
                 )
 
@@ -390,8 +394,8 @@ def test_a_simulated_robot_needs_no_real_time_kernel(master):
     master.set(ONE + "/realtime_config", "enforce")
     with moving(master, (*ANYHOW, *UNPRIVILEGED)) as (node, robot):
         assert robot.remote.state().mode == "Move", node.output
-        said = node.output.count("The running kernel has no real-time support")
-        assert said == (0 if HAS_REALTIME else 1), node.output
+        count = node.output.count("The running kernel has no real-time support")
+        assert count == (0 if HAS_REALTIME else 1), node.output
 
 
 def test_a_node_with_several_simulated_arms_needs_no_real_time_kernel(master, robot):
@@ -402,6 +406,19 @@ def test_a_node_with_several_simulated_arms_needs_no_real_time_kernel(master, ro
     ):
         assert node.prints("going on without real-time priority"), node.output
         assert node.interrupt() < IN_TIME
+
+
+def test_a_node_with_several_arms_ends_without_real_time_privileges(master, robot):
+    """It controls from its main thread, so it refuses at its start."""
+    master.set(ALL + "/realtime_config", "enforce")
+    through = ("env", "FRANKA_REALTIME=enforce", *UNPRIVILEGED)  # as with real robots
+    with (
+        simulated("panda", "realtime", "--no-hand", address=OTHER) as other,
+        combined(master, through) as node,
+    ):
+        assert node.ends() == 1, node.output
+        assert "realtime_config:=ignore" in node.output
+        assert robot.remote.state().mode == other.remote.state().mode == "Idle"
 
 
 def test_a_motion_continues_without_the_master(tmp_path, urdf):
@@ -420,8 +437,8 @@ def test_a_node_waiting_for_a_recovery_exits_on_interrupt(master):
         robot.remote.push("panda_link7", (0, 0, -220), 60)
         assert node.prints("reflex"), node.output
         with woken_at_last(robot):
-            asked = master.run("/usr/bin/python3", "-c", ASK_RECOVERY, str(robot.server.process.pid))
-            assert asked.returncode == 0, asked
+            recovery = master.run("/usr/bin/python3", "-c", ASK_RECOVERY, str(robot.server.process.pid))
+            assert recovery.returncode == 0, recovery
             assert node.prints("recovering") and node.prints("the robot is lost"), node.output
             assert node.interrupt() < IN_TIME
 
@@ -447,6 +464,6 @@ def moving(master, through=()):
     master.set(ONE + "/robot_ip", OTHER)
     set_controllers(master, "panda")
     with one_with_robot(master, "lockstep", through) as (node, robot):
-        said = manager(master, "spawn", TRAJECTORY)
-        assert "Started" in said, f"{said}\n{node.output}"
+        answer = manager(master, "spawn", TRAJECTORY)
+        assert "Started" in answer, f"{answer}\n{node.output}"
         yield node, robot

@@ -29,8 +29,11 @@ FILES = {
         "launch/fr3.launch",
         "launch/panda.launch",
         "launch/robot.launch",
-        "models/stone/model.config",
-        "models/stone/model.sdf",
+        *(
+            f"models/{model}/{file}"
+            for model in ("pick_tray", "place_tray", "stone", "table")
+            for file in ("model.config", "model.sdf")
+        ),
         "world/stone.sdf",
     ],
     "franka_visualization": [
@@ -59,6 +62,19 @@ def test_franka_gazebo_exports_models_and_worlds():
     folder = rospkg.RosPack().get_path("franka_gazebo")
     assert f"franka_gazebo {folder}/models" in exported("gazebo_ros", "gazebo_model_path")
     assert f"franka_gazebo {folder}/world" in exported("gazebo_ros", "gazebo_resource_path")
+
+
+@pytest.mark.parametrize(
+    "package, file",
+    [
+        ("controller_interface", "franka_gripper_sim_plugin.xml"),
+        ("gazebo_ros_control", "franka_hw_sim_plugin.xml"),
+    ],
+)
+def test_franka_gazebo_exports_its_plugins_as_the_original(package, file):
+    manifest = rospkg.RosPack().get_manifest("franka_gazebo")
+    folder = rospkg.RosPack().get_path("franka_gazebo")
+    assert manifest.get_export(package, "plugin") == [f"{folder}/{file}"]
 
 
 def test_packages_find_libraries_and_headers_of_franka_gazebo(tmp_path):

@@ -35,9 +35,9 @@ def where(overlay: Overlay, launch: subprocess.Popen, log: Path) -> tuple[str, i
     while time.monotonic() < deadline:
         assert launch.poll() is None, log.read_text()
         result = overlay.shell("rosservice call /my_arm/where", overlay.folder / "devel", 60)
-        said = re.search(r'message: "(\w+) (\d+) (\S+)"', result.stdout)
-        if said:
-            answer = said[1], int(said[2]), float(said[3])
+        match = re.search(r'message: "(\w+) (\d+) (\S+)"', result.stdout)
+        if match:
+            answer = match[1], int(match[2]), float(match[3])
             if abs(answer[2] - (BEGIN + AWAY)) < 0.01:
                 return answer
         time.sleep(0.3)

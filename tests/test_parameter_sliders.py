@@ -5,20 +5,25 @@
 import json
 import re
 import subprocess
+import sys
 import time
+from pathlib import Path
 
 import pytest
+from docsite.dynamic_parameters import read_config
 from franka_sim_mujoco.session import Session
 from PIL import Image
 from pyfranka.remote import Remote
-from screen import children_of, drag, virtual_screen, window_of
+from screen import children_of, click, drag, press, virtual_screen, window_of
 
+EXAMPLES = Path(__file__).resolve().parent.parent / "catkin_ws/src/franka_example_controllers"
 ADDRESS = "127.0.7.21"
 CONTROLLER = "cartesian_impedance_example_controller"
 SERVER = f"/{CONTROLLER}/dynamic_reconfigure_compliance_param_node"
 PATIENCE = 90.0  # limit for reactions on a busy machine [s]
 SCALE_WIDTH, BORDER, KNOB = 364, 3, 30  # of the panel's sliders; [px]
 WAY = SCALE_WIDTH - 2 * BORDER - KNOB  # of the knob's centre [px]
+ENTRY_WIDTH, BUTTON_WIDTH = 96, 118  # [px]
 ABOVE_BOTTOM = 12  # position of the knob [px]
 STIFFEST = 400.0  # [N/m]
 PUSH = 8.0  # [N]
@@ -42,6 +47,21 @@ class Panel:
     def scales():
         window = window_of("Parameters")
         return [place for place in children_of(window) if place[2] == SCALE_WIDTH] if window else []
+
+    def type(self, number, *keys):
+        """Replaces the text of a number's entry."""
+        self._click(number, ENTRY_WIDTH)
+        press("a", hold="Control_L")
+        press(*keys, "Return")
+
+    def reset(self, number):
+        """Presses the button that sets the default."""
+        self._click(number, BUTTON_WIDTH)
+
+    def _click(self, number, width):
+        window = window_of("Parameters")
+        x, y, width, height = [place for place in children_of(window) if place[2] == width][number]
+        click(x + width // 2, y + height // 2)
 
     def shows(self, number, most):
         """The value at a slider's knob, which is brighter than the rest."""
@@ -139,6 +159,25 @@ def test_sliders_follow_changes_by_others(sliders):
     assert robot.parameters()["rotational_stiffness"] == 20.04
 
 
+def test_numbers_can_be_typed_and_reset(sliders):
+    session, panel, robot = sliders
+
+    def is_set(name, value):
+        wait_for(session, lambda: robot.parameters()[name] == value, f"{name} is {value}")
+
+    panel.type(0, "3", "0", "7", "period", "5")
+    is_set("translational_stiffness", 307.5)
+    assert panel.shows(0, STIFFEST) == pytest.approx(307.5, abs=2.0)
+    panel.type(0, "4", "0", "1")  # beyond the limit: refused, in red
+    panel.type(1, "7")
+    is_set("rotational_stiffness", 7.0)
+    assert robot.parameters()["translational_stiffness"] == 307.5
+    panel.reset(0)
+    panel.reset(1)
+    is_set("translational_stiffness", 200.0)
+    is_set("rotational_stiffness", 10.0)
+
+
 def test_a_stopped_controller_keeps_its_sliders(sliders):
     session, panel, robot = sliders
     robot.controller("stop")
@@ -155,3 +194,62 @@ def test_sliders_appear_and_disappear_with_their_controller(sliders):
     wait_for(session, lambda: len(panel.scales()) == 3, "the sliders come back")
     panel.pull(0, panel.shows(0, STIFFEST), -STIFFEST, STIFFEST)
     wait_for(session, lambda: robot.parameters()["translational_stiffness"] == 0.0, "the new value")
+
+
+# A process of its own: Tk ends a process whose screen has gone.
+LABELS = """
+import json, sys, tkinter
+from importlib.machinery import SourceFileLoader
+
+def texts_of(widget):
+    own = [str(widget["text"])] if "text" in widget.keys() else []
+    return own + [text for child in widget.winfo_children() for text in texts_of(child)]
+
+sliders = SourceFileLoader("parameter_sliders", sys.argv[1]).load_module()
+root, found = tkinter.Tk(), []
+for parameter in json.load(sys.stdin):
+    frame = tkinter.Frame(root)
+    sliders.Row(frame, 0, parameter, lambda value: None)
+    found.append(texts_of(frame))
+print(json.dumps(found))
+"""
+
+
+def labels_of(parameters: list) -> list[list[str]]:
+    """The texts of the panel's labels and buttons for each of the parameters of a .cfg file."""
+    described = [
+        {
+            "name": each.name,
+            "type": each.type,
+            "description": each.meaning,
+            "min": float(each.lowest),
+            "max": float(each.highest),
+            "default": float(each.default),
+        }
+        for each in parameters
+    ]
+    program = [sys.executable, "-c", LABELS, str(EXAMPLES / "scripts/parameter_sliders")]
+    with virtual_screen():
+        return json.loads(
+            subprocess.run(
+                program,
+                input=json.dumps(described),
+                stdout=subprocess.PIPE,
+                text=True,
+                check=True,
+                timeout=60,
+            ).stdout
+        )
+
+
+@pytest.mark.parametrize("name", ["compliance_param", "desired_mass_param", "teleop_gripper_param"])
+def test_each_number_has_its_unit_limits_and_default(name):
+    """What the panel shows of the examples' parameters, as their .cfg files give them."""
+    parameters = read_config(EXAMPLES / "cfg" / f"{name}.cfg").parameters
+    for parameter, texts in zip(parameters, labels_of(parameters), strict=True):
+        unit = re.search(r"\[(.*)\]", parameter.meaning)
+        assert (unit is None) == (parameter.name == "k_p"), "all but one have a unit"
+        assert {parameter.name, unit[1] if unit else ""} <= set(texts)
+        limits = {f"{parameter.lowest:g}", f"{parameter.highest:g}", f"Reset to {parameter.default:g}"}
+        assert limits <= set(texts)
+        assert not any("[" in text for text in texts), "the unit stands in its own column"

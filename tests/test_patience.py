@@ -19,17 +19,21 @@ from genuine_clients import client_python
 from lock_step import begin_motion, moved, stopped
 from pyfranka.franka_sim import FrankaSim, SimRobot
 from pyfranka.sim import LineRefused
+from waiting import wait_for
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 STOP, PAUSE = (35.0, 31.0) if LONG else (3.0, 0.7)  # [s]
 FOREVER = ["--patience", "forever"]
-MOST = 20.0  # [s] for reactions
+MAX_REACTION_TIME = 20.0  # [s] for reactions
 
 
-@pytest.mark.parametrize("library", ["pyfranka", "panda"])
-def test_a_stopped_client_finishes_its_motion_with_the_same_hash(library):
+@pytest.mark.parametrize(
+    ("library", "robot"),
+    [("pyfranka", "panda"), ("pyfranka", "fr3"), ("panda", "panda"), ("pylibfranka", "fr3")],
+)
+def test_a_stopped_client_finishes_its_motion_with_the_same_hash(library, robot):
     python = sys.executable if library == "pyfranka" else client_python(library)
-    with simulated("panda", "lockstep", *FOREVER) as sim, client_process(library, python) as client:
+    with simulated(robot, "lockstep", *FOREVER) as sim, client_process(library, python) as client:
         assert client.run_task("connect", address=sim.address)["outcome"] == "ok"
         undisturbed = moved(sim, client)
         assert moved(sim, client, process=client.process, seconds=STOP) == undisturbed
@@ -50,13 +54,6 @@ def waiting():
         yield client, server["panda"], server["fr3"]
 
 
-def eventually(condition):
-    deadline = time.monotonic() + MOST
-    while not condition():
-        assert time.monotonic() < deadline, condition
-        time.sleep(0.01)
-
-
 def test_a_second_robot_and_the_control_ports_work_meanwhile():
     with waiting() as (client, one, other), client_process("pyfranka") as second:
         robot = other.connect()
@@ -71,7 +68,7 @@ def test_a_second_robot_and_the_control_ports_work_meanwhile():
         assert second.run_task("connect", address=other.address)["outcome"] == "ok"
         assert second.run_task("set_load")["outcome"] == "ok"
         second.give("move", seconds=0.2, amplitude=0.0)
-        eventually(lambda: other.remote.state().mode == "Move")
+        wait_for(lambda: other.remote.state().mode == "Move")
         time.sleep(2.0)  # a client gives up after a second without a state
         os.kill(client.process.pid, signal.SIGCONT)
         assert client.result()["outcome"] == "ok"
@@ -81,7 +78,7 @@ def test_a_second_robot_and_the_control_ports_work_meanwhile():
 def test_the_user_stop_ends_the_wait():
     with waiting() as (client, one, _):
         one.remote.user_stop(True)
-        eventually(lambda: one.remote.state().mode == "User stopped")
+        wait_for(lambda: one.remote.state().mode == "User stopped")
         os.kill(client.process.pid, signal.SIGCONT)
         assert "ControlException" in client.result()["outcome"]
         one.remote.user_stop(False)
@@ -89,10 +86,10 @@ def test_the_user_stop_ends_the_wait():
         assert client.run_task("move", seconds=0.1, amplitude=0.0)["outcome"] == "ok"
 
 
-def test_the_death_of_the_client_ends_the_wait():
+def test_disconnect_of_the_client_ends_the_wait():
     with waiting() as (client, one, _), client_process("pyfranka") as successor:
         client.process.kill()
-        eventually(lambda: one.remote.state().mode != "Move")
+        wait_for(lambda: one.remote.state().mode != "Move")
         assert successor.run_task("connect", address=one.address)["outcome"] == "ok"
         assert successor.run_task("recover")["mode"] == "Idle"
         assert successor.run_task("move", seconds=0.1, amplitude=0.0)["outcome"] == "ok"
@@ -109,7 +106,7 @@ def test_the_simulation_ends_while_it_waits(end):
                 sim.remote.quit()
             else:
                 process.send_signal(end)
-            assert process.wait(MOST) == 0
+            assert process.wait(MAX_REACTION_TIME) == 0
         assert "NetworkException" in client.result()["outcome"]
 
 

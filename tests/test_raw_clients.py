@@ -197,9 +197,12 @@ def test_a_second_client_is_refused_without_side_effects(raw):
         assert state.mode == IDLE
 
 
+@pytest.mark.parametrize(
+    "raw",
+    ["panda", pytest.param("fr3", marks=pytest.mark.long_form("the same for every robot"))],
+    indirect=True,
+)
 def test_a_silent_connection_frees_the_robot(raw):
-    if raw.kind != "panda" and not LONG:
-        pytest.skip("The same for every robot; both in the long form.")
     with Client(raw.address, raw.protocol) as silent:
         assert silent.ended(10.0)
     connected(raw).close()

@@ -26,11 +26,10 @@ def test_controller_manager_under_thread_sanitizer(long_run):
     assert result.returncode == 0, result.stdout[-6000:]
 
 
+@pytest.mark.long_form("builds libfranka and its tests again")
 @pytest.mark.parametrize("sanitizer", ["address,undefined", "thread"])
-def test_client_under_sanitizers(long_run, sanitizer):
-    """libfranka needs no ROS, so all its tests run instrumented (separate build: long form only)."""
-    if not long_run:
-        pytest.skip("builds libfranka and its tests anew: ./franka test --long")
+def test_client_under_sanitizers(sanitizer):
+    """libfranka needs no ROS, so all its tests run instrumented."""
     build = TOP / "out" / f"libfranka-{sanitizer.split(',')[0]}"
     source = TOP / "catkin_ws" / "src" / "libfranka"
     flags = f"-O1 -g -fsanitize={sanitizer} -fno-sanitize-recover=undefined"
@@ -43,10 +42,9 @@ def test_client_under_sanitizers(long_run, sanitizer):
         run(["setarch", "-R", program], 1800)
 
 
-def test_hardware_interface_under_thread_sanitizer(long_run, tmp_path):
-    """Loop, setters, switches, lost and new connections (separate build: long form only)."""
-    if not long_run:
-        pytest.skip("builds franka_hw and what is below it anew: ./franka test --long")
+@pytest.mark.long_form("builds franka_hw and what is below it again")
+def test_hardware_interface_under_thread_sanitizer(tmp_path):
+    """Loop, setters, switches, lost and new connections."""
     build = TOP / "out" / "franka_hw-thread"
     # Inline functions of boost stay hidden: otherwise Debian's roscpp might lock with our instrumented copies
     # and unlock with its own, and every lock would be reported.

@@ -114,6 +114,8 @@ def test_the_build_prints_it_and_catkin_skips_the_packages(tmp_path, originals):
     copied = project / "catkin_ws" / "src"
     copied.mkdir(parents=True)
     shutil.copy(TOP / "franka", project / "franka")
+    for name in ("unity_build.cmake", "compile_commands.py"):
+        shutil.copy(TOP / "catkin_ws" / name, copied.parent)
     (copied / "CMakeLists.txt").symlink_to("/usr/share/catkin/cmake/toplevel.cmake")
     for name in ("hardware_interface", "controller_interface", "controller_manager", "realtime_tools"):
         package = copied / name
@@ -133,7 +135,7 @@ def test_the_build_prints_it_and_catkin_skips_the_packages(tmp_path, originals):
         timeout=240,
     )
     assert result.returncode == 0, result.stdout + result.stderr
-    said = re.search(r"This machine has the originals of (.*): ours are left out", result.stdout)
-    assert said, result.stdout
-    assert {"hardware_interface", "controller_manager"} <= set(said.group(1).split(", "))
+    match = re.search(r"This machine has the originals of (.*): ours are left out", result.stdout)
+    assert match, result.stdout
+    assert {"hardware_interface", "controller_manager"} <= set(match.group(1).split(", "))
     assert re.findall(r"BUILT OURS: (\w+)", result.stdout) == ["realtime_tools"]

@@ -65,6 +65,12 @@ def run(*arguments: str, monkeypatch) -> int:
     [
         ("text", "a.h", LICENCE + "#pragma once\n", LICENCE),
         ("text", "catkin_ws/src/libfranka/a.cpp", LICENCE, LICENCE + "#include <ros/ros.h>\n"),
+        (
+            "text",
+            "a.cpp",
+            LICENCE + "/// Steps. Real-time safe.\n",
+            LICENCE + "/// Steps. Real-time safe: no lock.\n",
+        ),
         ("ruff", "a.py", "import os\n\nprint(os.name)\n", "import os\n"),
         ("ruff", "program", "#!/usr/bin/env python3\nprint(1)\n", "#!/usr/bin/env python3\nprint( 1 )\n"),
         ("clang-format", "a.cpp", "int a = 1;\n", "int a=1;\n"),
@@ -79,6 +85,54 @@ def test_check_passes_clean_file_and_fails_dirty_one(repository, check, name, cl
     assert run(check, monkeypatch=monkeypatch) == 1
 
 
+@pytest.mark.parametrize(
+    "note",
+    [
+        "Called by one thread. Real-time safe.",
+        "Waits. (At most 5 s.) Not real-time safe. Thread-safe.",
+        "Thread-safe. Real-time safe. Exception: the constructor.",
+        "Runs in the real-time thread.",
+    ],
+)
+def test_fixed_note_on_threads_passes(note):
+    assert list(style.note_findings("a.h", f"/// {note}\nint step();\n")) == []
+
+
+@pytest.mark.parametrize(
+    "note",
+    [
+        "Real-time safe; one thread.",
+        "Steps. Real-time\n/// safe.",
+        "Steps. Not\n/// real-time safe.",
+        "read() is real-time safe.",
+        "Real-time safe if copying is.",
+        "Thread-safe, not real-time safe.",
+        "Not thread-safe.",
+        "Steps. Any thread.",
+        "Safe in the 1 kHz loop.",
+        "Sorts; not for the\n/// control loop.",
+    ],
+)
+def test_other_note_on_threads_is_refused(note):
+    findings = list(style.note_findings("a.h", f"/// {note}\nint step();\n"))
+    assert findings and "is not one of the fixed notes" in findings[0]
+
+
+@pytest.mark.parametrize(
+    "line", ["constexpr int kMostClients = 8;", '"x" is no number', "// Starts anew.", "// Whoever calls it"]
+)
+def test_replaced_word_is_refused(line):
+    findings = list(style.word_findings("a.h", f"{line}\n"))
+    assert findings and "docs/glossary.md" in findings[0]
+
+
+@pytest.mark.parametrize(
+    "line", ["// There is no number.", "// It is no longer valid.", "// an almost full list"]
+)
+def test_similar_words_pass(line):
+    assert list(style.word_findings("a.h", line)) == []
+
+
 def test_clang_tidy_fails_on_a_name_in_a_changed_file_only(repository, monkeypatch, capfd):
     old = repository.add("old.cpp", "class old_name {};\n")
     new = repository.add("new.cpp", "class NewName {};\n")
@@ -88,8 +142,10 @@ def test_clang_tidy_fails_on_a_name_in_a_changed_file_only(repository, monkeypat
     assert run("clang-tidy", monkeypatch=monkeypatch) == 0
     repository.add("new.cpp", "class new_name {};\n")
     assert run("clang-tidy", monkeypatch=monkeypatch) == 1
-    said = capfd.readouterr().out
-    assert "new.cpp:1:7: error: invalid case style for class 'new_name'" in said and "old_name" not in said
+    printed = capfd.readouterr().out
+    assert (
+        "new.cpp:1:7: error: invalid case style for class 'new_name'" in printed and "old_name" not in printed
+    )
     assert run("clang-tidy", "--long", monkeypatch=monkeypatch) == 1
     assert "old_name" in capfd.readouterr().out
 
@@ -101,7 +157,67 @@ def test_clang_tidy_without_a_build_fails_with_a_message(repository, monkeypatch
     assert "run ./franka build" in capsys.readouterr().err
 
 
-@pytest.mark.parametrize("check, tool", [("ruff", "ruff"), ("clang-tidy", "clang-tidy-22")])
+DECLARED = """\
+#include <stdexcept>
+#include <string>
+#include <vector>
+namespace franka {
+void limit();
+void show() noexcept;
+inline void check(int n) { if (n > 3) throw std::invalid_argument("n"); }
+"""
+ESCAPES = {  # a line, and what it calls
+    "void shape() noexcept { limit(); }": "franka::shape is noexcept, but franka::limit may throw",
+    "struct Motion { ~Motion() { limit(); } };": "franka::move is noexcept, but franka::limit may throw",
+    "int third(const std::vector<int>& list) noexcept { return list.at(2); }": (
+        "franka::third is noexcept, but std::__throw_out_of_range_fmt may throw"
+    ),
+    'void jump() noexcept { throw std::logic_error("j"); }': (
+        "franka::jump is noexcept, but throw of std::logic_error may throw"
+    ),
+}
+HARMLESS = [
+    "void move() { Motion motion; show(); }",
+    "void append(std::vector<int>& list) noexcept { list.push_back(1); show(); }",
+    "void caught() noexcept { try { limit(); } catch (const std::exception&) {} }",
+    "void swallowed() noexcept { try { limit(); } catch (...) {} }",
+    "void thrower() { limit(); check(9); }",
+    "void known(int n) noexcept { check(n); }  // NOLINT(nothrow): n is small",
+]
+
+
+def nothrow_findings(repository, lines, monkeypatch, capfd):
+    source = repository.add("src/a.cpp", DECLARED + "\n".join([*lines, "}", ""]))
+    # What tests do is their own matter.
+    in_test = repository.add("src/test/a_test.cpp", source.read_text())
+    repository.describe_build(source, in_test)
+    status = run("nothrow", "--long", monkeypatch=monkeypatch)
+    found = [line for line in capfd.readouterr().out.splitlines() if not line.startswith("nothrow: ")]
+    assert (status == 0) == (found == [])
+    return set(found)
+
+
+def test_nothrow_names_each_noexcept_function_that_calls_what_throws(repository, monkeypatch, capfd):
+    lines = [*ESCAPES, *HARMLESS, "void checked(int n) noexcept { check(n); }"]
+    first = DECLARED.count("\n") + 1
+    expected = {f"src/a.cpp:{first + i}: {what}" for i, what in enumerate(ESCAPES.values())}
+    expected.add("src/a.cpp:7: franka::checked is noexcept, but throw of std::invalid_argument may throw")
+    assert nothrow_findings(repository, lines, monkeypatch, capfd) == expected
+
+
+def test_nothrow_passes_what_catches_throws_or_runs_out_of_memory(repository, monkeypatch, capfd):
+    lines = ["struct Motion { ~Motion() { show(); } };", *HARMLESS]
+    assert nothrow_findings(repository, lines, monkeypatch, capfd) == set()
+
+
+def test_nothrow_reports_a_source_that_it_cannot_read(repository, monkeypatch, capfd):
+    (found,) = nothrow_findings(repository, ["void shape() { unknown(); }"], monkeypatch, capfd)
+    assert "a.cpp cannot be compiled by clang++-22" in found
+
+
+@pytest.mark.parametrize(
+    "check, tool", [("ruff", "ruff"), ("clang-tidy", "clang-tidy-22"), ("nothrow", "clang++-22")]
+)
 def test_missing_tool_fails_with_a_message(repository, check, tool, monkeypatch, capsys):
     repository.add("a.py", "")
     monkeypatch.setattr(sys, "executable", str(repository.folder / "python3"))
@@ -121,8 +237,8 @@ def test_unknown_check_is_refused_with_a_list_of_checks(monkeypatch, capsys):
     with pytest.raises(SystemExit) as ending:
         run("pylint", monkeypatch=monkeypatch)
     assert ending.value.code == 2
-    said = capsys.readouterr().err
-    assert "no check pylint" in said and "clang-tidy" in said
+    printed = capsys.readouterr().err
+    assert "no check pylint" in printed and "clang-tidy" in printed
 
 
 def test_changes_count_from_the_merge_base(repository):

@@ -2,62 +2,145 @@
 # SPDX-License-Identifier: Apache-2.0
 """The two-arm examples by their launch files, each on two simulated robots."""
 
-import json
-from pathlib import Path
-
+import numpy as np
 import pytest
-from franka_sim_mujoco.session import Session
-from stalls import in_time
+import rospy
+from franka_msgs.msg import FrankaState
+from geometry_msgs.msg import PoseStamped
+from pyfranka.remote import Remote
+from ros_client import launched
+from visualization_msgs.msg import InteractiveMarkerFeedback
+from waiting import wait_for
 
-HERE = Path(__file__).resolve().parent
+LEFT_FROM_RIGHT = np.array([0.0, 1.0, 0.0])  # [m] base of the left arm in the right one's: dual_panda_example
+DRAG, STEPS, DRAG_PERIOD = np.array([0.03, 0.0, 0.04]), 20, 0.1  # [m], [s]
+LIMIT = 60.0  # wall seconds for any wait
+LEADER = "127.0.7.13"
 
 
-@pytest.fixture(params=["panda", "fr3"])
-def robot(request, long_run):
-    if request.param == "fr3" and not long_run:
-        pytest.skip("FR3s follow the same launch files; they take part in the long form.")
+@pytest.fixture(
+    params=[
+        "panda",
+        pytest.param("fr3", marks=pytest.mark.long_form("FR3s follow the same launch files")),
+    ]
+)
+def robot(request):
     return request.param
 
 
-def outcome_of(log, robot, launch, arguments, client):
+def launched_pair(launch, robot, *arguments, log):
     launch = ["franka_example_controllers", launch, "sim:=true", "rviz:=false", "rqt:=false", *arguments]
     # Under friction, soft arms rest millimetres off their target.
-    with Session(*launch, f"robot_type:={robot}", "realism:=ideal", log=log) as session:
-        session.wait_for_master()
-        command = ["/usr/bin/python3", str(HERE / "two_arm_controllers_client.py"), robot, *client]
-        result = session.run(*command, check=False, timeout=200)
-        print(result.stdout, result.stderr, session.tail(60), sep="\n")
-        assert result.returncode == 0, f"{result}\n{session.tail(60)}"
-        session.check()
-        return json.loads(result.stdout.strip().splitlines()[-1])
+    return launched(*launch, f"robot_type:={robot}", "realism:=ideal", log=log)
 
 
+class Arms:
+    """Stores the last states of two arms, and every pair of states with the same time."""
+
+    def __init__(self, namespace, names):
+        self.last, self.pairs, self.names = {}, [], names
+        for name in names:
+            topic = f"{namespace}/{name}_state_controller/franka_states"
+            rospy.Subscriber(topic, FrankaState, self._take, callback_args=name)
+
+    def _take(self, state, name):
+        self.last[name] = state
+        states = [self.last.get(name) for name in self.names]
+        if all(states) and abs((states[0].header.stamp - states[1].header.stamp).to_sec()) < 0.0015:
+            self.pairs.append(states)
+
+    def moving(self):
+        modes = [self.last[name].robot_mode for name in self.names if name in self.last]
+        return modes == [FrankaState.ROBOT_MODE_MOVE] * 2
+
+    def wait(self, seconds):
+        """Waits for a duration of the robots' time, because a busy machine may be slower."""
+        first = self.names[0]
+        end = self.last[first].time + seconds
+        wait_for(lambda: self.last[first].time >= end, f"The end of {seconds} s", LIMIT)
+
+    def speed(self):
+        return max(abs(v) for name in self.names for v in self.last[name].dq)
+
+
+def relative(states):
+    """Pose of the left end effector in the right one's."""
+    right, left = (np.array(state.O_T_EE).reshape(4, 4).T for state in states)
+    left = left.copy()
+    left[:3, 3] += LEFT_FROM_RIGHT
+    return np.linalg.inv(right) @ left
+
+
+@pytest.mark.own_process
 def test_two_arms_hold_their_relative_pose_while_the_marker_is_dragged(robot, tmp_path):
-    addresses = [f"robot_ips:={{{robot}_1/robot_ip: 127.0.7.11, {robot}_2/robot_ip: 127.0.7.12}}"]
+    addresses = f"robot_ips:={{{robot}_1/robot_ip: 127.0.7.11, {robot}_2/robot_ip: 127.0.7.12}}"
     launch = "dual_arm_cartesian_impedance_example_controller.launch"
-    outcome = outcome_of(tmp_path / "launch.log", robot, launch, addresses, ["dual"])
-    assert outcome["pairs"] > 20
-    assert outcome["worst"] < 1e-3  # [m]
-    assert outcome["still_moving_under_control"]
+    with launched_pair(launch, robot, addresses, log=tmp_path / "launch.log"):
+        namespace, right, left = f"/{robot}_dual", f"{robot}_1", f"{robot}_2"
+        frames = []
+        controller = namespace + "/dual_arm_cartesian_impedance_example_controller"
+        rospy.Subscriber(controller + "/centering_frame", PoseStamped, frames.append)
+        hand = rospy.Publisher(
+            namespace + "/target_pose_marker/feedback", InteractiveMarkerFeedback, queue_size=10
+        )
+        arms = Arms(namespace, [right, left])
+        wait_for(
+            lambda: arms.moving() and frames and hand.get_num_connections(), "The controller's start", LIMIT
+        )
+        wait_for(lambda: arms.speed() < 1e-3, "Rest", LIMIT)
+        begin, first = frames[-1].pose, relative([arms.last[name] for name in arms.names])
+        start = np.array([begin.position.x, begin.position.y, begin.position.z])
+        arms.pairs.clear()
+        for step in range(1, STEPS + 1):
+            feedback = InteractiveMarkerFeedback(client_id="test", marker_name="target_pose")
+            feedback.header.frame_id = left + "_link0"
+            feedback.event_type = InteractiveMarkerFeedback.POSE_UPDATE
+            x, y, z = start + DRAG * step / STEPS
+            feedback.pose.position.x, feedback.pose.position.y, feedback.pose.position.z = x, y, z
+            feedback.pose.orientation = begin.orientation
+            hand.publish(feedback)
+            arms.wait(DRAG_PERIOD)
+
+        def offset():
+            at = frames[-1].pose.position
+            return np.array([at.x, at.y, at.z]) - start
+
+        wait_for(lambda: np.linalg.norm(offset() - DRAG) < 5e-3, "The motion to the marker", LIMIT)
+        wait_for(lambda: arms.speed() < 1e-3, "Rest at the marker", LIMIT)
+        changes = [relative(pair) - first for pair in list(arms.pairs)]
+        assert arms.moving()
+    assert len(changes) > 20
+    assert max(np.linalg.norm(change[:3, 3]) for change in changes) < 1e-3  # [m]
 
 
+@pytest.mark.own_process
 def test_the_follower_follows_a_pushed_leader(robot, tmp_path):
     """The follower's stiff law tolerates no stalls: its torques stay constant while the loop stalls.
 
     On slow robots a stall of the machine lasts fewer ticks.
     """
-    addresses = ["leader_ip:=127.0.7.13", "follower_ip:=127.0.7.14", "pace:=0.25"]
+    addresses = [f"leader_ip:={LEADER}", "follower_ip:=127.0.7.14", "pace:=0.25"]
     launch = "teleop_joint_pd_example_controller.launch"
+    with launched_pair(launch, robot, *addresses, log=tmp_path / "launch.log"):
+        arms = Arms(f"/{robot}_teleop", ["leader", "follower"])
+        wait_for(arms.moving, "The controller's start", LIMIT)
 
-    def attempt():
-        try:
-            return outcome_of(tmp_path / "launch.log", robot, launch, addresses, ["teleop", "127.0.7.13"])
-        except AssertionError as error:
-            return error
+        def error():
+            leader, follower = (np.array(arms.last[name].q) for name in arms.names)
+            return float(np.abs(leader - follower).max())
 
-    outcome = in_time(attempt, lambda outcome: not isinstance(outcome, AssertionError))
-    if isinstance(outcome, AssertionError):
-        raise outcome
-    assert outcome["leader"] > 0.05 and outcome["follower"] > 0.05  # [rad]
-    assert outcome["error"] < 2e-3  # [rad]
-    assert outcome["still_moving_under_control"]
+        wait_for(lambda: error() < 0.01 and arms.speed() < 1e-2, "Alignment", LIMIT)
+        begin = [np.array(arms.last[name].q) for name in arms.names]
+
+        def moved():
+            return [np.abs(np.array(arms.last[name].q) - q).max() for name, q in zip(arms.names, begin)]
+
+        Remote(LEADER).push("leader_link7", (0, 12, 0), 300)
+        wait_for(lambda: moved()[0] > 0.05, "A motion of the pushed leader", LIMIT)
+        arms.wait(0.5)
+        wait_for(lambda: moved()[1] > 0.05, "A motion of the follower", LIMIT)
+        wait_for(lambda: error() < 1e-3 and arms.speed() < 0.05, "The follower's arrival", LIMIT)
+        leader, follower = moved()
+        assert leader > 0.05 and follower > 0.05  # [rad]
+        assert error() < 2e-3  # [rad]
+        assert arms.moving()

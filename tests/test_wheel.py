@@ -18,13 +18,14 @@ from pathlib import Path
 import pytest
 from bare_debian import BareDebian, bare_debian, possible
 from fci_session import simulated
-from genuine_clients import LOCKS, client_python, locked, pip
+from genuine_clients import LOCKS, client_python, files, locked, pip
 
 TOP = Path(__file__).resolve().parent.parent
 SUPPORT = TOP / "tests" / "support"
 PICK_AND_PLACE = SUPPORT / "wheel_pick_and_place.py"
 GENUINE_CLIENT = SUPPORT / "wheel_genuine_client.py"
 PACKAGE = TOP / "python" / "src" / "pyfranka"
+with_extras = pytest.mark.long_form("downloads the packages of all extras")
 # What the wheel takes from the machine: libraries of every Debian that has Python.
 OF_THE_SYSTEM = {
     "ld-linux-x86-64.so.2",
@@ -37,6 +38,8 @@ OF_THE_SYSTEM = {
 # Entry points of modules: pyproject.toml must declare them as soon as the sources have the module.
 OF_MODULES = {
     "desk": ("console_scripts", "franka_desk", "pyfranka.desk.cli:main"),
+    "franka_plot": ("console_scripts", "franka_plot", "pyfranka.franka_plot:main"),
+    "run": ("console_scripts", "pyfranka-run", "pyfranka.run:main"),
     "pytest_plugin": ("pytest11", "pyfranka.pytest_plugin", "pyfranka.pytest_plugin"),
     "sweeps": ("console_scripts", "pyfranka-sweep", "pyfranka.sweeps:main"),
     "meshes": ("console_scripts", "pyfranka-meshes", "pyfranka.meshes:main"),
@@ -72,11 +75,11 @@ def archive(wheel):
 class Environment:
     """A virtual environment with the wheel and what it requires, and nothing of this machine's packages."""
 
-    def __init__(self, folder: Path, wheel: Path):
+    def __init__(self, folder: Path, wheel: Path, lock: str = "wheel", extras: str = ""):
         self.folder, self.bin = folder, folder / "venv" / "bin"
         subprocess.run(["/usr/bin/python3", "-m", "venv", folder / "venv"], check=True, timeout=300)
-        # --no-index: what the wheel requires has to be in the lock.
-        for words in (locked("wheel"), ["--no-index", str(wheel)]):
+        # What the wheel requires has to be in the lock.
+        for words in (files(lock), ["--no-index", f"{wheel}{extras}"]):
             result = pip(self.bin / "python", "install", *words)
             assert result.returncode == 0, result.stderr
 
@@ -103,6 +106,18 @@ def environment(wheel, tmp_path_factory) -> Environment:
     return Environment(tmp_path_factory.mktemp("wheel"), wheel)
 
 
+@pytest.fixture(scope="session")
+def tested(wheel, tmp_path_factory) -> Environment:
+    """With pytest beside it, as a project that uses the plugin has it."""
+    return Environment(tmp_path_factory.mktemp("tested"), wheel, "wheel-pytest")
+
+
+@pytest.fixture(scope="session")
+def complete(wheel, tmp_path_factory) -> Environment:
+    """With the packages of all extras."""
+    return Environment(tmp_path_factory.mktemp("complete"), wheel, "wheel-extras", "[gym,cluster,plot,desk]")
+
+
 def metadata(archive: zipfile.ZipFile, file: str) -> str:
     (name,) = [name for name in archive.namelist() if name.endswith(f".dist-info/{file}")]
     return archive.read(name).decode()
@@ -116,17 +131,20 @@ def test_the_wheel_is_named_after_the_release_and_this_python(wheel):
     assert re.fullmatch(rf"pyfranka-{version}-{python}-{python}-manylinux_\w+\.whl", wheel.name)
 
 
-def test_the_metadata_name_what_users_need(archive):
-    told = Parser().parsestr(metadata(archive, "METADATA"))
-    assert told.get_all("Provides-Extra") == ["desk", "gym", "cluster"]
-    assert told.get_all("Requires-Dist")[0] == "numpy"
+def test_metadata_has_extras_and_requirements(archive):
+    metadata_fields = Parser().parsestr(metadata(archive, "METADATA"))
+    assert metadata_fields.get_all("Provides-Extra") == ["desk", "gym", "plot", "cluster"]
+    assert metadata_fields.get_all("Requires-Dist")[0] == "numpy"
     for extra, names in (
         ("desk", {"aiohttp", "cryptography"}),
         ("gym", {"gymnasium"}),
+        ("plot", {"matplotlib"}),
         ("cluster", {"dask", "distributed", "pyarrow"}),
     ):
         required = [
-            line for line in told.get_all("Requires-Dist") if f"extra == '{extra}'" in line.replace('"', "'")
+            line
+            for line in metadata_fields.get_all("Requires-Dist")
+            if f"extra == '{extra}'" in line.replace('"', "'")
         ]
         assert {re.match(r"\w+", line).group() for line in required} >= names
 
@@ -164,7 +182,7 @@ def test_the_page_of_desk_comes_with_its_libraries(archive):
     assert sum(of_page) < 1e6
 
 
-def test_nothing_but_the_libraries_of_every_debian_is_missing(archive, tmp_path):
+def test_only_libraries_of_every_debian_are_missing(archive, tmp_path):
     archive.extractall(tmp_path)
     files = [path for path in tmp_path.rglob("*") if path.is_file()]
     programs = [path for path in files if path.read_bytes()[:4] == b"\x7fELF"]
@@ -172,15 +190,15 @@ def test_nothing_but_the_libraries_of_every_debian_is_missing(archive, tmp_path)
     assert {"franka_sim", "franka_info", "libfranka_sim_physics.so"} <= there
     missing = {}
     for path in programs:
-        said = subprocess.check_output(["readelf", "--dynamic", "--wide", path], text=True)
-        if lost := set(re.findall(r"\(NEEDED\).*\[(.*)\]", said)) - there:
+        printed = subprocess.check_output(["readelf", "--dynamic", "--wide", path], text=True)
+        if lost := set(re.findall(r"\(NEEDED\).*\[(.*)\]", printed)) - there:
             missing[path.name] = lost
     assert not missing
     # Nor does it look for anything in this machine's clone.
     assert [path.name for path in files if os.fsencode(TOP) in path.read_bytes()] == []
 
 
-def test_licences_of_bundled_libraries_come_along(archive):
+def test_licences_of_bundled_libraries_are_included(archive):
     folders = {Path(name).parent.name for name in archive.namelist() if ".dist-info/licenses/" in name}
     bundled = [Path(name).name for name in archive.namelist() if name.startswith("pyfranka.libs/")]
     assert bundled and any(name.startswith("libmujoco") for name in bundled)
@@ -209,7 +227,7 @@ def test_pick_and_place_has_the_bits_of_the_workspace(environment, carried):
     assert seen["hash"] == carried["hash"]
 
 
-def test_libraries_of_a_sourced_workspace_are_not_taken(environment):
+def test_libraries_of_a_sourced_workspace_are_not_used(environment):
     code = "import pyfranka; print(open('/proc/self/maps').read())"
     variables = {"LD_LIBRARY_PATH": f"{TOP}/catkin_ws/devel/lib:/usr/lib/x86_64-linux-gnu"}
     result = environment.run("python", "-c", code, variables=variables)
@@ -270,13 +288,45 @@ def test_desk_names_the_packages_that_it_needs(environment):
         assert program.wait(20) == 0
 
 
-@pytest.mark.parametrize("program", ["franka_sim", "franka_info", "pyfranka-meshes"])
+PROGRAMS = ["franka_sim", "franka_info", "pyfranka-meshes", "pyfranka-run", "pyfranka-sweep"]
+
+
+@pytest.mark.parametrize("program", PROGRAMS)
 def test_its_programs_answer_help(environment, program):
     result = environment.run(program, "--help")
     assert result.returncode == 0 and "usage" in result.stdout.lower()
 
 
-def test_what_needs_ros_says_so(environment):
+def test_a_sweep_names_the_packages_that_it_needs(environment):
+    script = environment.folder / "cases.py"
+    script.write_text("def case(index, seed):\n    return index\n")
+    result = environment.run("pyfranka-sweep", str(script), "--cases", "4")
+    assert result.returncode == 2 and "pip install pyfranka[cluster]" in result.stderr, result.stderr
+
+
+OF_A_PROJECT = """
+import pyfranka
+
+def test_of_a_project(panda):
+    robot = panda.connect()
+    assert robot.read_once().robot_mode == pyfranka.RobotMode.Idle
+    panda.remote.user_stop(True)
+    assert panda.remote.state().mode == "User stopped"
+"""
+
+
+def check_plugin(environment: Environment):
+    """Its entry point registers the fixtures; no option and no conftest.py does."""
+    (environment.folder / "test_of_a_project.py").write_text(OF_A_PROJECT)
+    result = environment.run("pytest", "-q", "test_of_a_project.py")
+    assert result.returncode == 0 and "1 passed" in result.stdout, result.stdout + result.stderr
+
+
+def test_the_plugin_is_found_by_its_entry_point(tested):
+    check_plugin(tested)
+
+
+def test_programs_that_need_ros_print_a_message(environment):
     code = 'pyfranka.ModelKDL("<robot/>", "link0", "link8")'
     result = environment.run("python", "-c", f"import pyfranka; {code}")
     assert "RuntimeError: ModelKDL needs ROS" in result.stderr and "Robot.load_model" in result.stderr
@@ -328,11 +378,12 @@ def test_types_are_found_by_a_type_checker(environment, archive):
 # ---- long form -------------------------------------------------------------------------------------------
 
 
+ON_BARE_DEBIAN = pytest.mark.long_form("makes a bare Debian")
+
+
 @pytest.fixture(scope="session")
-def bare(long_run, wheel, tmp_path_factory):
+def bare(wheel, tmp_path_factory):
     """A bare Debian of this machine's release with Python's venv, in it an environment with the wheel."""
-    if not long_run:
-        pytest.skip("a long form: makes a bare Debian")
     if reason := possible():
         pytest.skip(reason)
     with bare_debian(tmp_path_factory.mktemp("bare"), "python3-venv") as bare:
@@ -389,22 +440,93 @@ def check_genuine_client_on(bare: BareDebian):
     assert json.loads(bare.must(*arguments)) == {"cycles": 1000, "mode": "RobotMode.kIdle"}
 
 
+@ON_BARE_DEBIAN
 def test_simulations_run_on_a_bare_debian(bare, quick_start, carried):
     assert check_simulation_on(bare, quick_start) == carried["hash"]
 
 
+@ON_BARE_DEBIAN
 def test_meshes_are_installed_on_a_bare_debian(bare):
     check_meshes_on(bare)
 
 
+@ON_BARE_DEBIAN
 def test_genuine_panda_python_drives_its_robot_on_a_bare_debian(bare):
     client_python("panda")  # skips if PyPI has none for this Python
     check_genuine_client_on(bare)
 
 
-def test_meshes_are_in_the_pictures(long_run, environment):
-    if not long_run:
-        pytest.skip("a long form: downloads the meshes")
+EPISODE = """
+import gymnasium, pyfranka.gym
+for robot in ("panda", "fr3"):
+    env = gymnasium.make("pyfranka/PickAndPlace-v0", robot=robot)
+    observation, info = env.reset(seed=1)
+    policy, done = pyfranka.gym.scripted_policy(env), False
+    while not done:
+        observation, reward, terminated, truncated, info = env.step(policy(observation))
+        done = terminated or truncated
+    print(info["is_success"])
+    env.close()
+"""
+
+
+@with_extras
+def test_an_episode_of_gymnasium_runs_with_its_extra(complete):
+    assert complete.python(EPISODE).split() == ["True", "True"]
+
+
+@with_extras
+def test_the_plugin_works_beside_all_extras(complete):
+    check_plugin(complete)
+
+
+@with_extras
+def test_a_sweep_runs_with_its_extra(complete):
+    script = complete.folder / "cases.py"
+    script.write_text(
+        "from pyfranka.sim import Simulation\n"
+        "def case(index, seed):\n"
+        "    with Simulation(seed=seed) as sim:\n"
+        "        sim.step(100 + index)\n"
+        "        return {'ticks': sim.ticks}\n"
+    )
+    result = complete.run("pyfranka-sweep", str(script), "--cases", "4")
+    assert result.returncode == 0 and "4 cases, 0 failed" in result.stdout, result.stdout + result.stderr
+    code = """
+        import pyarrow.parquet
+        print(pyarrow.parquet.read_table("cases.parquet")["result.ticks"].to_pylist())
+    """
+    assert complete.python(code) == "[100, 101, 102, 103]\n"
+
+
+@with_extras
+def test_a_plot_is_drawn_with_its_extra(complete):
+    result = complete.run("franka_plot", "--help")
+    assert result.returncode == 0 and "usage" in result.stdout.lower(), result.stderr
+    complete.python("import pyfranka.plot")
+
+
+@with_extras
+def test_desk_serves_its_page_with_its_extra(complete):
+    code = """
+        import ssl, subprocess, sys, urllib.request
+        program = [sys.prefix + "/bin/franka_sim", "--ip", "127.0.61.10", "--desk"]
+        with subprocess.Popen(program, stdout=subprocess.PIPE, text=True) as served:
+            try:
+                while "Desk" not in (line := served.stdout.readline()):
+                    assert line, "franka_sim has ended"
+                trusting = ssl._create_unverified_context()
+                address = next(word for word in line.split() if word.startswith("https://"))
+                page = urllib.request.urlopen(address.rstrip(".,"), context=trusting, timeout=30).read()
+                print(page.count(b"<html"), len(page) > 500)
+            finally:
+                served.terminate()
+    """
+    assert complete.python(code).split() == ["1", "True"]
+
+
+@pytest.mark.long_form("downloads the meshes")
+def test_meshes_are_in_the_pictures(environment):
     assert environment.run("pyfranka-meshes").returncode == 0
     code = """
         import pyfranka.meshes

@@ -1,7 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Gives an FR3 targets now and then; the robot plans its own motion to each (protocol 10).
 #include <chrono>
 #include <franka/async_control/async_position_control_handler.hpp>
 #include <memory>
@@ -10,8 +8,13 @@
 
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "Gives an FR3 targets now and then; the robot plans its own motion to each (protocol 10).";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     using Handler = franka::AsyncPositionControlHandler;
     auto robot = std::make_shared<franka::Robot>(example::ready(address));
     const Handler::ConfigurationResult made =

@@ -1,14 +1,18 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// A torque controller: a spring and a damper hold the end effector, which yields when it is pushed.
 #include <franka/model.h>
 
 #include "cartesian.h"
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "A torque controller: a spring and a damper hold the end effector, which yields when it "
+    "is pushed.";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     franka::Robot robot = example::ready(address);
     const franka::Model model = robot.loadModel();
     const example::Vector6 stiffness =

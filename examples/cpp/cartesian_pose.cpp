@@ -1,11 +1,14 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Moves the end effector on a circle, by poses. The robot solves the inverse kinematics.
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "Moves the end effector on a circle, by poses. The robot solves the inverse kinematics.";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     franka::Robot robot = example::ready(address);
     constexpr double kDuration = 5, kRadius = 0.08;  // [s] [m]
     double time = 0, lowest = 1e9, highest = -1e9;

@@ -1,11 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Moves the end effector by velocities: down and up again, while it turns about the vertical.
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "Moves the end effector by velocities: down and up again, while it turns about the "
+    "vertical.";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     franka::Robot robot = example::ready(address);
     constexpr double kDuration = 4, kDown = 0.1, kTurn = 0.3;  // [s] [m] [rad]
     const double before = robot.readOnce().O_T_EE[14];

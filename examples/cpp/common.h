@@ -13,7 +13,8 @@
 #include <string>
 
 /// @file
-/// What the examples share: their command line, a smooth path, and the way to the start pose.
+/// Common parts of the examples: their command line, a smooth path, and the motion to the start
+/// pose.
 
 namespace example {
 
@@ -65,10 +66,20 @@ inline franka::Robot ready(const std::string& address) {
 }
 
 /// Runs an example with the robot's address, the only argument. Errors become a message.
-inline int run(int argc, char** argv, const std::function<void(const std::string&)>& example) {
-  if (argc != 2) {
-    std::fprintf(stderr, "usage: %s ADDRESS   (of a robot; keep the user stop at hand)\n", argv[0]);
-    return 2;
+/// @param description of the example: --help prints it
+inline int run(int argc, char** argv, const char* description,
+               const std::function<void(const std::string&)>& example) {
+  const std::string word = argc > 1 ? argv[1] : "";
+  const bool help = word == "-h" || word == "--help";
+  if (help || argc != 2 || word.rfind('-', 0) == 0) {
+    std::fprintf(
+        help ? stdout : stderr,
+        "usage: %s ADDRESS\n\n%s\n\n"
+        "ADDRESS is that of a robot, real or simulated. A real robot moves at once: keep the "
+        "user stop at hand.\n"
+        "Exit status: 0; 1 after an error; 2 for wrong arguments.\n",
+        argv[0], description);
+    return help ? 0 : 2;
   }
   try {
     example(argv[1]);

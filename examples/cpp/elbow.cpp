@@ -1,11 +1,14 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Swings the elbow to the side while the end effector stays where it is.
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "Swings the elbow to the side while the end effector stays where it is.";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     franka::Robot robot = example::ready(address);
     constexpr double kDuration = 5, kSwing = 0.25;  // [s] [rad]
     double time = 0, elbow_moved = 0, hand_moved = 0;

@@ -1,14 +1,17 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Provokes a reflex by a jump in the commanded positions, shows what the exception tells, recovers
-// and moves on.
 #include <franka/control_types.h>
 
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "Provokes a reflex by a jump in the commanded positions, prints the exception, "
+    "recovers and moves on.";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     franka::Robot robot = example::ready(address);
     double time = 0;
     try {

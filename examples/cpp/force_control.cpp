@@ -1,14 +1,16 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Goes down until the hand touches something firm, then presses on it with a force: a controller of
-// the measured external force with an integrator. Springs hold the hand in all other directions.
 #include <franka/model.h>
 
 #include "cartesian.h"
 #include "common.h"
 
 namespace {
+
+constexpr char kDescription[] =
+    "Goes down until the hand touches something firm, then presses on it with a force: a "
+    "controller of the measured external force with an integrator. Springs hold the hand in "
+    "all other directions.";
 
 using example::Vector6;
 using example::Vector7;
@@ -35,7 +37,7 @@ void goDownUntilContact(franka::Robot& robot) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     franka::Robot robot = example::ready(address);
     const franka::Model model = robot.loadModel();
     goDownUntilContact(robot);
@@ -48,9 +50,9 @@ int main(int argc, char** argv) {
     double time = 0, integral = 0, pressed = 0;
     robot.control([&](const franka::RobotState& state, franka::Duration period) {
       time += period.toSec();
-      const double wanted = kForce * example::smooth(time, 1);
+      const double desired = kForce * example::smooth(time, 1);
       pressed = contactForce(state);
-      integral += kIntegral * (wanted - pressed) * period.toSec();
+      integral += kIntegral * (desired - pressed) * period.toSec();
       integral = std::clamp(integral, -kForce, kForce);
 
       const std::array<double, 42> columns = model.zeroJacobian(franka::Frame::kEndEffector, state);
@@ -58,7 +60,7 @@ int main(int argc, char** argv) {
       const Vector6 velocity = jacobian * Vector7::Map(state.dq.data());
       const Vector6 error = example::difference(goal, example::toPose(state.O_T_EE));
       Vector6 wrench = stiffness.cwiseProduct(error) - damping.cwiseProduct(velocity);
-      wrench[2] -= wanted + kGain * (wanted - pressed) + integral;
+      wrench[2] -= desired + kGain * (desired - pressed) + integral;
       const std::array<double, 7> coriolis = model.coriolis(state);
       franka::Torques command({0, 0, 0, 0, 0, 0, 0});
       Vector7::Map(command.tau_J.data()) =

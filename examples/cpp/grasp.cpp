@@ -1,7 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Homes the hand, opens it, grasps what is put between the fingers and lets it go.
 #include <franka/gripper.h>
 
 #include <chrono>
@@ -9,8 +7,13 @@
 
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "Homes the hand, opens it, grasps what is put between the fingers and lets it go.";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     const franka::Gripper gripper(address);
     if (!gripper.homing()) {
       throw franka::CommandException("The homing has failed: is something between the fingers?");

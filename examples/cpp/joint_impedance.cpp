@@ -1,14 +1,17 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// A torque controller: springs and dampers at the joints follow a path. Gravity is the robot's own
-// task; the Coriolis torques come from the model.
 #include <franka/model.h>
 
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "A torque controller: springs and dampers at the joints follow a path. Gravity is the "
+    "robot's own task; the Coriolis torques come from the model.";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     franka::Robot robot = example::ready(address);
     const franka::Model model = robot.loadModel();
     constexpr std::array<double, 7> kStiffness{600, 600, 600, 600, 250, 150, 50};  // [Nm/rad]

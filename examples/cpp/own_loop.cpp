@@ -1,16 +1,19 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// A motion whose loop belongs to the program: it reads a state and writes a command, without a
-// callback.
 #include <franka/active_control_base.h>
 
 #include <memory>
 
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "A motion whose loop belongs to the program: it reads a state and writes a command, "
+    "without a callback.";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     franka::Robot robot = example::ready(address);
     constexpr double kDuration = 3, kWay = 0.3;  // [s] [rad]
     const std::unique_ptr<franka::ActiveControlBase> motion = robot.startJointPositionControl(

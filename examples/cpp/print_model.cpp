@@ -1,13 +1,17 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Prints what the model says of the present state: frames, mass matrix, gravity. Moves nothing.
 #include <franka/model.h>
 
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "Prints the model's results at the present state: frames, mass matrix, gravity. Moves "
+    "nothing.";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     franka::Robot robot(address, franka::RealtimeConfig::kIgnore);
     const franka::Model model = robot.loadModel();
     const franka::RobotState state = robot.readOnce();

@@ -1,11 +1,14 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// Reads the robot's state for a second and prints where the arm is. Moves nothing.
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "Reads the robot's state for a second and prints where the arm is. Moves nothing.";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     franka::Robot robot(address, franka::RealtimeConfig::kIgnore);
     std::printf("protocol %d\n", robot.serverVersion());
     int states = 0;

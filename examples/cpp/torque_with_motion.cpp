@@ -1,14 +1,17 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-//
-// A motion generator of the robot together with one's own torque controller: the robot turns poses
-// into desired joint positions, which the program's springs follow.
 #include <franka/model.h>
 
 #include "common.h"
 
+namespace {
+constexpr char kDescription[] =
+    "A motion generator of the robot together with one's own torque controller: the robot "
+    "turns poses into desired joint positions, which the program's springs follow.";
+}  // namespace
+
 int main(int argc, char** argv) {
-  return example::run(argc, argv, [](const std::string& address) {
+  return example::run(argc, argv, kDescription, [](const std::string& address) {
     franka::Robot robot = example::ready(address);
     const franka::Model model = robot.loadModel();
     constexpr double kDuration = 4, kWay = 0.1;  // [s] [m]

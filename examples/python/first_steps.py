@@ -7,13 +7,12 @@
 Writes first_steps.png.
 """
 
-import matplotlib
-
-matplotlib.use("Agg")  # no display
+# %%
 from common import BASE, options
 from matplotlib import pyplot
 from pyfranka.sim import Simulation
 
+# %%
 arguments, Robot = options(__doc__)
 with Simulation("stone.xml", [Robot(base=BASE)]) as sim:
     robot = sim[Robot.kind]
@@ -29,4 +28,8 @@ with Simulation("stone.xml", [Robot(base=BASE)]) as sim:
     sim.step(500)
     print("after 3 s:", robot.state.q.round(3), robot.state.robot_mode, opening.outcome)
 
-    pyplot.imsave(arguments.output / "first_steps.png", sim.render(width=640, height=480).rgb)
+    picture = sim.render(width=640, height=480).rgb
+
+# %%
+pyplot.imsave(arguments.output / "first_steps.png", picture)
+pyplot.imshow(picture)

@@ -1,15 +1,13 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A Cartesian impedance controller in Python at 1 kHz: someone pushes the hand, and it yields like a spring.
+"""A Cartesian impedance controller in Python at 1 kHz: a push moves the hand, which yields like a spring.
 
     python3 impedance_in_python.py [--robot fr3] [--output FOLDER]
 
-Prints how far the hand yielded beside what the spring says, and writes impedance_in_python.png.
+Prints the measured deflection and that of an ideal spring, and writes impedance_in_python.png.
 """
 
-import matplotlib
-
-matplotlib.use("Agg")  # no display
+# %%
 import numpy
 from common import options
 from matplotlib import pyplot
@@ -23,13 +21,23 @@ PUSH = (500, 2500)  # first and last tick
 TICKS = 4000
 
 
+# %% [markdown]
+# A small turn is a vector, so position and orientation have one spring each, with six stiffnesses.
+
+
+# %%
 def error_of(pose, target):
-    """What turns and moves the target into the pose, in the axes of O: 3 [m] and 3 [rad] (small angles)."""
+    """The translation and rotation from the target to the pose, in the axes of O: 3 [m] and 3 [rad] (small
+    angles)."""
     turn = pose[:3, :3] @ target[:3, :3].T
     skew = 0.5 * (turn - turn.T)
     return numpy.concatenate([pose[:3, 3] - target[:3, 3], [skew[2, 1], skew[0, 2], skew[1, 0]]])
 
 
+# %% [markdown]
+# The controller computes a torque for each tick. Meanwhile a force acts on the hand for two seconds.
+
+# %%
 arguments, Robot = options(__doc__)
 with Simulation(robots=[Robot()]) as sim:
     robot, model = sim[Robot.kind], sim[Robot.kind].model
@@ -50,6 +58,7 @@ with Simulation(robots=[Robot()]) as sim:
         sim.step()
         moved[tick] = state.O_T_EE[:3, 3] - target[:3, 3]
 
+# %%
 yielded = moved[PUSH[1] - 100 : PUSH[1], 1].mean()
 print(f"yielded {1e3 * yielded:.2f} mm; the spring says {1e3 * FORCE / STIFFNESS[1]:.2f} mm")
 

@@ -7,13 +7,12 @@
 Writes pick_and_place.png: before, and after. The task itself stands in sweep_stiffness.py.
 """
 
-import matplotlib
-
-matplotlib.use("Agg")  # no display
+# %%
 from common import options
 from matplotlib import pyplot
 from sweep_stiffness import PickAndPlace
 
+# %%
 arguments, Robot = options(__doc__)
 task = PickAndPlace(Robot, stiffness=800.0, seed=1)
 with task.sim as sim:
@@ -22,6 +21,7 @@ with task.sim as sim:
     after = sim.render(width=480, height=360).rgb
 print("placed" if result["placed"] else "missed", f"{1e3 * result['distance']:.0f} mm from the tray's middle")
 
+# %%
 figure, axes = pyplot.subplots(1, 2, figsize=(9.6, 3.6))
 for one, picture in zip(axes, (before, after), strict=True):
     one.imshow(picture)

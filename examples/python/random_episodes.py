@@ -7,10 +7,8 @@
 Writes random_episodes.png: how far from its goal the hand of Reach ended.
 """
 
+# %%
 import gymnasium
-import matplotlib
-
-matplotlib.use("Agg")  # no display
 import numpy
 import pyfranka.gym
 from common import options
@@ -34,6 +32,7 @@ def distances(env, make_policy, episodes):
     return ends
 
 
+# %%
 arguments, _ = options(__doc__)
 env = gymnasium.make("pyfranka/Reach-v0", robot=arguments.robot)
 env.action_space.seed(1)
@@ -46,6 +45,7 @@ for name, values in ends.items():
     reached = numpy.mean(numpy.less(values, 0.02))
     print(f"{name}: {1e3 * numpy.median(values):.0f} mm (median), {reached:.0%} reached")
 
+# %%
 figure, axes = pyplot.subplots(figsize=(7, 3.5))
 axes.hist([1e3 * numpy.array(values) for values in ends.values()], bins=25, label=list(ends))
 axes.set_xlabel("end effector from its goal at the end [mm]")

@@ -7,9 +7,7 @@
 Writes recording.npz and record_and_plot.png. The arm has the friction and the noise of a recorded one.
 """
 
-import matplotlib
-
-matplotlib.use("Agg")  # no display
+# %%
 import numpy
 from common import BASE, options
 from matplotlib import pyplot
@@ -31,6 +29,7 @@ def record(robot, sim, ticks):
     return {name: numpy.array(values) for name, values in rows.items()}
 
 
+# %%
 arguments, Robot = options(__doc__)
 file = arguments.output / "recording.npz"
 with Simulation("stone.xml", [Robot(base=BASE, realism="recorded")], seed=1) as sim:
@@ -41,6 +40,7 @@ with Simulation("stone.xml", [Robot(base=BASE, realism="recorded")], seed=1) as 
     robot.cartesian_impedance(down, duration=4.0, stiffness=[400.0] * 3 + [30.0] * 3)
     numpy.savez_compressed(file, **record(robot, sim, TICKS))
 
+# %%
 with numpy.load(file) as recording:
     time = recording["time"]
     figure, axes = pyplot.subplots(3, 1, figsize=(7, 7), sharex=True)

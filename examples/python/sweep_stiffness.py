@@ -9,7 +9,9 @@ Cartesian impedance controller below a slow policy. A soft arm stops short of it
 stone, or places it badly. Called again, the sweep goes on where it was interrupted.
 """
 
+# %%
 import argparse
+import sys
 from pathlib import Path
 
 import numpy
@@ -26,6 +28,7 @@ WIDTH, FORCE = 0.032, 20.0  # of the stone between the fingers [m], of the grasp
 SPEED, TURN_SPEED = 0.15, 0.4  # [m/s, rad/s], mean
 SETTLE = 500  # ticks after a motion
 POLICY = 50  # ticks between two decisions
+NOTEBOOK = "ipykernel" in sys.modules
 
 
 def downwards(position):
@@ -35,6 +38,7 @@ def downwards(position):
     return pose
 
 
+# %%
 class PickAndPlace:
     """The task: a world with a robot, a random scene, and a policy that carries the stone."""
 
@@ -100,6 +104,7 @@ class PickAndPlace:
         }
 
 
+# %%
 def case(case, seed):
     """One case of the sweep. The scene is the same for each stiffness, so the sweep's seed is not used."""
     task = PickAndPlace(KINDS[case["robot"]], case["stiffness"], case["scene"])
@@ -111,7 +116,8 @@ def heat_map(done, stiffnesses, scenes, path):
     """Draws how far from the tray's middle the stone ended; white: not in the tray."""
     import matplotlib
 
-    matplotlib.use("Agg")  # no display
+    if not NOTEBOOK:
+        matplotlib.use("Agg")  # no display
     from matplotlib import pyplot
 
     distances = numpy.full((len(stiffnesses), scenes), numpy.nan)
@@ -151,5 +157,6 @@ def main(arguments=None):
     heat_map(done, list(options.stiffnesses), options.scenes, options.output / "stiffness.png")
 
 
+# %%
 if __name__ == "__main__":
-    main()
+    main([] if NOTEBOOK else None)

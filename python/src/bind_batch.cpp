@@ -5,27 +5,30 @@
 #include <pybind11/stl.h>
 
 #include <deque>
+#include <map>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "bindings.h"
 #include "shared_simulation.h"
+#include "step_hooks.h"
 
 namespace pyfranka {
 
 namespace {
 
 using Worlds = std::vector<std::shared_ptr<Shared>>;
-using Names = std::optional<std::vector<std::string>>;
+using ObservedNames = std::optional<std::vector<std::string>>;
 
 /// A batch that keeps its simulations alive and uses all of them during a call.
 class Batch {
  public:
-  Batch(Worlds worlds, int threads, const Names& observe)
+  Batch(Worlds worlds, int threads, const ObservedNames& observe)
       : worlds_(std::move(worlds)),
-        batch_(simulations(worlds_), threads,
-               observe ? *observe : franka_sim::Observer::usualNames(worlds_.at(0)->simulation())) {
-  }
+        batch_(
+            simulations(worlds_), threads,
+            observe ? *observe : franka_sim::Observer::defaultNames(worlds_.at(0)->simulation())) {}
 
   /// Calls a function with the batch, without the interpreter's lock.
   template <typename Function>
@@ -41,6 +44,29 @@ class Batch {
     const py::gil_scoped_release free;
     function(batch_);
   }
+  /// Steps all, warns, and ends at Ctrl-C.
+  void step(std::uint64_t ticks) {
+    std::map<std::string, std::string> warnings;
+    use([&](franka_sim::SimulationBatch& batch) {
+      batch.step(ticks, noSignal);
+      warnings = takeWarnings();
+    });
+    raiseSignal();
+    for (const auto& [warning, worlds] : warnings) {
+      const bool one = worlds.find(',') == std::string::npos;
+      warnOfStep((one ? "World " : "Worlds ") + worlds + ": " + warning);
+    }
+  }
+  /// Puts another simulation in the place of a world, which may be closed.
+  void replace(std::size_t number, const std::shared_ptr<Shared>& world) {
+    const std::shared_ptr<Shared> present = worlds_.at(number);
+    std::optional<Shared::Use> stepped;  // by another thread, which is refused
+    if (present != world && !present->closed()) {
+      stepped.emplace(*present);
+    }
+    world->use([&](franka_sim::Simulation& simulation) { batch_.replace(number, simulation); });
+    worlds_[number] = world;
+  }
   const franka_sim::SimulationBatch& batch() const noexcept { return batch_; }
   std::size_t rows() const noexcept { return worlds_.size(); }
 
@@ -51,6 +77,18 @@ class Batch {
       result.push_back(&world->simulation());
     }
     return result;
+  }
+
+  // Sentences with the numbers of the worlds that they are about. Call within use().
+  std::map<std::string, std::string> takeWarnings() {
+    std::map<std::string, std::string> numbers;
+    for (std::size_t i = 0; i < worlds_.size(); i++) {
+      for (const std::string& warning : worlds_[i]->simulation().world().takeWarnings()) {
+        std::string& list = numbers[warning];
+        list += (list.empty() ? "" : ", ") + std::to_string(i);
+      }
+    }
+    return numbers;
   }
 
   Worlds worlds_;
@@ -80,21 +118,18 @@ py::list layout(const Batch& self) {
 
 void bindBatch(py::module_& module) {
   py::class_<Batch>(module, "Batch", "Simulations that are stepped together.")
-      .def(py::init([](Worlds worlds, int threads, const Names& observe) {
+      .def(py::init([](Worlds worlds, int threads, const ObservedNames& observe) {
              return std::make_unique<Batch>(std::move(worlds), threads, observe);
            }),
            py::arg("worlds"), py::arg("threads"), py::arg("observe"))
       .def(
-          "step",
-          [](Batch& self, std::int64_t ticks) {
-            const std::uint64_t count = ticksOf(ticks);
-            self.use([count](franka_sim::SimulationBatch& batch) { batch.step(count); });
-          },
+          "step", [](Batch& self, const py::object& ticks) { self.step(ticksOf(ticks)); },
           py::arg("ticks"))
       .def("observe",
            [](Batch& self) {
              self.use([](franka_sim::SimulationBatch& batch) { batch.observe(); });
            })
+      .def("replace", &Batch::replace, py::arg("number"), py::arg("world"))
       .def_property_readonly("observations", &observations)
       .def_property_readonly("layout", &layout);
 }

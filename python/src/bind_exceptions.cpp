@@ -34,7 +34,7 @@ void bindExceptions(py::module_& module) {
       py::register_exception<franka::Exception>(module, "Exception", PyExc_RuntimeError);
   base.attr("__doc__") = "Base of all errors of a robot; the text is a sentence for the user.";
   alias(module, {{"Exception", "FrankaException"}});
-  bindPlain<franka::ModelException>(module, "ModelException", base, "The model cannot be had.");
+  bindPlain<franka::ModelException>(module, "ModelException", base, "The model is not available.");
   bindPlain<franka::NetworkException>(module, "NetworkException", base,
                                       "The connection cannot be made, or is lost.");
   bindPlain<franka::ProtocolException>(module, "ProtocolException", base,

@@ -35,7 +35,7 @@ void bindHand(py::module_& module) {
       .def_readwrite("width", &GripperState::width, "Between the fingers [m].")
       .def_readwrite("max_width", &GripperState::max_width, "As found by homing [m].")
       .def_readwrite("is_grasped", &GripperState::is_grasped,
-                     "Whether an object as wide as asked is held.")
+                     "Whether an object of the requested width is held.")
       .def_readwrite("temperature", &GripperState::temperature, "Of the hand [deg C].")
       .def_property(
           "time", [](const GripperState& state) { return seconds(state.time); },

@@ -30,7 +30,8 @@ const std::vector<Names> kOfState = {{{"state", "robot_state"}}};
 constexpr const char* kOfPositions =
     "The same for joint positions, 7 [rad], and the poses of EE in F and K in EE, 4x4.";
 constexpr const char* kOfLoad =
-    "The same for joint positions, 7 [rad], and what hangs on the flange: inertia about its centre "
+    "The same for joint positions, 7 [rad], and the payload at the flange: inertia about its "
+    "centre "
     "of mass, 3x3 [kg m^2], mass [kg], centre of mass in F, 3 [m].";
 
 template <typename State, typename Model>
@@ -144,7 +145,7 @@ void bindDynamics(py::class_<Model>& type) {
       },
       py::arg("q"), py::arg("m_total"), py::arg("F_x_Ctotal"),
       py::arg("gravity_earth") = py::make_tuple(0.0, 0.0, -9.81),
-      "The same for joint positions, 7 [rad], and what hangs on the flange: mass [kg], centre "
+      "The same for joint positions, 7 [rad], and the payload at the flange: mass [kg], centre "
       "of mass in F, 3 [m].");
 }
 
@@ -154,7 +155,7 @@ std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const std::string& urdf, cons
                                                    const std::string& tip) {
   urdf::Model model;
   if (!model.initString(urdf)) {
-    throw std::invalid_argument("The text is no URDF; see the messages above.");
+    throw std::invalid_argument("The text is not a URDF; see the messages above.");
   }
   return std::make_unique<franka_hw::ModelKDL>(model, root, tip);
 }
@@ -164,7 +165,7 @@ void bindModelKdl(py::module_& module) {
                                       "The arm's model on KDL, from a URDF; no robot needed.");
   kdl.def(py::init(&modelFromUrdf), py::arg("urdf"), py::arg("root"), py::arg("tip"),
           "Chain from link `root` to link `tip` of a URDF text. Raises ValueError for a text that "
-          "is no URDF, RuntimeError for a chain that is no arm.");
+          "is not a URDF, RuntimeError for a chain that is not an arm.");
   bindKinematics<RobotState>(kdl);
   bindDynamics<RobotState>(kdl);
 }
@@ -204,7 +205,7 @@ void bindModel(py::module_& module) {
                    .value("EndEffector", Frame::kEndEffector)
                    .value("Stiffness", Frame::kStiffness));
 
-  py::class_<franka::Model> model(module, "Model", "The model that the robot brings along.");
+  py::class_<franka::Model> model(module, "Model", "The model that the robot provides.");
   bindKinematics<RobotState>(model);
   bindDynamics<RobotState>(model);
 

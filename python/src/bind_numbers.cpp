@@ -14,7 +14,7 @@ namespace pyfranka {
 namespace {
 
 // Of assigned times [s]; chosen here: as milliseconds it is exact in a double.
-constexpr double kLongestTime = 1e12;
+constexpr double kMaxTime = 1e12;
 
 // Owned by the module, for as long as the interpreter lives.
 PyObject* duration_type = nullptr;
@@ -84,7 +84,7 @@ std::int64_t toMilliseconds(const py::object& self) {
 py::object seconds(franka::Duration time) { return makeSeconds(duration_type, time.toSec()); }
 
 franka::Duration durationOf(double seconds) {
-  if (!(seconds >= 0.0 && seconds <= kLongestTime)) {
+  if (!(seconds >= 0.0 && seconds <= kMaxTime)) {
     throw std::invalid_argument("A time must be at least 0 and at most 1e12 s.");
   }
   return franka::Duration(static_cast<std::uint64_t>(std::llround(seconds * 1e3)));

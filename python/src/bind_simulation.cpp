@@ -3,6 +3,7 @@
 // Worlds with robots in this process; pyfranka/sim gives them their Python interface.
 #include <franka_sim/robot/parameter_checks.h>
 #include <franka_sim/simulation/files.h>
+#include <franka_sim/simulation/robot_text.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
@@ -14,9 +15,11 @@
 #include <utility>
 #include <vector>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "shared_simulation.h"
 #include "sim_model.h"
+#include "step_hooks.h"
 
 namespace pyfranka {
 
@@ -31,18 +34,10 @@ using franka_sim::SimulatedRobot;
 using franka_sim::UnitRequest;
 using release = py::gil_scoped_release;
 
-template <std::size_t size>
-std::array<double, size> finite(const py::object& values, const char* name) {
-  const std::array<double, size> array = arrayOf<size>(values, name);
-  if (!std::all_of(array.begin(), array.end(), [](double value) { return std::isfinite(value); })) {
-    throw std::invalid_argument(std::string(name) + " must be finite numbers.");
-  }
-  return array;
-}
-
-double durationOf(double seconds) {
+double durationOf(const py::object& duration) {
+  const double seconds = number(duration, "duration");
   if (!(seconds >= 0.0 && seconds <= 1e6)) {
-    throw std::invalid_argument("duration must be 0 or more seconds, not " +
+    throw std::invalid_argument("duration must be 0 to 1e6 seconds, not " +
                                 std::to_string(seconds) + ".");
   }
   return seconds;
@@ -84,7 +79,8 @@ class Robot {
   SimulatedRobot* robot_;
 };
 
-MoveRequest motionOf(MotionGeneratorMode generator, const std::string& controller) {
+MoveRequest motionOf(MotionGeneratorMode generator, const py::object& name) {
+  const std::string controller = text(name, "controller");
   MoveRequest motion;
   motion.motion_generator_mode = generator;
   if (controller == "cartesian_impedance") {
@@ -96,8 +92,9 @@ MoveRequest motionOf(MotionGeneratorMode generator, const std::string& controlle
   return motion;
 }
 
-franka_sim::TargetMotion motionOf(bool linear) {
-  return linear ? franka_sim::TargetMotion::kLinear : franka_sim::TargetMotion::kSmooth;
+franka_sim::TargetMotion motionOf(const py::object& linear) {
+  return yesOrNo(linear, "linear") ? franka_sim::TargetMotion::kLinear
+                                   : franka_sim::TargetMotion::kSmooth;
 }
 
 std::array<double, 7> dampingOf(const py::object& values) {
@@ -108,17 +105,17 @@ std::array<double, 7> dampingOf(const py::object& values) {
   return damping;
 }
 
-void commandTorques(Robot& self, const py::object& values, bool limit_rate,
+void commandTorques(Robot& self, const py::object& values, const py::object& limit_rate,
                     const py::object& damping) {
   const auto tau = finite<7>(values, "torque");
-  franka_sim::TorqueShaping shaping{limit_rate, {}};
+  franka_sim::TorqueShaping shaping{yesOrNo(limit_rate, "limit_rate"), {}};
   if (!damping.is_none()) {
     shaping.damping = dampingOf(damping);
   }
   self.use([&](SimulatedRobot& robot) { robot.commandTorques(tau, shaping); });
 }
 
-void commandJoints(Robot& self, const py::object& values, const std::string& controller,
+void commandJoints(Robot& self, const py::object& values, const py::object& controller,
                    MotionGeneratorMode generator) {
   RobotCommand command;
   const bool positions = generator == MotionGeneratorMode::kJointPosition;
@@ -129,7 +126,7 @@ void commandJoints(Robot& self, const py::object& values, const std::string& con
 }
 
 void commandCartesian(Robot& self, RobotCommand command, const py::object& elbow,
-                      const std::string& controller, MotionGeneratorMode generator) {
+                      const py::object& controller, MotionGeneratorMode generator) {
   if (!elbow.is_none()) {
     command.elbow_c = finite<2>(elbow, "elbow");
     command.valid_elbow = true;
@@ -142,7 +139,7 @@ std::array<double, 16> frameOf(const py::object& values, const char* name) {
   const std::array<double, 16> frame = arrayOf<16>(values, name);
   const std::string fault = franka_sim::frameFault(frame);
   if (!fault.empty()) {
-    throw std::invalid_argument(std::string(name) + " " + fault);
+    throw std::invalid_argument(std::string(name) + " cannot be used: " + fault + ".");
   }
   return frame;
 }
@@ -153,20 +150,20 @@ void bindCommands(py::class_<Robot>& robot) {
            py::arg("damping"), "7 [Nm], without gravity.")
       .def(
           "command_joint_positions",
-          [](Robot& self, const py::object& values, const std::string& controller) {
+          [](Robot& self, const py::object& values, const py::object& controller) {
             commandJoints(self, values, controller, MotionGeneratorMode::kJointPosition);
           },
           py::arg("joint_positions"), py::arg("controller"), "7 [rad].")
       .def(
           "command_joint_velocities",
-          [](Robot& self, const py::object& values, const std::string& controller) {
+          [](Robot& self, const py::object& values, const py::object& controller) {
             commandJoints(self, values, controller, MotionGeneratorMode::kJointVelocity);
           },
           py::arg("joint_velocities"), py::arg("controller"), "7 [rad/s].")
       .def(
           "command_cartesian_pose",
           [](Robot& self, const py::object& values, const py::object& elbow,
-             const std::string& controller) {
+             const py::object& controller) {
             RobotCommand command;
             command.O_T_EE_c = finite<16>(values, "cartesian_pose");
             commandCartesian(self, command, elbow, controller,
@@ -176,7 +173,7 @@ void bindCommands(py::class_<Robot>& robot) {
       .def(
           "command_cartesian_velocities",
           [](Robot& self, const py::object& values, const py::object& elbow,
-             const std::string& controller) {
+             const py::object& controller) {
             RobotCommand command;
             command.O_dP_EE_c = finite<6>(values, "cartesian_velocities");
             commandCartesian(self, command, elbow, controller,
@@ -186,10 +183,11 @@ void bindCommands(py::class_<Robot>& robot) {
           "6 [m/s, rad/s].")
       .def(
           "joint_impedance",
-          [](Robot& self, const py::object& target, double duration, const py::object& stiffness,
-             bool linear) {
+          [](Robot& self, const py::object& target, const py::object& duration,
+             const py::object& stiffness, const py::object& linear) {
             const auto q = finite<7>(target, "target");
             const double seconds = durationOf(duration);
+            const franka_sim::TargetMotion motion = motionOf(linear);
             const auto K = stiffness.is_none() ? std::optional<std::array<double, 7>>()
                                                : std::optional(finite<7>(stiffness, "stiffness"));
             if (K && !franka_sim::isJointStiffness(*K)) {
@@ -200,23 +198,26 @@ void bindCommands(py::class_<Robot>& robot) {
               if (K) {
                 law.setStiffness(*K);
               }
-              law.setTarget(q, seconds, motionOf(linear));
+              law.setTarget(q, seconds, motion);
             });
           },
           py::arg("target"), py::arg("duration"), py::arg("stiffness"), py::arg("linear"), "")
       .def(
           "cartesian_impedance",
-          [](Robot& self, const py::object& target, double duration, const py::object& stiffness,
-             const std::optional<double>& nullspace_stiffness, bool linear,
-             const py::object& damping) {
+          [](Robot& self, const py::object& target, const py::object& duration,
+             const py::object& stiffness, const py::object& nullspace_stiffness,
+             const py::object& linear, const py::object& damping) {
             const auto pose = frameOf(target, "target");
             const double seconds = durationOf(duration);
+            const franka_sim::TargetMotion motion = motionOf(linear);
             const auto K = stiffness.is_none() ? std::optional<std::array<double, 6>>()
                                                : std::optional(finite<6>(stiffness, "stiffness"));
             const auto D = damping.is_none() ? std::optional<std::array<double, 7>>()
                                              : std::optional(dampingOf(damping));
-            const double nullspace = nullspace_stiffness.value_or(0.0);
-            if ((K && *std::min_element(K->begin(), K->end()) < 0.0) || !(nullspace >= 0.0)) {
+            const auto N = nullspace_stiffness.is_none()
+                               ? std::optional<double>()
+                               : std::optional(number(nullspace_stiffness, "nullspace_stiffness"));
+            if ((K && *std::min_element(K->begin(), K->end()) < 0.0) || (N && *N < 0.0)) {
               throw std::invalid_argument("stiffness must not be negative.");
             }
             self.use([&](SimulatedRobot& robot) {
@@ -224,10 +225,10 @@ void bindCommands(py::class_<Robot>& robot) {
               if (K) {
                 law.setStiffness(*K);
               }
-              if (nullspace_stiffness) {
-                law.setNullspaceStiffness(nullspace);
+              if (N) {
+                law.setNullspaceStiffness(*N);
               }
-              law.setTarget(pose, seconds, motionOf(linear));
+              law.setTarget(pose, seconds, motion);
               if (D) {
                 robot.setDamping(*D);
               }
@@ -239,7 +240,10 @@ void bindCommands(py::class_<Robot>& robot) {
           "finish", [](Robot& self) { self.use([](SimulatedRobot& robot) { robot.finish(); }); },
           "Ends the motion: the arm brakes, and is then idle.")
       .def_property_readonly(
-          "moving", [](const Robot& self) { return self.simulated().moving(); },
+          "moving",
+          [](Robot& self) {
+            return self.use([](SimulatedRobot& robot) { return robot.moving(); });
+          },
           "Whether a motion runs.");
 }
 
@@ -250,17 +254,21 @@ void bindRequests(py::class_<Robot>& robot) {
           "Starts the recovery from errors, which takes some ticks.")
       .def(
           "set_user_stop",
-          [](Robot& self, bool pressed) {
-            self.request(franka_sim::UserStop{pressed}, "The user stop");
+          [](Robot& self, const py::object& pressed) {
+            self.request(franka_sim::UserStop{yesOrNo(pressed, "pressed")}, "The user stop");
           },
           py::arg("pressed"), "Presses or releases the user stop.")
       .def(
           "set_brakes",
-          [](Robot& self, bool closed) { self.request(franka_sim::Brakes{closed}, "The brakes"); },
+          [](Robot& self, const py::object& closed) {
+            self.request(franka_sim::Brakes{yesOrNo(closed, "closed")}, "The brakes");
+          },
           py::arg("closed"), "Closes or opens the brakes.")
       .def(
           "set_guiding",
-          [](Robot& self, bool active) { self.request(franka_sim::Guiding{active}, "Guiding"); },
+          [](Robot& self, const py::object& active) {
+            self.request(franka_sim::Guiding{yesOrNo(active, "active")}, "Guiding");
+          },
           py::arg("active"), "Whether the user guides the arm by hand.")
       .def(
           "set_joint_impedance",
@@ -304,8 +312,9 @@ void bindRequests(py::class_<Robot>& robot) {
           py::arg("EE_T_K"), "Pose of the stiffness frame in EE, 4x4.")
       .def(
           "set_load",
-          [](Robot& self, double mass, const py::object& F_x_Cload, const py::object& inertia) {
-            const franka_core::Payload load{mass, finite<3>(F_x_Cload, "F_x_Cload"),
+          [](Robot& self, const py::object& mass, const py::object& F_x_Cload,
+             const py::object& inertia) {
+            const franka_core::Payload load{number(mass, "mass"), finite<3>(F_x_Cload, "F_x_Cload"),
                                             finite<9>(inertia, "load_inertia")};
             const std::string fault = franka_sim::payloadFault(load);
             if (!fault.empty()) {
@@ -314,13 +323,13 @@ void bindRequests(py::class_<Robot>& robot) {
             self.request(franka_sim::loadRequest(load), "The load");
           },
           py::arg("mass"), py::arg("F_x_Cload"), py::arg("load_inertia"),
-          "What the robot knows of its load: mass [kg], centre of mass in F, 3 [m], and inertia, "
+          "The configured load: mass [kg], centre of mass in F, 3 [m], and inertia, "
           "3x3 [kg m^2].");
 }
 
 void bindHand(py::module_& module, py::class_<Robot>& robot) {
   using franka_sim::GripperOutcome;
-  py::enum_<GripperOutcome>(module, "GripperOutcome", "What became of a command of the hand.")
+  py::enum_<GripperOutcome>(module, "GripperOutcome", "Outcome of a hand command.")
       .value("Running", GripperOutcome::kRunning)
       .value("Succeeded", GripperOutcome::kSucceeded)
       .value("Failed", GripperOutcome::kFailed)
@@ -330,15 +339,22 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
   });
   robot.def(
       "hand_move",
-      [](Robot& self, double width, double speed) {
-        return self.useHand([&](GripperUnit& hand) { return hand.move(width, speed); });
+      [](Robot& self, const py::object& width, const py::object& speed) {
+        const double w = number(width, "width");
+        const double v = number(speed, "speed");
+        return self.useHand([&](GripperUnit& hand) { return hand.move(w, v); });
       },
       py::arg("width"), py::arg("speed"));
   robot.def(
       "hand_grasp",
-      [](Robot& self, double width, double speed, double force, double inner, double outer) {
-        return self.useHand(
-            [&](GripperUnit& hand) { return hand.grasp(width, inner, outer, speed, force); });
+      [](Robot& self, const py::object& width, const py::object& speed, const py::object& force,
+         const py::object& inner, const py::object& outer) {
+        const double w = number(width, "width");
+        const double v = number(speed, "speed");
+        const double f = number(force, "force");
+        const double in = number(inner, "epsilon_inner");
+        const double out = number(outer, "epsilon_outer");
+        return self.useHand([&](GripperUnit& hand) { return hand.grasp(w, in, out, v, f); });
       },
       py::arg("width"), py::arg("speed"), py::arg("force"), py::arg("epsilon_inner"),
       py::arg("epsilon_outer"));
@@ -368,28 +384,38 @@ void bindSimulatedRobot(py::module_& module) {
           "The ArmModel of the robot's own control.")
       .def_property_readonly(
           "limits",
-          [](const Robot& self) {
+          [](Robot& self) {
             std::array<double, 7> lowest, highest;
-            for (std::size_t i = 0; i < lowest.size(); i++) {
-              const franka_core::JointRange range =
-                  self.simulated().units().unit().limits().reach(i);
-              lowest[i] = range.lowest;
-              highest[i] = range.highest;
-            }
+            self.use([&](SimulatedRobot& robot) {
+              for (std::size_t i = 0; i < lowest.size(); i++) {
+                const franka_core::JointRange range = robot.units().unit().limits().reach(i);
+                lowest[i] = range.lowest;
+                highest[i] = range.highest;
+              }
+            });
             return py::make_tuple(copy(lowest, Shape::kVector), copy(highest, Shape::kVector));
           },
           "Lowest and highest joint positions, 7 [rad] each.")
       .def_property_readonly(
           "brakes_closed",
-          [](const Robot& self) { return self.simulated().units().unit().status().brakes_closed; },
+          [](Robot& self) {
+            return self.use(
+                [](SimulatedRobot& robot) { return robot.units().unit().status().brakes_closed; });
+          },
           "Whether the brakes are closed.")
       .def(
-          "hash", [](const Robot& self) { return self.simulated().units().hash(); },
+          "hash",
+          [](Robot& self) {
+            return self.use([](SimulatedRobot& robot) { return robot.units().hash(); });
+          },
           "Hash of all states since the first command: equal hashes mean equal runs.")
       .def(
           "check_positions",
-          [](const Robot& self, const py::object& q) {
-            franka_sim::Simulation::checkPositions(self.simulated(), finite<7>(q, "q"));
+          [](Robot& self, const py::object& q) {
+            const auto positions = finite<7>(q, "q");
+            self.use([&](SimulatedRobot& robot) {
+              franka_sim::Simulation::checkPositions(robot, positions);
+            });
           },
           py::arg("q"), "Raises ValueError if the arm cannot be at joint positions, 7 [rad].")
       .def(
@@ -402,6 +428,16 @@ void bindSimulatedRobot(py::module_& module) {
 
 franka_sim::Pose poseOf(const py::object& position, const py::object& orientation) {
   return {finite<3>(position, "position"), finite<4>(orientation, "orientation")};
+}
+
+int pixels(const py::object& side, const char* name) {
+  const std::int64_t number = wholeNumber(side, name);
+  if (number < 1 || number > franka_sim::Renderer::kMaxPictureSide) {
+    throw std::invalid_argument(std::string(name) + " must be 1 to " +
+                                std::to_string(franka_sim::Renderer::kMaxPictureSide) +
+                                " pixels, not " + std::to_string(number) + ".");
+  }
+  return static_cast<int>(number);
 }
 
 py::array pictureArray(const franka_sim::Picture& picture) {
@@ -421,25 +457,35 @@ void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation) {
       .def("bodies",
            [](Shared& self) { return self.use([](Simulation& s) { return s.world().bodies(); }); })
       .def("body_pose",
-           [](Shared& self, const std::string& body) {
+           [](Shared& self, const py::object& body) {
+             const std::string name = text(body, "body");
              const franka_sim::Pose pose =
-                 self.use([&](Simulation& s) { return s.world().bodyPose(body); });
+                 self.use([&](Simulation& s) { return s.world().bodyPose(name); });
              return py::make_tuple(copy(pose.position, Shape::kVector),
                                    copy(pose.orientation, Shape::kVector));
            })
-      .def("place_body",
-           [](Shared& self, const std::string& body, const py::object& position,
+      .def("check_body_pose",  // whether place_body would take it
+           [](Shared& self, const py::object& body, const py::object& position,
               const py::object& orientation) {
+             const std::string name = text(body, "body");
              const franka_sim::Pose pose = poseOf(position, orientation);
-             self.use([&](Simulation& s) { s.world().setBodyPose(body, pose); });
+             self.use([&](Simulation& s) { s.world().checkBodyPose(name, pose); });
+           })
+      .def("place_body",
+           [](Shared& self, const py::object& body, const py::object& position,
+              const py::object& orientation) {
+             const std::string name = text(body, "body");
+             const franka_sim::Pose pose = poseOf(position, orientation);
+             self.use([&](Simulation& s) { s.world().setBodyPose(name, pose); });
            })
       .def("push",
-           [](Shared& self, const std::string& body, const py::object& force,
-              const py::object& torque, std::int64_t ticks) {
+           [](Shared& self, const py::object& body, const py::object& force,
+              const py::object& torque, const py::object& ticks) {
+             const std::string name = text(body, "body");
              const auto f = finite<3>(force, "force");
              const auto t = finite<3>(torque, "torque");
              const std::uint64_t duration = ticksOf(ticks);
-             self.use([&](Simulation& s) { s.world().push(body, f, t, duration); });
+             self.use([&](Simulation& s) { s.world().push(name, f, t, duration); });
            })
       .def("contacts",
            [](Shared& self) {
@@ -465,11 +511,15 @@ void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation) {
              }
              return names;
            })
-      .def("render", [](Shared& self, const std::string& camera, int width, int height) {
+      .def("render", [](Shared& self, const py::object& camera, const py::object& width,
+                        const py::object& height) {
+        const std::string name = text(camera, "camera");
+        const int w = pixels(width, "width");
+        const int h = pixels(height, "height");
         franka_sim::Picture picture;
         {
           const release free;
-          picture = self.render(camera, width, height);
+          picture = self.render(name, w, h);
         }
         return py::make_tuple(pictureArray(picture), depthArray(picture));
       });
@@ -478,7 +528,7 @@ void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation) {
 constexpr std::uint64_t kTicksBetweenSignals = 1000;  // chosen here: some 20 ms
 
 // Ctrl-C ends a long step.
-void step(Shared& self, std::uint64_t ticks) {
+void step(Shared& self, std::uint64_t ticks, bool warns) {
   const Shared::Use use(self);
   while (ticks > 0) {
     const std::uint64_t next = std::min(ticks, kTicksBetweenSignals);
@@ -487,22 +537,42 @@ void step(Shared& self, std::uint64_t ticks) {
       self.step(next);
     }
     ticks -= next;
-    if (PyErr_CheckSignals() != 0) {
-      throw py::error_already_set();
+    raiseSignal();  // also of a tick that waited for a client
+  }
+  if (warns) {
+    for (const std::string& warning : self.simulation().world().takeWarnings()) {
+      warnOfStep(warning);
     }
   }
 }
 
-franka_sim::fci::Pace paceOf(bool real_time, double patience) {
-  constexpr double kLongest = 86400.0;  // [s] chosen here
-  if (!(patience > 0.0 && patience <= kLongest)) {
-    throw std::invalid_argument("patience must be more than 0 and at most 86400 seconds, not " +
-                                std::to_string(patience) + ".");
+franka_core::WaitMode waitOf(const py::object& name) {
+  const std::string word = text(name, "wait");
+  const std::optional<franka_core::WaitMode> mode = franka_core::toWaitMode(word);
+  if (!mode) {
+    throw std::invalid_argument("wait is 'auto', 'spin' or 'block', not '" + word + "'.");
+  }
+  return *mode;
+}
+
+/// @param limit [s]; none: without end
+franka_sim::fci::Pace paceOf(bool real_time, const py::object& limit) {
+  constexpr double kMaxPatience = 86400.0;  // [s] chosen here
+  const auto patience =
+      limit.is_none() ? std::optional<double>() : std::optional(number(limit, "patience"));
+  if (patience && !(*patience > 0.0 && *patience <= kMaxPatience)) {
+    throw std::invalid_argument(
+        "patience must be more than 0 and at most 86400 seconds, or 'forever', not " +
+        std::to_string(*patience) + ".");
   }
   franka_sim::fci::Pace pace;
   pace.mode =
       real_time ? franka_sim::fci::PaceMode::kRealTime : franka_sim::fci::PaceMode::kFreeRunning;
-  pace.patience = std::chrono::milliseconds(static_cast<std::int64_t>(std::ceil(1e3 * patience)));
+  pace.patience = franka_sim::fci::Pace::kForever;
+  if (patience) {
+    const double milliseconds = std::ceil(1e3 * *patience);
+    pace.patience = std::chrono::milliseconds(static_cast<std::int64_t>(milliseconds));
+  }
   return pace;
 }
 
@@ -512,7 +582,8 @@ void bindSimulation(py::module_& module) {
   using franka_sim::Simulation;
   py::register_exception<franka_sim::RequestRefused>(module, "RequestRefused", PyExc_RuntimeError)
       .attr("__doc__") = "The robot cannot do what was requested; its mode does not allow it.";
-  py::class_<franka_sim::Snapshot>(module, "Snapshot", "The state of a world at a tick.");
+  py::class_<franka_sim::SimulationSnapshot>(module, "Snapshot",
+                                             "The state of a world and its robots at a tick.");
   py::class_<Simulation::Robot>(module, "RobotSetup", "What is needed to add a robot.")
       .def(py::init([](const std::string& robot, const std::string& name, const std::string& urdf,
                        const py::object& base, double yaw, const std::string& realism, bool hand) {
@@ -521,6 +592,10 @@ void bindSimulation(py::module_& module) {
            }),
            py::arg("robot"), py::arg("name"), py::arg("urdf"), py::arg("base"), py::arg("yaw"),
            py::arg("realism"), py::arg("hand"));
+  module.def("robot_with_meshes", [](const std::string& robot, const std::string& arm_id) {
+    const franka_sim::RobotLook look = franka_sim::robotWithMeshes(robot, arm_id);
+    return py::make_tuple(look.urdf, look.missing);
+  });
   bindSimulatedRobot(module);
   py::class_<Shared, std::shared_ptr<Shared>> simulation(module, "Simulation",
                                                          "A world with robots.");
@@ -531,22 +606,35 @@ void bindSimulation(py::module_& module) {
            }),
            py::arg("world"), py::arg("robots"))
       .def(
-          "step", [](Shared& self, std::int64_t ticks) { step(self, ticksOf(ticks)); },
+          "step", [](Shared& self, const py::object& ticks) { step(self, ticksOf(ticks), true); },
+          py::arg("ticks"))
+      .def(
+          "try_out",  // a step that will be undone: it does not warn
+          [](Shared& self, const py::object& ticks) { step(self, ticksOf(ticks), false); },
           py::arg("ticks"))
       .def(
           "serve",
-          [](Shared& self, const std::string& robot, const std::string& address, bool real_time,
-             double patience) { self.serve(robot, address, paceOf(real_time, patience)); },
-          py::arg("robot"), py::arg("address"), py::arg("real_time"), py::arg("patience"))
+          [](Shared& self, const std::string& robot, const py::object& address, bool real_time,
+             const py::object& patience, const py::object& wait) {
+            franka_sim::fci::Pace pace = paceOf(real_time, patience);
+            pace.wait = waitOf(wait);
+            self.serve(robot, text(address, "ip"), pace, noSignal);
+          },
+          py::arg("robot"), py::arg("address"), py::arg("real_time"), py::arg("patience"),
+          py::arg("wait"))
       .def("attend", &Shared::attend)
+      .def("take_events", &Shared::takeEvents)
       .def("reset", [](Shared& self) { self.use([](Simulation& s) { s.reset(); }); })
-      .def(
-          "snapshot",
-          [](Shared& self) { return self.use([](Simulation& s) { return s.world().snapshot(); }); })
+      .def("snapshot",
+           [](Shared& self) { return self.use([](Simulation& s) { return s.snapshot(); }); })
       .def("restore",
-           [](Shared& self, const franka_sim::Snapshot& snapshot) {
-             self.use([&](Simulation& s) { s.restore(snapshot); });
+           [](Shared& self, const py::object& snapshot) {
+             const auto& kept = objectOf<franka_sim::SimulationSnapshot>(
+                 snapshot, "snapshot", "what snapshot() has returned");
+             self.use([&](Simulation& s) { s.restore(kept); });
            })
+      .def("stopped",
+           [](Shared& self) { return self.use([](Simulation& s) { return s.world().stopped(); }); })
       .def("ticks",
            [](Shared& self) { return self.use([](Simulation& s) { return s.world().ticks(); }); })
       .def("hash",
@@ -560,6 +648,7 @@ void bindSimulation(py::module_& module) {
       .def("close", &Shared::close);
   bindWorld(simulation);
   bindBatch(module);
+  bindEpisode(module);
   module.def("world_file", &franka_sim::worldFile, py::arg("name"),
              "The file of a world by its name, as Simulation takes it.");
 }

@@ -18,11 +18,13 @@ void bindRobot(py::module_& module);
 void bindAsync(py::module_& module);
 void bindGripper(py::module_& module);
 void bindModel(py::module_& module);
+void bindLimits(py::module_& module);
 
 /// The parts of its submodule for simulations.
 void bindSimState(py::module_& module);
 void bindSimModel(py::module_& module);
 void bindSimulation(py::module_& module);
 void bindBatch(py::module_& module);
+void bindEpisode(py::module_& module);
 
 }  // namespace pyfranka

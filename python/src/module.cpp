@@ -8,6 +8,7 @@ PYBIND11_MODULE(_pyfranka, module) {
   pyfranka::bindNumbers(module);
   pyfranka::bindState(module);
   pyfranka::bindModel(module);
+  pyfranka::bindLimits(module);
   pyfranka::bindMotion(module);
   pyfranka::bindRobot(module);
   pyfranka::bindAsync(module);

@@ -6,11 +6,15 @@
 #include <franka_sim/simulation/simulation_server.h>
 
 #include <atomic>
+#include <functional>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "arguments.h"
 
 namespace pyfranka {
 
@@ -56,18 +60,29 @@ class Shared {
     return camera.empty() ? renderer_->render(scene, franka_sim::Camera{}, width, height)
                           : renderer_->render(scene, camera, width, height);
   }
+  bool closed() const noexcept { return closed_; }
   bool served() const noexcept { return server_ != nullptr; }
-  /// Puts a robot on the network; the first call chooses the pace of all.
+  /// Puts a robot on the network; the first call chooses the pace of all robots, and the callback
+  /// that ends a wait.
   void serve(const std::string& robot, const std::string& address,
-             const franka_sim::fci::Pace& pace) {
+             const franka_sim::fci::Pace& pace, std::function<bool()> keep_waiting) {
     const Use use(*this);
     franka_sim::SimulatedRobot& served = simulation_.robot(robot);
-    auto server =
-        server_ ? nullptr : std::make_unique<franka_sim::SimulationServer>(simulation_, pace);
+    auto server = server_ ? nullptr
+                          : std::make_unique<franka_sim::SimulationServer>(
+                                simulation_, pace,
+                                franka_sim::SimulationServer::Hooks{
+                                    [this](const std::string& what) { keepEvent(what); },
+                                    std::move(keep_waiting)});
     (server ? *server : *server_).serve(served, address);
     if (server) {
       server_ = std::move(server);
     }
+  }
+  /// Reports of the served robots since the last call: collisions, refused clients.
+  std::vector<std::string> takeEvents() {
+    const std::lock_guard lock(events_mutex_);
+    return std::exchange(events_, {});
   }
   /// Call with a Use.
   void step(std::uint64_t ticks) {
@@ -95,15 +110,27 @@ class Shared {
   }
 
  private:
+  void keepEvent(const std::string& what) {
+    constexpr std::size_t kMaxEvents =
+        100;  // chosen here; the caller fetches them 50 times per second
+    const std::lock_guard lock(events_mutex_);
+    if (events_.size() < kMaxEvents) {
+      events_.push_back(what);
+    }
+  }
+
   franka_sim::Simulation simulation_;
+  std::mutex events_mutex_;
+  std::vector<std::string> events_;
   std::unique_ptr<franka_sim::SimulationServer> server_;
   std::unique_ptr<franka_sim::Renderer> renderer_;
   std::atomic_flag busy_ = ATOMIC_FLAG_INIT;
   std::atomic<bool> closed_{false};
 };
 
-/// @throws std::invalid_argument for a negative number
-inline std::uint64_t ticksOf(std::int64_t ticks) {
+/// @throws as wholeNumber, and std::invalid_argument for a negative number
+inline std::uint64_t ticksOf(const py::object& value) {
+  const std::int64_t ticks = wholeNumber(value, "ticks");
   if (ticks < 0) {
     throw std::invalid_argument("Time goes forwards only: " + std::to_string(ticks) + " ticks.");
   }

@@ -23,6 +23,18 @@ def robots(served):
     return {kind: robot.connect() for kind, robot in served.items()}
 
 
+@pytest.fixture
+def narrow_world(tmp_path):
+    """A world file with two balls on the ground and capacity for one contact."""
+    ball = "<body name='{}' pos='{} 2 0.099'><freejoint/><geom type='sphere' size='0.1' mass='1'/></body>"
+    world = tmp_path / "narrow.xml"
+    world.write_text(
+        "<mujoco><size nconmax='1' njmax='90'/><worldbody><geom type='plane' size='9 9 1'/>"
+        f"{ball.format('first', 0)}{ball.format('second', 1)}</worldbody></mujoco>"
+    )
+    return world
+
+
 @pytest.fixture(params=["panda", "fr3"])
 def name(request):
     return request.param

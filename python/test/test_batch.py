@@ -3,17 +3,16 @@
 """pyfranka.sim.SimulationBatch: many worlds at once, each as if it were alone."""
 
 import os
+import signal
 import threading
 import time
+import warnings
 
-import contact_motion
 import numpy as np
 import pytest
-from contact_motion import TICKS, down_and_back
 from pyfranka.sim import FR3, KINDS, Panda, Simulation, SimulationBatch
 
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
-LOOSE = [100.0] * 7, [100.0] * 7, [300.0] * 6, [300.0] * 6
 
 
 def move(sim, name, way):
@@ -45,30 +44,7 @@ def test_each_world_equals_the_same_world_alone_on_any_number_of_threads(name):
             assert (sim.hash(), sim[name].hash()) == hashes[way]
 
 
-def test_ten_seconds_with_contact_have_the_same_hash_in_a_batch(name):
-    robots = [KINDS[name](base=contact_motion.BASE)]
-
-    def follow(sim, step):
-        robot = sim[name]
-        robot.set_collision_behavior(*LOOSE)
-        first = robot.state.q_d.copy()
-        for k in range(TICKS):
-            robot.command(joint_positions=down_and_back(first, k))
-            step()
-            yield robot.hash(), sim.hash()
-
-    with Simulation(contact_motion.WORLD, robots) as sim:
-        alone = list(follow(sim, sim.step))
-    with SimulationBatch(2, contact_motion.WORLD, robots, threads=2) as batch:
-        first, second = follow(batch[0], lambda: None), follow(batch[1], batch.step)
-        for k in range(TICKS):
-            # The first world's motion is commanded, then the second's, then both are stepped.
-            next(first)
-            assert next(second) == alone[k], k
-        assert (batch[0][name].hash(), batch[0].hash()) == alone[-1]
-
-
-def test_observations_are_one_array_of_what_was_asked_for(name):
+def test_observations_are_one_array_of_requested_values(name):
     names = [f"{name}.O_T_EE", "stone.pose", "time", f"{name}.width", f"{name}.tau_J"]
     with SimulationBatch(3, "stone.xml", [KINDS[name](base=BASE)], observe=names) as batch:
         seen, layout = batch.observations, batch.layout
@@ -97,7 +73,7 @@ def test_observations_are_one_array_of_what_was_asked_for(name):
     assert np.isfinite(seen).all(), "a view keeps the batch"
 
 
-def test_what_is_usual_is_observed_without_being_asked_for():
+def test_default_values_are_observed():
     with SimulationBatch(
         1, "stone.xml", [Panda(base=BASE), FR3(base=(0.5, 0, 0, 3.14), hand=False)]
     ) as batch:
@@ -108,30 +84,107 @@ def test_what_is_usual_is_observed_without_being_asked_for():
         assert batch.observations[0, batch.layout["panda.robot_mode"]] == 1.0, "Idle"
 
 
-def test_bad_input_is_refused_with_a_sentence():
-    for sentence, arguments in {
-        "at least one world, not 0": {"number": 0},
-        "no world 'moon.xml'": {"number": 2, "world": "moon.xml"},
-        "1 to 1024 threads, not on 0": {"number": 2, "threads": 0},
-        "There is no value 'panda.colour'": {"number": 2, "observe": ["panda.colour"]},
-        "observe is a list": {"number": 2, "observe": "time"},
-        "robots are Panda": {"number": 2, "robots": ["panda"]},
-        "integer": {"number": 2.5},
-    }.items():
-        with pytest.raises((ValueError, RuntimeError, TypeError), match=sentence):
-            SimulationBatch(**arguments)
+def test_no_world_is_stepped_if_one_is_closed():
     with SimulationBatch(2) as batch:
-        with pytest.raises(ValueError, match="Time goes forwards"):
-            batch.step(-1)
-        with pytest.raises(IndexError):
-            batch.reset(worlds=[5])
-        with pytest.raises(ValueError, match="or 'random'"):
-            batch.reset(q="anywhere")
         batch[0].close()
         with pytest.raises(RuntimeError, match="is closed"):
             batch.step(3)
-        assert batch[1].ticks == 0, "none was stepped"
+        assert batch[1].ticks == 0
     batch.close()
+
+
+def test_no_world_is_reset_if_one_cannot_be():
+    """The second has no stone."""
+    with SimulationBatch(2, "stone.xml", [Panda(base=BASE)], observe=["time"]) as batch:
+        batch.replace(1, Simulation(robots=[Panda()]))
+        batch.step(10)
+        before = [sim.hash() for sim in batch]
+        with pytest.raises(RuntimeError, match="no body 'stone'"):
+            batch.reset(objects={"stone": [0, 0, 1]})
+        assert [sim.hash() for sim in batch] == before
+
+
+def test_ctrl_c_ends_a_long_step_with_all_worlds_at_the_same_tick():
+    with SimulationBatch(3, threads=2) as batch:
+        timer = threading.Timer(0.3, signal.raise_signal, (signal.SIGINT,))
+        timer.start()
+        with pytest.raises(KeyboardInterrupt):
+            batch.step(10**8)
+        timer.join()
+        (ticks,) = {sim.ticks for sim in batch}
+        assert 0 < ticks < 10**8
+        with SimulationBatch(3, threads=1) as other:
+            other.step(ticks)
+            assert [sim.hash() for sim in other] == [sim.hash() for sim in batch]
+        batch.step(5)
+        assert batch[0].ticks == ticks + 5
+
+
+def test_too_many_contacts_are_a_warning_once(narrow_world):
+    with SimulationBatch(2, narrow_world, []) as batch:
+        batch[1].place_body("second", (0, 0, 5))  # there is capacity for the other one
+        with pytest.warns(RuntimeWarning, match="World 0: There are more contacts.*Raise nconmax") as caught:
+            batch.step(10)
+        assert len(caught) == 1 and caught[0].filename == __file__
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            batch.step(10)
+    with (
+        SimulationBatch(2, narrow_world, []) as batch,
+        pytest.warns(RuntimeWarning, match="Worlds 0, 1: There are more contacts"),
+    ):
+        batch.step(10)
+
+
+def test_a_world_continues_from_a_snapshot_of_another_one(name):
+    """As learning programs do, to try several actions from one state."""
+    with SimulationBatch(3, "stone.xml", [KINDS[name](base=BASE)], threads=2) as batch:
+        first = batch[0]
+        first[name].gripper.move(0.05)
+        move(first, name, 1)
+        first.step(150)
+        snapshot = first.snapshot()
+        for other in batch[1:]:
+            other.restore(snapshot)
+            assert (other.hash(), other[name].hash()) == (first.hash(), first[name].hash())
+            assert other[name].moving
+        batch.step(200)
+        assert len({(sim.hash(), sim[name].hash()) for sim in batch}) == 1
+        first.close()
+        batch[1].restore(snapshot)
+        batch[1].step(200)
+        assert (batch[1].hash(), batch[1][name].hash()) == (batch[2].hash(), batch[2][name].hash())
+    with SimulationBatch(2, "stone.xml", [KINDS[name](base=BASE, realism="recorded")]) as batch:
+        with pytest.raises(RuntimeError, match="cannot be restored"):
+            batch[1].restore(batch[0].snapshot())  # other robots of the same kind
+
+
+def test_another_simulation_replaces_a_world():
+    with SimulationBatch(2, "stone.xml", [Panda(base=BASE)], observe=["time", "panda.q"]) as batch:
+        batch.step(10)
+        gone = batch[1]
+        with Simulation(robots=[Panda(), FR3(base=(1, 0, 0))], seed=7) as alone:
+            alone.step(30)
+            expected = alone.hash()
+        other = Simulation(robots=[Panda(), FR3(base=(1, 0, 0))], seed=7)
+        batch.replace(-1, other)
+        batch.step(30)
+        assert batch[1] is other and other.hash() == expected
+        assert batch.observations[:, 0] == pytest.approx([0.04, 0.03])
+        with pytest.raises(RuntimeError, match="is closed"):
+            gone.step()
+        for sentence, number, simulation in (
+            ("There is no world 2", 2, Simulation()),
+            ("already world 1 of the batch", 0, other),
+            ("There is no value 'panda.q'", 0, Simulation(robots=[FR3()])),
+        ):
+            with pytest.raises((IndexError, ValueError), match=sentence):
+                batch.replace(number, simulation)
+        batch[0].close()
+        batch.replace(0, Simulation(robots=[Panda()]))  # a closed one, too
+        batch.step(1)
+    with pytest.raises(RuntimeError, match="is closed"):
+        other.step()
 
 
 def test_a_world_in_use_by_another_thread_stops_the_batch_before_it_begins():
@@ -174,7 +227,7 @@ def test_a_forked_process_may_use_a_simulation_but_makes_a_batch_of_its_own():
         assert batch[1].ticks == 10
 
 
-def test_a_world_more_costs_less_than_eight_megabytes(name):
+def test_each_further_world_takes_less_than_eight_megabytes(name):
     def resident():
         with open("/proc/self/statm") as statm:
             return int(statm.read().split()[1]) * os.sysconf("SC_PAGESIZE") / 1e6

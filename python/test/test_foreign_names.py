@@ -282,7 +282,7 @@ def same(mine, theirs):
 
 
 @pytest.mark.parametrize("robot, script, name", CASES, indirect=["robot"])
-def test_a_script_needs_another_import_only(robot, script, name):
+def test_script_runs_after_a_change_of_its_import_only(robot, script, name):
     theirs, their_hash = robot.genuine(script)
     mine, my_hash = run(robot, sys.executable, script, IMPORTS[name])
     assert same(mine, theirs), (mine, theirs)

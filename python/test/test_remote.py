@@ -23,7 +23,7 @@ TOP = Path(__file__).resolve().parents[2]
 SOURCES = sorted((TOP / "catkin_ws" / "src" / "franka_sim" / "src").glob("*/*_commands.cpp"))
 PAGE = TOP / "docs" / "franka_sim.md"
 READY = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
-# Methods that are no line of their own.
+# Methods without a line of their own.
 HELPERS = {"send", "close", "remove_wall"}
 
 
@@ -155,7 +155,7 @@ def test_load_and_walls(robot, remote):
     assert robot.kind != "panda" or not client.get_virtual_wall(2).active
     with pytest.raises(LineRefused, match="negative edge"):
         remote.wall(2, (0, 0, 0), (1, 1, -1))
-    with pytest.raises(LineRefused, match="'8' is no number of a wall: 0 to 7"):
+    with pytest.raises(LineRefused, match="'8' is not a number of a wall: 0 to 7"):
         remote.remove_wall(8)
 
 
@@ -181,7 +181,7 @@ def test_lost_and_delayed_commands(server):
     robot.remote.delay(0)
     with pytest.raises(LineRefused, match="from 0 to 20"):
         robot.remote.delay(21)
-    with pytest.raises(LineRefused, match="-1' is no seed"):
+    with pytest.raises(LineRefused, match="-1' is not a seed"):
         robot.remote.loss(0, -1)
 
 
@@ -277,7 +277,7 @@ def test_meshes_are_read_in_parts(franka_sim, tmp_path):
     assert 15000 < len(part) < 16000
     for line, sentence in (
         ("mesh stone 0", "There is no mesh 'stone'; the line scene names them"),
-        (f"mesh {shape.mesh} -1", "'-1' is no number of bytes"),
+        (f"mesh {shape.mesh} -1", "'-1' is not a number of bytes"),
         (f"mesh {shape.mesh} 1000000", "lies beyond them"),
         ("mesh mesh0", "Words are missing: mesh NAME OFFSET"),
     ):
@@ -348,7 +348,7 @@ def test_commands_of_the_hand_are_checked(server):
         (lambda: remote.hand_grasp(0.02, 0.1, -1), "speeds and forces from 0 on"),
         (lambda: remote.send("hand"), "Words are missing: hand homing"),
         (lambda: remote.send("hand move 0.02"), "Words are missing: hand homing"),
-        (lambda: remote.send("hand wave"), "'wave' is none of homing, stop, move and grasp"),
+        (lambda: remote.send("hand wave"), "'wave' must be one of homing, stop, move and grasp"),
         (server["left"].remote.hand_homing, "NoHand: This robot has no Franka hand"),
     ):
         with pytest.raises(LineRefused, match=sentence):
@@ -361,7 +361,7 @@ def test_the_vacuum_gripper_has_lines_of_its_own(server):
     left.pump("orange")
     left.part(False)
     left.pump("green")
-    with pytest.raises(LineRefused, match="'blue' is none of green, yellow, orange and red"):
+    with pytest.raises(LineRefused, match="'blue' must be one of green, yellow, orange and red"):
         left.pump("blue")
     with pytest.raises(LineRefused, match="There is no command 'part'"):
         server["panda"].remote.part(True)
@@ -382,7 +382,7 @@ def test_steps_are_exact_in_lock_step_and_time_stands_still_between_them(remote)
         remote.step(0)
 
 
-def test_a_step_comes_after_what_was_begun_before(remote, robot):
+def test_step_follows_earlier_commands(remote, robot):
     """The push is over when the step begins: twice the same lines take the same time."""
     spans = []
     for _ in range(2):
@@ -408,7 +408,7 @@ def test_a_world_that_does_not_come_to_rest_is_reported(server):
     assert remote.wait().mode == "Idle"
 
 
-def test_a_call_that_was_given_up_does_not_hinder_the_next_one(franka_sim):
+def test_abandoned_call_does_not_block_the_next_one(franka_sim):
     remote = franka_sim("panda", pace="realtime").robot.remote
     for _ in range(3):
         with pytest.raises(TimeoutError, match="'step 600000' within 0.1 s"):
@@ -473,7 +473,7 @@ def test_the_hash_waits_until_the_world_is_at_rest_and_repeats(server):
         (lambda r: r.push("stone", (0, float("nan"), 1), 1), LineRefused, "'nan' is not a finite number"),
         (lambda r: r.push("nobody", (0, 0, 1), 1), LineRefused, "nobody"),
         (lambda r: r.place("stone", (0, 0, 1e11)), LineRefused, " m"),
-        (lambda r: r.place("stone", (0, 0, 1), (0, 0, 0, 0)), LineRefused, "no unit quaternion"),
+        (lambda r: r.place("stone", (0, 0, 1), (0, 0, 0, 0)), LineRefused, "not a unit quaternion"),
         (lambda r: r.load(-1), LineRefused, "The load was refused"),
         (lambda r: r.loss(2), LineRefused, "from 0 to 1"),
         (lambda r: r.send("dance"), LineRefused, "There is no command 'dance'"),
@@ -533,7 +533,7 @@ def test_steps_of_two_clients_follow_each_other_in_lock_step(server):
         assert first.time() == pytest.approx(begin + 0.7, abs=1e-9)
 
 
-def test_a_reset_of_another_client_does_not_hold_up_a_step(server):
+def test_reset_by_another_client_does_not_block_a_step(server):
     address = server["panda"].address
     with Remote(address) as first, Remote(address) as second:
         first.reset()
@@ -553,8 +553,8 @@ def test_a_ninth_client_is_refused_and_waits_for_its_turn(server):
         clients = [others.enter_context(Remote(address)) for _ in range(8)]
         begin = time.monotonic()
         with pytest.raises(LineRefused, match="8 clients use this control interface"):
-            Remote(address).state(timeout=0.3)
-        assert time.monotonic() - begin >= 0.25, "It has waited for its turn."
+            Remote(address).state(timeout=2.0)
+        assert time.monotonic() - begin >= 1.4, "It has waited for its turn."
         assert all(client.state().mode == "Idle" for client in clients)
         thread = threading.Thread(target=lambda: answers.append(Remote(address).state(timeout=20)))
         thread.start()
@@ -585,7 +585,7 @@ def test_threads_share_a_remote(server):
     assert all(numpy.array_equal(found[i], expected[body]) for i, body in enumerate(bodies))
 
 
-def test_no_robot_is_a_sentence():
+def test_missing_robot_is_reported():
     with pytest.raises(
         ConnectionError, match=r"no control interface at 127.0.32.20, port 1340 .*Start franka_sim"
     ):
@@ -608,7 +608,7 @@ def test_a_stopped_robot_times_out_and_works_again(franka_sim):
         remote.wait(lambda state: state.mode == "Move", timeout=0.3)
 
 
-def test_a_robot_that_goes_away_is_a_sentence(franka_sim):
+def test_lost_robot_is_reported(franka_sim):
     server = franka_sim("panda", pace="realtime")
     with server.robot.remote as remote:
         threading.Timer(0.3, server.process.terminate).start()
@@ -619,7 +619,7 @@ def test_a_robot_that_goes_away_is_a_sentence(franka_sim):
             remote.wait(lambda state: False, timeout=20)
 
 
-def test_quit_returns_when_nothing_listens(franka_sim):
+def test_quit_returns_once_the_port_is_closed(franka_sim):
     server = franka_sim("panda")
     server.robot.remote.quit()
     with socket.socket() as probe:
@@ -648,8 +648,12 @@ def answering(text):
 @pytest.mark.parametrize(
     "text, error, sentence",
     [
-        (b"SSH-2.0-server\r\n", ConnectionError, "is no control interface of franka_sim: 'SSH-2.0-server'"),
-        (b"x" * 100000, ConnectionError, "is no control interface"),
+        (
+            b"SSH-2.0-server\r\n",
+            ConnectionError,
+            "is not a control interface of franka_sim: 'SSH-2.0-server'",
+        ),
+        (b"x" * 100000, ConnectionError, "is not a control interface"),
         (b"ok strange\n", ConnectionError, "cannot be read: 'strange'"),
         (b"ok Idle, cli", TimeoutError, "has not answered 'state' within 1 s"),
         (b"", TimeoutError, "has not answered 'state' within 1 s"),

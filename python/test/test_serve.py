@@ -3,6 +3,7 @@
 """Simulation.serve: a program owns the world while clients on the network drive its robots."""
 
 import os
+import signal
 import threading
 import time
 
@@ -13,6 +14,7 @@ import pytest
 from contact_motion import SCENE, press
 from fci_session import simulated
 from pyfranka.sim import FR3, KINDS, Panda, RequestRefused, Simulation, SimulationBatch
+from waiting import wait_for
 
 ADDRESSES = {"panda": "127.0.33.11", "fr3": "127.0.33.12"}
 TORQUES = np.array([0.5, -1.0, 0.3, 0.8, 0.1, -0.2, 0.05])  # [Nm]
@@ -23,13 +25,6 @@ def sim(name):
     with Simulation(robots=[KINDS[name]()]) as simulation:
         simulation.serve(ADDRESSES[name])
         yield simulation
-
-
-def wait_for(condition):
-    deadline = time.monotonic() + 30
-    while not condition():
-        assert time.monotonic() < deadline
-        time.sleep(0.005)
 
 
 class Stepping:
@@ -152,7 +147,7 @@ def test_the_program_is_refused_while_a_client_moves_the_robot(sim, name):
 
 
 def test_a_client_stays_connected_while_the_program_does_other_work(sim, name):
-    client = connect(name)  # nobody steps
+    client = connect(name)  # the simulation is not stepped
     client.set_load(0.1, [0, 0, 0], np.zeros(9))
     assert client.read_once().m_load == pytest.approx(0.1)
     assert sim[name].state.m_load == pytest.approx(0.1) and sim.ticks == 0
@@ -162,6 +157,55 @@ def test_a_client_stays_connected_while_the_program_does_other_work(sim, name):
     while moving.is_alive():
         sim.step()
     assert not errors
+
+
+def test_ctrl_c_ends_the_wait_for_a_client_that_may_think_for_ever(name):
+    with Simulation(robots=[KINDS[name]()]) as sim:
+        sim.serve(ADDRESSES[name], patience="forever")
+        client, silent, go_on, errors = connect(name), threading.Event(), threading.Event(), []
+        passed = 0.0
+
+        def hold(state, period):
+            nonlocal passed
+            passed += period
+            if 0.1 < passed < 0.2:
+                silent.set()
+                go_on.wait(60)
+            torques = pyfranka.Torques([0.0] * 7)
+            return pyfranka.motion_finished(torques) if passed > 0.3 else torques
+
+        def move():
+            try:
+                client.control_torques(hold)
+            except pyfranka.Exception as error:
+                errors.append(error)
+
+        def interrupt():
+            silent.wait(60)
+            time.sleep(0.3)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        threads = [threading.Thread(target=target) for target in (move, interrupt)]
+        for thread in threads:
+            thread.start()
+        with pytest.raises(KeyboardInterrupt):
+            sim.step(100000)
+        ticks = sim.ticks
+        go_on.set()
+        while threads[0].is_alive():
+            sim.step()
+        threads[1].join()
+        assert not errors and passed > 0.3, errors
+        assert 0 < sim.ticks - ticks < 1000
+
+
+def test_reason_of_a_refused_client_is_reported(sim, name, caplog):
+    client = connect(name)
+    with pytest.raises(pyfranka.NetworkException):
+        connect(name)
+    place = f"{name} at {ADDRESSES[name]}: "
+    wait_for(lambda: any(text.startswith(place) and "127.0.0.1" in text for text in caplog.messages))
+    del client
 
 
 def test_a_reset_answers_the_client_whose_motion_it_ends(sim, name):
@@ -201,7 +245,7 @@ def test_the_hand_is_served_too(sim, name):
     assert sim[name].gripper.width == pytest.approx(0.06, abs=1e-3)
 
 
-def test_ticks_follow_the_clock_if_wished():
+def test_ticks_follow_the_clock_if_requested():
     with Simulation() as sim:
         sim.serve(ADDRESSES["panda"], pace="realtime")
         begin = time.monotonic()
@@ -215,6 +259,7 @@ def test_bad_input_is_refused_and_an_end_frees_the_address(sim, name):
         "served at": lambda: sim.serve("127.0.33.19"),
         "'lockstep' or 'realtime'": lambda: sim.serve("127.0.33.19", pace="fast"),
         "patience must be": lambda: sim.serve("127.0.33.19", patience=0),
+        "or 'forever', not 'for ever'": lambda: sim.serve("127.0.33.19", patience="for ever"),
     }.items():
         with pytest.raises((ValueError, KeyError, RuntimeError), match=sentence):
             call()
@@ -234,7 +279,7 @@ def test_bad_input_is_refused_and_an_end_frees_the_address(sim, name):
             batch.step()
 
 
-def test_a_forked_process_is_told_that_the_clients_are_not_its_own(sim):
+def test_forked_process_raises_because_clients_are_not_its_own(sim):
     sim.step(5)
     child = os.fork()
     if child == 0:

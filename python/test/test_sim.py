@@ -2,22 +2,25 @@
 # SPDX-License-Identifier: Apache-2.0
 """pyfranka.sim: robots that a Python program steps in its own process."""
 
+import gc
 import math
+import os
+import select
+import signal
+import subprocess
+import sys
 import threading
 import time
+import warnings
 from pathlib import Path
 
-import contact_motion
 import numpy as np
 import pyfranka
 import pyfranka.sim
 import pytest
-from contact_motion import SCENE, TICKS, down_and_back, press
-from fci_session import go_first, go_with_all, simulated
 from pyfranka.sim import FR3, KINDS, GripperOutcome, Panda, RequestRefused, Simulation
 
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
-LOOSE = [100.0] * 7, [100.0] * 7, [300.0] * 6, [300.0] * 6
 TORQUES = np.array([0.5, -1.0, 0.3, 0.8, 0.1, -0.2, 0.05])  # [Nm]
 
 
@@ -30,37 +33,6 @@ def sim(name):
 @pytest.fixture
 def arm(sim, name):
     return sim[name]
-
-
-def hash_over_fci(name):
-    """The robot's hash of a motion by a client in lock-step, and the joint positions at its start."""
-    go_first()
-    try:
-        with simulated(name, "lockstep", *SCENE) as served:
-            first = press(served.address, served.protocol)
-            return served.remote.hash(), first
-    finally:
-        go_with_all()
-
-
-def test_a_motion_has_the_same_hash_in_this_process_and_over_the_network(name):
-    expected, first = hash_over_fci(name)
-    with Simulation(contact_motion.WORLD, [KINDS[name](base=contact_motion.BASE)]) as sim:
-        robot = sim[name]
-        robot.set_collision_behavior(*LOOSE)
-        pressed = 0.0
-        for k in range(TICKS + 1):
-            robot.command(joint_positions=down_and_back(first, k))
-            if k == TICKS:
-                robot.finish()
-            sim.step()
-            pressed = max(pressed, abs(robot.state.tau_ext_hat_filtered[1]))
-        assert pressed > 10.0, "the hand touches the table"
-        hashes = set()
-        for _ in range(2000):  # a served world runs on until it rests
-            hashes.add(robot.hash())
-            sim.step()
-        assert expected in hashes
 
 
 def test_each_kind_of_command_moves_the_arm(sim, name):
@@ -97,6 +69,50 @@ def test_each_kind_of_command_moves_the_arm(sim, name):
             assert robot.state.O_T_EE[2, 3] == pytest.approx(start.O_T_EE[2, 3] + 0.02, abs=1e-3)
         else:
             assert np.abs(robot.state.q - start.q).max() > 1e-3
+
+
+def elbow_motion(sim, robot, controller, **command):
+    """The elbow turns while the end effector stays; how far joint 3 and the end effector have moved."""
+    state = robot.state
+    start, pose = state.elbow_d.copy(), state.O_T_EE_d.copy()
+    for k in range(1, 1001):
+        way = 0.1 * (1 - math.cos(math.pi * k / 1000)) / 2
+        values = {"cartesian_pose": pose} if command["pose"] else {"cartesian_velocities": [0.0] * 6}
+        robot.command(**values, elbow=[start[0] + way, start[1]], controller=controller)
+        sim.step()
+        assert robot.moving, (k, str(state.last_motion_errors))
+    robot.finish()
+    sim.step(500)
+    assert not robot.moving and not state.current_errors
+    return state.q[2] - start[0], np.abs(state.O_T_EE - pose).max()
+
+
+@pytest.mark.parametrize("controller", ["joint_impedance", "cartesian_impedance"])
+@pytest.mark.parametrize("pose", [True, False], ids=["poses", "velocities"])
+def test_a_commanded_elbow_turns_about_a_resting_end_effector(sim, arm, controller, pose):
+    turned, moved = elbow_motion(sim, arm, controller, pose=pose)
+    assert turned == pytest.approx(0.1, abs=5e-3) and moved < 2e-3
+
+
+def test_the_robots_controllers_yield_differently(sim, arm, name):
+    """Beside its motion generator: a soft Cartesian controller gives way to a push as its spring says."""
+    arm.set_cartesian_impedance([500.0] * 3 + [50.0] * 3)
+    arm.set_collision_behavior(*[[100.0] * 7] * 2, *[[100.0] * 6] * 2)
+
+    def pushed(controller):
+        sim.reset()
+        pose = arm.state.O_T_EE_d.copy()
+        for k in range(2500):
+            if k == 500:
+                before = arm.state.O_T_EE[1, 3]
+                sim.push(f"{name}_hand", [0, 5, 0], ticks=2000)
+            arm.command(cartesian_pose=pose, controller=controller)
+            sim.step()
+        assert arm.moving, str(arm.state.last_motion_errors)
+        return arm.state.O_T_EE[1, 3] - before
+
+    assert pushed("cartesian_impedance") == pytest.approx(5 / 500, abs=2e-3)
+    assert pushed("joint_impedance") < 4e-3
 
 
 def test_laws_in_cpp_run_below_a_slow_policy(sim, arm):
@@ -172,7 +188,7 @@ def test_damping_of_the_joints_ends_a_swing(sim, arm):
     assert overshoot([5.0] * 4 + [1.0] * 3) < 2e-3
 
 
-def test_what_a_robot_refuses_is_said_and_it_recovers(sim, arm):
+def test_refusal_is_reported_and_robot_recovers(sim, arm):
     arm.command(joint_positions=arm.state.q_d)
     sim.step(5)
     with pytest.raises(RequestRefused, match="another kind"):
@@ -207,59 +223,28 @@ def test_a_command_to_a_motion_that_ends_is_refused(sim, arm):
     assert arm.moving
 
 
-def test_bad_input_is_refused_with_a_sentence_and_changes_nothing(sim, arm):
-    sim.step(10)
-    before = sim.hash(), arm.state.q.copy()
-    refused = {
-        "torque needs 7 numbers, not 2": lambda: arm.command(torque=[1, 2]),
-        "torque must be finite": lambda: arm.command(torque=[math.nan] * 7),
-        "A command is one of": lambda: arm.command(),
-        "given: torque, joint_positions": lambda: arm.command(torque=TORQUES, joint_positions=TORQUES),
-        "An elbow goes with": lambda: arm.command(torque=TORQUES, elbow=[0, 1]),
-        "limit_rate and damping go": lambda: arm.command(joint_positions=TORQUES, limit_rate=True),
-        "damping must not be": lambda: arm.command(torque=TORQUES, damping=[-1.0] * 7),
-        "controller is joint_impedance or": lambda: arm.command(joint_positions=TORQUES, controller="soft"),
-        "stiffness must lie between": lambda: arm.joint_impedance(TORQUES, stiffness=[-1.0] * 7),
-        "duration must be": lambda: arm.joint_impedance(TORQUES, duration=-1.0),
-        "target": lambda: arm.cartesian_impedance(np.ones((4, 4))),
-        "Time goes forwards": lambda: sim.step(-1),
-        "no body 'nothing'": lambda: sim.body_pose("nothing"),
-        "Joint 4 of": lambda: sim.reset(q=np.ones(7)),
-        "q is 7 numbers or 'random'": lambda: sim.reset(q="anywhere"),
-        "no robot 'ur5'": lambda: sim.reset(q={"ur5": "random"}),
-        "no body 'brick'": lambda: sim.reset(objects={"brick": [0, 0, 1]}),
-        "3 or 7 finite numbers": lambda: sim.reset(objects={"world": [0, 0]}),
-        "q needs 7 numbers": lambda: sim.reset(q=[1, 2]),
-        "is not free to move": lambda: sim.place_body(f"{arm.name}_hand", [0, 0, 1]),
-        "must be finite": lambda: sim.push("nothing", [math.inf, 0, 0]),
-        "10 kg": lambda: arm.set_load(100.0, [0, 0, 0], np.zeros(9)),
-    }
-    for sentence, call in refused.items():
-        with pytest.raises((ValueError, RuntimeError, KeyError)) as caught:
-            call()
-        assert sentence in str(caught.value)
-        assert not arm.moving and sim.ticks == 10, sentence
-    assert sim.hash() == before[0] and (arm.state.q == before[1]).all()
-
-
-def test_robots_and_worlds_that_cannot_be_used_are_refused():
-    for sentence, arguments in {
-        "no world 'moon.xml'": {"world": "moon.xml"},
-        "Two robots have the name 'a'": {"robots": [Panda("a"), FR3("a", base=(0, 1, 0))]},
-        "robots are Panda": {"robots": ["panda"]},
-        "base needs x, y, z": {"robots": [Panda(base=(1, 2))]},
-        "base must be finite": {"robots": [Panda(base=(math.nan, 0, 0))]},
-        "'reel' is not known": {"robots": [Panda(realism="reel")]},
-        "Cannot read the file": {"robots": [Panda(urdf="/nowhere.urdf")]},
-    }.items():
-        with pytest.raises((ValueError, RuntimeError, TypeError)) as caught:
-            Simulation(**arguments)
-        assert sentence in str(caught.value)
+def test_a_world_needs_no_robot_and_says_where_robots_overlap():
     with Simulation(robots=[]) as empty:
         empty.step(5)
         assert not list(empty) and empty.ticks == 5
-    with pytest.warns(UserWarning, match="another base"):
+
+
+def test_a_robot_that_begins_within_another_body_is_a_warning(tmp_path):
+    with pytest.warns(UserWarning, match="begins within other bodies.*another base") as caught:
         Simulation(robots=[Panda(), FR3()]).close()
+    texts = [str(warning.message) for warning in caught]
+    assert [text.split("'")[1] for text in texts] == ["panda", "fr3"]
+    assert "panda_link1 and fr3_link1 by" in texts[0] and "fr3_link1 and panda_link1 by" in texts[1]
+    world = tmp_path / "box.xml"
+    world.write_text(
+        '<mujoco><worldbody><body name="box" pos="0 0 0.3"><freejoint/>'
+        '<geom type="box" size="0.1 0.1 0.3"/></body></worldbody></mujoco>'
+    )
+    with pytest.warns(UserWarning, match="panda_link1 and box by [0-9]+ mm"):
+        Simulation(robots=[Panda()], world=world).close()
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        Simulation(robots=[Panda(base=(0, 2, 0))], world=world).close()
 
 
 def test_several_robots_share_a_world_and_have_names():
@@ -330,18 +315,6 @@ def test_random_joints_are_within_the_limits_and_repeat(name):
         assert (first == seen[0]).all(), "of the same seed"
 
 
-def test_a_snapshot_brings_the_world_back(name):
-    with Simulation("stone.xml", [KINDS[name](base=BASE)]) as sim:
-        sim.step(300)
-        snapshot, before = sim.snapshot(), sim.hash()
-        sim.push("stone", [3, 0, 0], ticks=100)
-        sim[name].joint_impedance(sim[name].state.q + 0.2, 0.2)
-        sim.step(300)
-        assert sim.hash() != before
-        sim.restore(snapshot)
-        assert sim.hash() == before and sim.ticks == 300 and not sim[name].moving
-
-
 def test_state_arrays_are_live_views_that_cannot_be_written(sim, arm):
     q, state = arm.state.q, arm.state.copy()
     before = q.copy()
@@ -381,7 +354,17 @@ def test_a_simulation_is_for_one_thread_at_a_time_and_lets_others_run(sim):
     sim.step()
 
 
-def test_a_closed_simulation_says_so(sim, arm):
+def test_too_many_contacts_are_a_warning_once(narrow_world):
+    with pyfranka.sim.Simulation(narrow_world, []) as sim:
+        with pytest.warns(RuntimeWarning, match="Raise nconmax") as caught:
+            sim.step(10)
+        assert caught[0].filename == __file__
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            sim.step(10)
+
+
+def test_closed_simulation_raises(sim, arm):
     sim.close()
     sim.close()
     for call in (sim.step, sim.reset, sim.bodies, arm.recover, lambda: arm.command(torque=TORQUES)):
@@ -395,6 +378,155 @@ def test_pictures_come_as_arrays(name):
         assert picture.rgb.shape == (120, 160, 3) and picture.rgb.std() > 10.0
         with pytest.raises(RuntimeError, match="no camera"):
             sim.render("nowhere")
+
+
+def test_a_named_camera_sees_distances(name, tmp_path):
+    """It looks down on a table from 1 m."""
+    world = tmp_path / "camera.xml"
+    world.write_text(
+        "<mujoco><worldbody><light pos='0 0 3'/><geom type='plane' size='2 2 1' rgba='1 0 0 1'/>"
+        "<geom type='box' size='0.1 0.1 0.1' pos='0.2 0 0.1' rgba='0 0 1 1'/>"
+        "<camera name='above' pos='0 0 1' fovy='60' user='320 240 10'/></worldbody></mujoco>"
+    )
+    with Simulation(world, [KINDS[name](base=(0, 5, 0))]) as sim:
+        assert sim.cameras() == ["above"]
+        picture = sim.render("above", 160, 120)
+        assert picture.rgb.shape == (120, 160, 3) and picture.depth.shape == (120, 160)
+        assert picture.rgb.dtype == np.uint8 and picture.depth.dtype == np.float32
+        assert picture.depth[60, 40] == pytest.approx(1.0, abs=2e-3), "the ground"
+        # x = 0.2 m at a distance of 0.8 m: to the right, of 60 pixels for tan(30 deg).
+        column = 80 + round(0.2 / 0.8 * 60 / math.tan(math.radians(30)))
+        assert picture.depth[60, column] == pytest.approx(0.8, abs=2e-3), "the top of the box"
+        red, _, blue = picture.rgb[60, 40].astype(int), None, picture.rgb[60, column].astype(int)
+        assert red[0] > red[2] + 30 and blue[2] > blue[0] + 30
+        assert sim.render("above", 64, 48).depth.shape == (48, 64), "another size"
+        assert sim.render(width=64, height=48).depth is None, "of no camera"
+
+
+def test_each_thread_may_draw(name):
+    """One after the other, of one simulation."""
+    with Simulation("stone.xml", [KINDS[name](base=BASE)]) as sim:
+        pictures = [sim.render(width=64, height=48).rgb]
+        for _ in range(2):
+            worker = threading.Thread(target=lambda: pictures.append(sim.render(width=64, height=48).rgb))
+            worker.start()
+            worker.join()
+        pictures.append(sim.render(width=64, height=48).rgb)
+    assert len(pictures) == 4 and all((one == pictures[0]).all() for one in pictures)
+
+
+def in_a_forked_process(work):
+    """Runs it there, as multiprocessing on Linux does; its text, or None if it does not end."""
+    read, write = os.pipe()
+    child = os.fork()
+    if child == 0:
+        try:
+            os.write(write, work().encode())
+        finally:
+            os._exit(0)
+    os.close(write)
+    try:
+        ready, _, _ = select.select([read], [], [], 60.0)
+        text = os.read(read, 65536).decode() if ready else None
+    finally:
+        os.close(read)
+        if not ready:
+            os.kill(child, signal.SIGKILL)
+        os.waitpid(child, 0)
+    return text
+
+
+def drawn(sim):
+    try:
+        return f"drawn: {sim.render(width=64, height=48).rgb.shape}"
+    except RuntimeError as error:
+        return f"refused: {error}"
+
+
+def test_a_forked_process_does_not_draw_with_the_driver_of_the_first(name):
+    with Simulation("stone.xml", [KINDS[name](base=BASE)]) as sim:
+        assert drawn(sim) == "drawn: (48, 64, 3)"
+
+        def work():
+            with Simulation() as own:
+                results = [drawn(sim), drawn(own)]
+                own.step(5)
+            sim.step(5)
+            sim.close()
+            gc.collect()
+            return "\n".join(results)
+
+        lines = in_a_forked_process(work).splitlines()
+        assert len(lines) == 2, "it neither hangs nor crashes"
+        assert all("refused: Pictures were drawn before this process was forked" in line for line in lines)
+        assert drawn(sim) == "drawn: (48, 64, 3)", "it continues here"
+
+
+def test_a_process_that_was_forked_after_a_picture_ends_by_itself():
+    code = (
+        "import os, sys, pyfranka.sim\n"
+        "sim = pyfranka.sim.Simulation()\n"
+        "sim.render(width=64, height=48)\n"
+        "child = os.fork()\n"
+        "if child == 0:\n"
+        "    sim.step(5)\n"
+        "    sys.exit(3)\n"
+        "sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert (ended.returncode, ended.stderr) == (3, "")
+
+
+def test_a_process_that_was_forked_before_the_first_picture_draws():
+    code = (
+        "import multiprocessing, pyfranka.sim\n"
+        "def draw(number):\n"
+        "    with pyfranka.sim.Simulation() as sim:\n"
+        "        return sim.render(width=64, height=48).rgb.shape\n"
+        "with multiprocessing.get_context('fork').Pool(2) as pool:\n"
+        "    print(pool.map(draw, range(4)))\n"
+    )
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    assert ended.stdout == f"{[(48, 64, 3)] * 4}\n", ended.stderr
+
+
+def test_an_arm_without_hand_has_neither_its_links_nor_its_mass(name):
+    with Simulation("", [KINDS[name]()]) as with_hand, Simulation("", [KINDS[name](hand=False)]) as sim:
+        arm, other = sim[name], with_hand[name]
+        of_hand = set(with_hand.bodies()) - set(sim.bodies())
+        assert {f"{name}_hand", f"{name}_hand_tcp", f"{name}_leftfinger", f"{name}_rightfinger"} <= of_hand
+        assert all("hand" in body or "finger" in body for body in of_hand)
+        assert {f"{name}_link{i}" for i in range(9)} <= set(sim.bodies())
+        assert arm.state.m_ee == 0.0 and other.state.m_ee == pytest.approx(0.73, abs=0.05)
+        assert arm.state.F_T_EE == pytest.approx(np.eye(4)), "the end effector is the flange"
+        assert arm.state.O_T_EE[2, 3] == pytest.approx(other.state.O_T_EE[2, 3] + 0.1034, abs=1e-3)
+        sim.step(500)
+        with_hand.step(500)
+        # What the motors carry, and what the robot knows of it, agree: it neither sinks nor feels a force.
+        assert np.abs(arm.state.tau_ext_hat_filtered).max() < 1e-3
+        assert np.abs(arm.state.dq).max() < 1e-6
+        moved = other.state.tau_J[1] - arm.state.tau_J[1]
+        reach = (other.state.O_T_EE[0, 3]) * other.state.m_ee * 9.81
+        assert abs(moved) == pytest.approx(reach, rel=0.3), "the weight of the hand"
+        with pytest.raises(RuntimeError, match="has no hand"):
+            _ = arm.gripper
+
+
+def test_a_description_of_ones_own_keeps_its_hand(name, tmp_path):
+    with Simulation("", [KINDS[name]()]) as sim:
+        mass, bodies = float(sim[name].state.m_ee), sim.bodies()
+    robots = Path(__file__).resolve().parents[2] / "catkin_ws" / "src" / "franka_sim" / "robots"
+    own = tmp_path / "own.urdf"
+    own.write_text((robots / f"{name}.urdf").read_text())
+    with Simulation("", [KINDS[name](urdf=own, hand=False)]) as sim:
+        assert sim.bodies() == bodies and sim[name].state.m_ee == mass
+        sim.step(100)
+        with pytest.raises(RuntimeError, match="has no hand"):
+            _ = sim[name].gripper
+    with Simulation("", [KINDS[name](urdf=own)]) as sim:
+        sim[name].gripper.move(0.04)
+        sim.step(1000)
+        assert sim[name].gripper.width == pytest.approx(0.04, abs=1e-3)
 
 
 @pytest.mark.filterwarnings("error")  # of exceptions in threads

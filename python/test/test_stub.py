@@ -90,10 +90,10 @@ def test_everything_public_has_a_docstring():
                 continue
             doc = member.__doc__ or ""
             if isinstance(member, property):
-                said = [re.sub(r"^\(.*?\) -> .*\n*", "", doc).strip()]
+                printed = [re.sub(r"^\(.*?\) -> .*\n*", "", doc).strip()]
             else:
-                said = texts(doc)
-            if not all(said):
+                printed = texts(doc)
+            if not all(printed):
                 silent.append(f"{where}.{name}")
     for name in public(vars(pyfranka)):
         value = getattr(pyfranka, name)

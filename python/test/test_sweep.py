@@ -16,36 +16,27 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import cloudpickle
-import contact_motion
 import distributed
 import numpy
 import pyarrow.parquet
 import pyfranka
 import pyfranka.sim
 import pytest
-from contact_motion import BASE, TICKS, WORLD, down_and_back
 from genuine_clients import client_python
 from PIL import Image
 from pyfranka import _sweep_run, sweeps
+from waiting import wait_for
 
 TOP = Path(__file__).resolve().parents[2]
 DEADLINE = 120.0  # [s] of a busy machine
 MODULE = [sys.executable, "-m", "pyfranka.sweeps"]
-for module in (sys.modules[__name__], contact_motion):
-    cloudpickle.register_pickle_by_value(module)  # workers cannot import the tests
+cloudpickle.register_pickle_by_value(sys.modules[__name__])  # workers cannot import the tests
 ENVIRONMENT = {
     **os.environ,
     "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1",
     "DASK_DISTRIBUTED__COMM__TIMEOUTS__CONNECT": "10s",  # to a worker that was killed with a result
     "DASK_DISTRIBUTED__SCHEDULER__WORKER_SATURATION": "1.0",  # no case waits behind one that kills
 }
-
-
-def wait_for(condition, what):
-    deadline = time.monotonic() + DEADLINE
-    while not condition():
-        assert time.monotonic() < deadline, f"{what} did not come"
-        time.sleep(0.02)
 
 
 @pytest.fixture(scope="module")
@@ -62,7 +53,7 @@ def cluster(tmp_path_factory):
             processes.append(subprocess.Popen([*dask, "scheduler", "--port", "0", *where], **options))
             workers = [*dask, "worker", "--nworkers", "2", "--nthreads", "1", *where]
             processes.append(subprocess.Popen(workers, **options))
-            wait_for(file.exists, "the scheduler")
+            wait_for(file.exists, "the scheduler", DEADLINE)
             yield json.loads(file.read_text())["address"]
         finally:
             for process in reversed(processes):  # workers first: without a scheduler they wait some seconds
@@ -108,7 +99,7 @@ def test_results_come_in_order_and_each_case_runs_once(cluster, log):
     assert len({outcome.worker for outcome in done}) == 2 and not done.failed
 
 
-def test_a_case_that_raises_is_run_again_then_reported_and_the_sweep_goes_on(cluster, log):
+def test_failing_case_is_retried_then_reported_and_the_sweep_continues(cluster, log):
     def moody(case, seed):
         log.note(case)
         if case == 3 or (case == 5 and log.notes().count("5") == 1):
@@ -128,7 +119,7 @@ def test_a_case_that_raises_is_run_again_then_reported_and_the_sweep_goes_on(clu
     assert alone[0].tries == 1
 
 
-def test_a_killed_worker_loses_and_doubles_nothing(cluster, log, tmp_path):
+def test_killed_worker_loses_and_duplicates_no_case(cluster, log, tmp_path):
     def deadly(case, seed):
         log.note(case)
         if case == 4 or (case == 9 and log.notes().count("9") == 1):
@@ -310,18 +301,22 @@ def alive(pid):
 
 
 @pytest.mark.parametrize("how, name", [(signal.SIGKILL, "parquet"), (signal.SIGINT, "csv")])
-def test_an_interrupted_sweep_goes_on_where_it_was(tmp_path, how, name):
+def test_interrupted_sweep_continues_where_it_stopped(tmp_path, how, name):
     (tmp_path / "script.py").write_text(SCRIPT.replace("NAME", name))
     (tmp_path / "beside.py").write_text(BESIDE)
     log, parts = tmp_path / "log", tmp_path / f"out.{name}.parts"
     options = {"cwd": tmp_path, "stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
     first = subprocess.Popen([sys.executable, "script.py"], **options)
-    wait_for(lambda: any(parts.glob("part-*.parquet")) or first.poll() is not None, "a part of the output")
+    wait_for(
+        lambda: any(parts.glob("part-*.parquet")) or first.poll() is not None,
+        "a part of the output",
+        DEADLINE,
+    )
     first.send_signal(how)
     _, error = first.communicate(timeout=DEADLINE)
     begun = [line.split() for line in log.read_text().splitlines()]
     assert first.returncode != 0 and len(begun) < 60, error
-    wait_for(lambda: not any(alive(pid) for _, pid in begun), "the end of the workers")
+    wait_for(lambda: not any(alive(pid) for _, pid in begun), "the end of the workers", DEADLINE)
     if how == signal.SIGKILL:
         written = {
             i
@@ -344,6 +339,29 @@ def test_an_interrupted_sweep_goes_on_where_it_was(tmp_path, how, name):
     else:
         rows = pyarrow.parquet.read_table(tmp_path / "out.parquet")["index"].to_pylist()
     assert rows == list(range(60)) and not parts.exists()
+
+
+KILLED = """
+import os, signal
+from distributed.deploy.subprocess import SubprocessWorker
+from pyfranka import _sweep_run
+
+class KilledAtStart(SubprocessWorker):
+    async def start(self):
+        await super().start()
+        os.kill(os.getpid(), signal.SIGKILL)
+
+_sweep_run.SubprocessWorker = KilledAtStart
+_sweep_run.ALONE = 2.0
+_sweep_run.local_cluster(1)
+"""
+
+
+def test_worker_ends_if_its_program_was_killed_during_start():
+    options = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE}
+    killed = subprocess.Popen([sys.executable, "-c", KILLED], **options)
+    killed.communicate(timeout=DEADLINE)  # until the worker has closed its ends
+    assert killed.returncode == -signal.SIGKILL
 
 
 def test_two_processes_cannot_write_one_output(cluster, tmp_path):
@@ -387,23 +405,26 @@ def test_the_program_sends_the_functions_of_a_file(cluster, tmp_path, capsys, mo
     script = tmp_path / "own.py"
     script.write_text(OWN)
     assert sweeps.main([str(script), "--cases", "5", "--seed", "3", "--cluster", cluster]) == 0
-    said = capsys.readouterr()
-    assert "5 cases, 0 failed: own.parquet" in said.out
-    assert "case/s" not in said.err, "no bar without a terminal"
+    printed = capsys.readouterr()
+    assert "5 cases, 0 failed: own.parquet" in printed.out
+    assert "case/s" not in printed.err, "no bar without a terminal"
     table = pyarrow.parquet.read_table("own.parquet")
     assert table["result.parity"].to_pylist() == [sweeps.seed_of(3, n) % 2 for n in range(5)]
     arguments = [str(script), "--function", "square", "--output", "squares.csv", "--cluster", cluster]
     for _ in range(2):  # the second time from the file
         assert sweeps.main([*arguments, "--retries", "0", "--progress"]) == 1
-        said = capsys.readouterr()
-        assert "case 1 (seed " in said.out and "ValueError: no twos (own.py, line 18, in square)" in said.out
-    assert "case/s" not in said.err, "nothing to do, no bar"
+        printed = capsys.readouterr()
+        assert (
+            "case 1 (seed " in printed.out
+            and "ValueError: no twos (own.py, line 18, in square)" in printed.out
+        )
+    assert "case/s" not in printed.err, "nothing to do, no bar"
     for sentence, words in {
         "There is no file 'nowhere.py'": ["nowhere.py"],
         "has no function act(index, seed)": [str(script), "--function", "act"],
         "is of another sweep": [str(script), "--cases", "6", "--seed", "3"],
         "suffix .parquet or .csv": [str(script), "--cases", "6", "--output", "out.txt"],
-        "cases is a whole number": [str(script), "--cases", "0"],
+        "cases must be a whole number": [str(script), "--cases", "0"],
     }.items():
         assert sweeps.main(words) == 2 and sentence in capsys.readouterr().err
     script.write_text("1 / 0\n")
@@ -429,7 +450,7 @@ def test_a_failed_case_names_its_file_line_and_function(tmp_path, version):
     assert "ValueError: no twos (own.py, line 18, in square)" in run.stdout, run.stderr
 
 
-def test_the_program_shows_its_help_and_a_bar_when_asked(cluster, tmp_path):
+def test_program_shows_its_help_and_a_progress_bar_on_request(cluster, tmp_path):
     helped = subprocess.run([*MODULE, "--help"], capture_output=True, text=True, timeout=DEADLINE)
     assert helped.returncode == 0 and "--retry-failed" in helped.stdout
     (tmp_path / "own.py").write_text(OWN)
@@ -461,10 +482,10 @@ def test_bad_input_is_refused_with_a_sentence_before_anything_is_begun(tmp_path)
     for sentence, refused in {
         "cannot be called": lambda: call(3, 1),
         "'one_argument' cannot be": lambda: call(one_argument, 1),
-        "cases is a whole number from 1, not 0": lambda: call(good, 0),
-        "cases is a whole number from 1, not True": lambda: call(good, True),
-        "cases is a number or a list of cases, not 1.5": lambda: call(good, 1.5),
-        "cases is a number or a list of cases, not 'abc'": lambda: call(good, "abc"),
+        "cases must be a whole number from 1, not 0": lambda: call(good, 0),
+        "cases must be a whole number from 1, not True": lambda: call(good, True),
+        "cases must be a number or a list of cases, not 1.5": lambda: call(good, 1.5),
+        "cases must be a number or a list of cases, not 'abc'": lambda: call(good, "abc"),
         "There are no cases": lambda: call(good, []),
         "case 1 cannot be sent to a worker": lambda: call(good, [1, stuck], output=tmp_path / "out.csv"),
         "function cannot be sent to a worker": lambda: call(lambda case, seed: stuck, 1),
@@ -475,12 +496,12 @@ def test_bad_input_is_refused_with_a_sentence_before_anything_is_begun(tmp_path)
         "suffix .parquet or .csv": lambda: call(good, 1, output=tmp_path / "out.txt"),
         "is a folder": lambda: call(good, 1, output=there),
         "does not exist; make it first": lambda: call(good, 1, output=tmp_path / "no" / "out.csv"),
-        "seed is a whole number from 0, not -1": lambda: call(good, 1, seed=-1),
-        "seed is a whole number from 0, not 1.5": lambda: call(good, 1, seed=1.5),
-        "retries is a whole number from 0, not -1": lambda: call(good, 1, retries=-1),
-        "workers is a whole number from 1, not 0": lambda: call(good, 1, workers=0),
+        "seed must be a whole number from 0, not -1": lambda: call(good, 1, seed=-1),
+        "seed must be a whole number from 0, not 1.5": lambda: call(good, 1, seed=1.5),
+        "retries must be a whole number from 0, not -1": lambda: call(good, 1, retries=-1),
+        "workers must be a whole number from 1, not 0": lambda: call(good, 1, workers=0),
         "a cluster has its own": lambda: call(good, 1, "tcp://127.0.0.1:1", workers=1),
-        "patience is a time above 0 s": lambda: call(good, 1, patience=float("nan")),
+        "patience must be a time above 0 s": lambda: call(good, 1, patience=float("nan")),
     }.items():
         with pytest.raises((TypeError, ValueError, OSError)) as caught:
             refused()
@@ -522,24 +543,6 @@ def motion(case, seed):
         robot.joint_impedance(robot.state.q + 0.1, 0.2, numpy.random.default_rng(seed).uniform(100, 300, 7))
         sim.step(500)
         return {"hash": f"{robot.hash():016x}", "q": robot.state.q, "threads": os.environ["OMP_NUM_THREADS"]}
-
-
-def pressing(case, seed):
-    """The robot's hash of ten seconds with contact. test_sim.py compares it with that of a served robot."""
-    kind = pyfranka.sim.KINDS[case]
-    with pyfranka.sim.Simulation(WORLD, [kind(base=BASE)]) as sim:
-        robot, first = sim[case], sim[case].state.q_d.copy()
-        robot.set_collision_behavior([100.0] * 7, [100.0] * 7, [300.0] * 6, [300.0] * 6)
-        for k in range(TICKS):
-            robot.command(joint_positions=down_and_back(first, k))
-            sim.step()
-        return {"hash": f"{robot.hash():016x}", "moving": robot.moving}
-
-
-def test_ten_seconds_with_contact_have_the_same_hash_on_a_worker(cluster):
-    done = pyfranka.sweep(pressing, ["panda", "fr3"], cluster)
-    assert [outcome.result for outcome in done] == [pressing(outcome.case, 0) for outcome in done]
-    assert all(outcome.result["moving"] for outcome in done)
 
 
 def test_a_robot_moves_on_a_worker_as_in_this_process(cluster, monkeypatch):

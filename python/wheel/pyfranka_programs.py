@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The commands of the wheel: they become the programs that it brings along.
+"""The commands of the wheel: they become the programs that it contains.
 
 Not a part of the package pyfranka, whose import takes longer than the programs need to start.
 """

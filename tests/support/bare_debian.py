@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
+TOP = Path(__file__).resolve().parents[2]
 # How this machine reaches PyPI.
 OF_THE_NETWORK = ("/etc/resolv.conf", "/etc/pip.conf", "/etc/ssl/certs/ca-certificates.crt")
 IN_ROOT = """
@@ -22,8 +23,8 @@ exec chroot "$0" "$@"
 def possible() -> str:
     """Why this machine cannot make one; empty if it can."""
     if os.geteuid() != 0:
-        return "only root can make a bare Debian"
-    return "" if shutil.which("debootstrap") else "the package debootstrap is not installed"
+        return "only root can make a bare Debian: run ./franka test --long as root"
+    return "" if shutil.which("debootstrap") else "debootstrap is not installed"
 
 
 class BareDebian:
@@ -64,6 +65,15 @@ class BareDebian:
         return result.stdout
 
 
+def copy_project(folder: Path) -> None:
+    """Copies the files that git knows, as they stand, into a new folder."""
+    folder.mkdir()
+    names = subprocess.check_output(["git", "ls-files", "-z"], cwd=TOP)
+    pack = ["tar", "--create", "--null", "--files-from=-", "--ignore-failed-read", "--file=-"]
+    packed = subprocess.run(pack, input=names, cwd=TOP, check=True, stdout=subprocess.PIPE)
+    subprocess.run(["tar", "--extract"], input=packed.stdout, cwd=folder, check=True)
+
+
 @contextmanager
 def bare_debian(folder: Path, *packages: str, release: str = "") -> Iterator[BareDebian]:
     """Yields one of a release (this machine's), and removes it at the end."""
@@ -84,6 +94,8 @@ def bare_debian(folder: Path, *packages: str, release: str = "") -> Iterator[Bar
         for file in OF_THE_NETWORK:
             if os.path.exists(file):
                 shutil.copy(file, root / file[1:])
+        # Debian's installer and containers write it; debootstrap does not.
+        (root / "etc/hosts").write_text("127.0.0.1 localhost\n::1 localhost\n")
         yield BareDebian(root)
     finally:
         shutil.rmtree(root)

@@ -12,7 +12,7 @@ from pathlib import Path
 from lines import Lines
 
 INTERPRETER = Path(__file__).resolve().parent / "genuine" / "interpreter.py"
-# With them the library requests checks certificates although its caller does not want it.
+# With them the library requests checks certificates against its caller's setting.
 BUNDLES = ("REQUESTS_CA_BUNDLE", "CURL_CA_BUNDLE")
 PATIENCE = 90.0  # [s]; the longest call of a client is a self-test of 8 s (chosen here)
 

@@ -23,18 +23,30 @@ def down_and_back(first, k):
     return q
 
 
-def press(address, protocol):
-    """The motion by a client of a robot at an address; returns the joint positions at its start."""
+def press(address, protocol, first=None):
+    """The motion by a client of a robot at an address. first: joint positions at its start; without them,
+    those of the state in which it begins, which rounding makes differ from those before it (FR3)."""
     with Client(address, protocol) as client:
         assert client.connect()[0] == 0
         set_collision_behavior = 4 if protocol <= 5 else 3
         client.request(set_collision_behavior, struct.pack("<52d", *[100.0] * 28, *[300.0] * 24))
         assert client.reply()[1][0] == 0
         state = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
-        first = state.joints("q_d")
+        first = state.joints("q_d") if first is None else first
         for k in range(TICKS + 1):
             positions = down_and_back(first, k)
             client.send(command(protocol, state.message_id, positions, finished=k == TICKS))
             state = client.state()
         assert client.reply()[1][0] == 0
-    return first
+
+
+def follow(sim, name, step):
+    """The motion by the robot of a simulation of this process; step: ends a tick. Yields the hashes of the
+    robot's states and of the world after each tick."""
+    robot = sim[name]
+    robot.set_collision_behavior([100.0] * 7, [100.0] * 7, [300.0] * 6, [300.0] * 6)
+    first = robot.state.q_d.copy()
+    for k in range(TICKS):
+        robot.command(joint_positions=down_and_back(first, k))
+        step()
+        yield robot.hash(), sim.hash()

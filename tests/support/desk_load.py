@@ -1,6 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Sends requests to Desk at a steady rate from several connections; prints how it answered as JSON.
+"""Sends requests to Desk at a steady rate from several connections; prints `begun`, and at the end how it
+answered as JSON.
 
 Arguments: address, port, requests a second, seconds, source addresses with commas.
 """
@@ -57,7 +58,10 @@ async def load(address: str, port: int, rate: float, seconds: float, sources: li
         load_from((address, port), source, begin + index / rate, period, begin + seconds, answers)
         for index, (source, _) in enumerate(places)
     ]
-    sent = sum(await asyncio.gather(*senders))
+    all_senders = asyncio.gather(*senders)
+    await asyncio.sleep(max(0.0, begin - time.monotonic()))
+    print("begun", flush=True)
+    sent = sum(await all_senders)
     return {"sent a second": sent / seconds, "took": time.monotonic() - begin, "answers": answers}
 
 

@@ -58,7 +58,7 @@ def prepare(page: Browser, robot: int = 0) -> None:
 
 
 class Swing(threading.Thread):
-    """A client that swings three joints until it is told to end."""
+    """A client that swings three joints until a request to end."""
 
     def __init__(self, robot: pyfranka.Robot):
         super().__init__(daemon=True)

@@ -25,7 +25,7 @@ def digest_of(user: str, password: str, *, unbroken: bool = False) -> str:
 @dataclass(frozen=True)
 class Step:
     """One request. keep: fields of the JSON answer to keep, or "login" for the whole body. until: repeats the
-    request until the JSON answer fulfils it. press: a person presses that button meanwhile."""
+    request until the JSON answer fulfils it. press: the operator presses that button meanwhile."""
 
     method: str
     path: str

@@ -159,7 +159,7 @@ class DeskServer:
         return answer.json()
 
     def clear(self) -> None:
-        """Nobody has control, nobody is logged in."""
+        """No user has control, no user is logged in."""
 
         async def forget() -> None:
             self.desk.tokens.clear()

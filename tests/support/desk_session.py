@@ -12,21 +12,39 @@ import threading
 import time
 import urllib.error
 import urllib.request
+from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from fci_session import simulated
 from lines import Lines
 
-USER, PASSWORD = "operator", "a word that nobody guesses"
+USER, PASSWORD = "operator", "a long random word"
 PORT = 443
 TO_START = 60.0  # [s] on a busy machine
 LIMIT = 30.0  # [s] to wait for a state of the robot
 PAUSE = 0.02  # [s] between two looks
 
 
+def is_ready(report: dict) -> bool:
+    return report["fci"] and not any(report["brakes"])
+
+
+def is_locked(report: dict) -> bool:
+    return not report["fci"] and all(report["brakes"])
+
+
+@contextmanager
+def beside(act):
+    """Runs a function beside the block, and waits for its end. Raises what the function has raised."""
+    with ThreadPoolExecutor(1) as executor:
+        result = executor.submit(act)
+        yield
+    result.result()
+
+
 class Desk:
-    """One robot's Desk: `robot` is the ServedRobot, `host` what clients are told."""
+    """One robot's Desk: `robot` is the ServedRobot, `host` the name that clients use."""
 
     def __init__(self, robot, place: str, folder: Path):
         self.robot, self.place = robot, place
@@ -82,8 +100,8 @@ class Desk:
 
     @contextmanager
     def pressing(self, button: str, *, when_asked: bool = False):
-        """A person who presses a button of the Pilot again and again until the end of the block. when_asked:
-        begins when someone asks for control; a press that began before that would confirm nothing."""
+        """Presses a button of the Pilot again and again until the end of the block. when_asked:
+        begins when a client requests control; a press that began before that would confirm nothing."""
         ended = threading.Event()
 
         def press():
@@ -95,13 +113,11 @@ class Desk:
                     self.send(f"button {button} {state}")
                     ended.wait(0.3)
 
-        person = threading.Thread(target=press)
-        person.start()
-        try:
-            yield
-        finally:
-            ended.set()
-            person.join()
+        with beside(press):
+            try:
+                yield
+            finally:
+                ended.set()
 
     @contextmanager
     def held(self, name: str, press: str = "on", release: str = "off"):
@@ -165,7 +181,7 @@ def wait_for_place(next_line) -> str:
     while (line := next_line(max(0.0, deadline - time.monotonic()))) is not None:
         if "https://" in line:
             return line.rpartition("https://")[2].strip("/")
-    raise AssertionError("franka_desk has not said where it listens.")
+    raise AssertionError("franka_desk has not printed its address.")
 
 
 @contextmanager

@@ -8,7 +8,7 @@ from contextlib import ExitStack
 
 from fci_proxy import Proxy
 from fci_session import client_process, simulated
-from genuine_clients import NoWheel, find_client_python
+from genuine_clients import client_python, missing
 from stalls import TRIES
 
 PACE = 0.1
@@ -33,11 +33,11 @@ def network_fixtures(
     """One fixture for each library and robot of `kinds`, except for clients that PyPI lacks."""
     made = []
     for i, (library, robot) in enumerate(kinds):
-        try:
-            python = sys.executable if library == "pyfranka" else find_client_python(library)
-        except NoWheel as reason:
+        reason = None if library == "pyfranka" else missing(library)
+        if reason:
             warnings.warn(f"{reason}: tested without this client", stacklevel=2)
             continue
+        python = sys.executable if library == "pyfranka" else client_python(library)
         client = stack.enter_context(client_process(library, python))
         sim = stack.enter_context(simulated(robot, pace, *arguments))
         proxy = stack.enter_context(Proxy(f"{network}.{2 * i + 2}", sim.address, sim.protocol))

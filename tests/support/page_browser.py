@@ -6,15 +6,16 @@ from __future__ import annotations
 
 import re
 import shutil
-import time
 import typing
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from io import BytesIO
 
+import waiting
 from PIL import Image
 
 USER, PASSWORD = "franka", "open-sesame"
 LIMIT = 30.0  # [s] for what a busy machine does
+PICTURE_LIMIT = 120.0  # [s] for one of the whole tab, drawn without a GPU
 PAUSE = 0.03  # [s] between two looks
 OPTIONS = [
     "--headless=new",
@@ -36,16 +37,13 @@ def missing() -> str:
         import selenium  # noqa: F401
     except ImportError:
         programs.append("python3-selenium")
-    return f"not installed: {', '.join(programs)}; run ./franka install" if programs else ""
+    verb = "is" if len(programs) == 1 else "are"
+    return f"{' and '.join(programs)} {verb} not installed: run ./franka install" if programs else ""
 
 
 def wait_for(condition: typing.Callable[[], typing.Any], what: str, limit: float = LIMIT) -> typing.Any:
-    """The first true value of the condition."""
-    deadline = time.monotonic() + limit
-    while not (value := condition()):
-        assert time.monotonic() < deadline, f"Not within {limit:g} s: {what}."
-        time.sleep(PAUSE)
-    return value
+    """The first true value of the condition. Each look takes the browser's time."""
+    return waiting.wait_for(condition, what, limit, PAUSE)
 
 
 class Browser:
@@ -77,7 +75,7 @@ class Browser:
         """The value of an expression of JavaScript."""
         return self.driver.execute_script(f"return {script}", *arguments)
 
-    # ---- what a person does ------------------------------------------------------------------------------
+    # ---- actions of the user -----------------------------------------------------------------------------
 
     def open(self, address: str) -> None:
         self.driver.get(address)
@@ -131,7 +129,7 @@ class Browser:
         event = {"type": kind, "x": x, "y": y, "button": "left", "buttons": buttons, "clickCount": 1}
         self.driver.execute_cdp_cmd("Input.dispatchMouseEvent", event)
 
-    # ---- what a person sees ------------------------------------------------------------------------------
+    # ---- what the user sees ------------------------------------------------------------------------------
 
     def find(self, selector: str):
         """The first element, or None."""
@@ -172,8 +170,15 @@ class Browser:
         return wait_for(lambda: self.run("desk.project(arguments[0])", body), f"{body} is in the view")
 
     def picture(self) -> Image.Image:
-        """What the tab shows."""
-        return Image.open(BytesIO(self.driver.get_screenshot_as_png())).convert("RGB")
+        """What the tab shows. chromedriver gives up after 10 s, which a busy machine may take."""
+        from selenium.common.exceptions import TimeoutException
+
+        def take():
+            with suppress(TimeoutException):
+                return self.driver.get_screenshot_as_png()
+
+        data = wait_for(take, "a picture of the tab", PICTURE_LIMIT)
+        return Image.open(BytesIO(data)).convert("RGB")
 
     def errors(self) -> list[str]:
         """Errors and violations of the policy in the console since the last call."""

@@ -61,8 +61,26 @@ py::array_t<double> copy(const std::array<double, size>& values, Shape shape) {
   return view(*kept, shape, owner);
 }
 
+/// The rows of the matrix that has so many elements among the robot's; 0: there is none.
+constexpr py::ssize_t rowsOf(std::size_t size) {
+  return size == 16 ? 4 : size == 9 ? 3 : size == 42 ? 6 : size == 49 ? 7 : 0;
+}
+
+/// Whether an array has the shape of a vector or of the matrix with so many elements.
+inline bool hasShapeOf(const py::array& array, std::size_t size) {
+  py::ssize_t sides = 0;
+  py::ssize_t first = 0;
+  for (py::ssize_t i = 0; i < array.ndim(); i++) {
+    if (array.shape(i) != 1) {
+      first = sides == 0 ? array.shape(i) : first;
+      sides++;
+    }
+  }
+  return sides <= 1 || (sides == 2 && first == rowsOf(size));
+}
+
 /// Any sequence of numbers, or a matrix, in the robot's column-major order.
-/// @throws std::invalid_argument if it has another number of values
+/// @throws std::invalid_argument if it has another number of values or another shape
 template <std::size_t size>
 std::array<double, size> arrayOf(const py::object& values, const char* name) {
   const auto array = py::array_t<double, py::array::f_style | py::array::forcecast>::ensure(values);
@@ -70,6 +88,12 @@ std::array<double, size> arrayOf(const py::object& values, const char* name) {
     PyErr_Clear();
     throw std::invalid_argument(std::string(name) + " needs " + std::to_string(size) + " numbers" +
                                 (array ? ", not " + std::to_string(array.size()) : "") + ".");
+  }
+  if (!hasShapeOf(array, size)) {
+    const std::string rows = std::to_string(rowsOf(size));
+    throw std::invalid_argument(
+        std::string(name) + " needs " + std::to_string(size) + " numbers in a row" +
+        (rowsOf(size) > 0 ? " or a matrix of " + rows + " rows" : "") + ", not another shape.");
   }
   std::array<double, size> result;
   std::copy_n(array.data(), size, result.begin());

@@ -17,7 +17,7 @@ from _pyfranka import *  # noqa: F401, F403
 
 
 def __getattr__(name: str):
-    """Imports pyfranka.sweep when it is used: robots and simulations do without Dask."""
+    """Imports pyfranka.sweep when it is used: robots and simulations do not need Dask."""
     if name == "sweep":
         from pyfranka.sweeps import sweep
 

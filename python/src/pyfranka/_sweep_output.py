@@ -1,11 +1,11 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The file of a sweep: one row a case, as Parquet or CSV, from which an interrupted sweep goes on.
+"""The file of a sweep: one row per case, as Parquet or CSV. An interrupted sweep continues from it.
 
-New rows go into small Parquet files in the folder `NAME.parts` and from there, from time to time and at the
-end, into NAME. Each file is written under another name and then renamed, so a reader never sees half a
-file, and what a killed process leaves is complete. NAME alone is sorted and has each case once; a row that
-stands in both (the process ended between the two steps) counts once.
+New rows are written to small Parquet files in the folder `NAME.parts`. Periodically and at the end they are
+merged into NAME. Each file is written under another name and then renamed, so a reader never gets a partial
+file, and the files of a killed process are complete. Only NAME is sorted and has each case once; a row in
+both (the process ended between the two steps) counts once.
 """
 
 from __future__ import annotations
@@ -25,9 +25,9 @@ import pyarrow.csv
 import pyarrow.parquet
 
 SUFFIXES = (".parquet", ".csv")
-FLUSH = 1.0  # [s] between two part files (chosen here: what a killed process loses at most, beside one case)
-PARTS = 64  # part files before they go into the output (chosen here: few files, few rewrites)
-ROWS = 100  # rows of the output that may wait for one part file more: a long file is not rewritten often
+FLUSH = 1.0  # [s] between two part files (chosen here: a killed process loses these rows and one case)
+PARTS = 64  # part files before they are merged into the output (chosen here: few files, few rewrites)
+ROWS = 100  # rows of the output per further part file: a long output is rewritten rarely
 MEANINGS = {"nan": math.nan, "inf": math.inf, "-inf": -math.inf}  # as Arrow writes them into CSV
 
 FIXED = {  # the columns of every sweep
@@ -44,7 +44,7 @@ Row = dict[str, object]
 
 
 def check_path(path: Path) -> None:
-    """Raises ValueError or OSError if no output can have this name."""
+    """Raises ValueError or OSError if an output cannot have this name."""
     if path.suffix not in SUFFIXES:
         raise ValueError(f"The output '{path}' needs the suffix {' or '.join(SUFFIXES)}.")
     if path.is_dir():
@@ -67,7 +67,7 @@ def columns(prefix: str, value: object) -> Row:
 
 
 def _cell(name: str, value: object) -> object:
-    """The value in terms that both formats know; lists of one type."""
+    """The value in types that both formats have; lists of one type."""
     if isinstance(value, (numpy.ndarray, numpy.generic)):
         value = value.tolist()
     plain = _plain(name, value)
@@ -94,11 +94,11 @@ def _plain(name: str, value: object) -> object:
 
 
 class Output:
-    """The rows of one sweep in a file; use as a context, which ends with all rows in the file.
+    """The rows of one sweep in a file; use it as a context manager, which writes all rows at its end.
 
-    identity: function, cases and seed, as it stands in each row. cases: the columns of all cases, or None.
-    One process at a time; not thread-safe. Raises ValueError if the file is of another sweep, RuntimeError
-    if another process writes it, OSError.
+    identity: function, cases and seed, as in each row. cases: the columns of all cases, or None. Called by
+    one thread of one process at a time. Raises ValueError if the file is of another sweep, RuntimeError if
+    another process writes it, OSError.
     """
 
     def __init__(self, path: Path, identity: str, cases: pyarrow.Table | None):
@@ -115,12 +115,12 @@ class Output:
         try:
             self._load()
         except BaseException:
-            self._leave()
+            self._unlock()
             raise
         self._flushed = time.monotonic()
 
     def _load(self) -> None:
-        """Reads what earlier calls have left."""
+        """Reads the rows of earlier calls."""
         parts = self._part_files()
         files = [self._path, *parts] if self._path.exists() else parts
         self._tables = [_checked(path, _read(path), self._identity) for path in files]
@@ -129,9 +129,9 @@ class Output:
         whole = self._whole()
         self._types = {} if whole is None else {field.name: field.type for field in whole.schema}
 
-    def _leave(self) -> None:
-        """Gives the folder free, and removes it if nothing is in it."""
-        for draft in self._parts.glob("*.tmp"):  # of a write that was interrupted
+    def _unlock(self) -> None:
+        """Unlocks the folder, and removes it if it is empty."""
+        for draft in self._parts.glob("*.tmp"):  # of an interrupted write
             draft.unlink()
         if not any(self._parts.iterdir()):
             self._parts.rmdir()
@@ -147,9 +147,9 @@ class Output:
         try:
             self.flush()
             if self._part_files() or not self._path.exists():
-                self._fold()
+                self._merge_parts()
         finally:
-            self._leave()
+            self._unlock()
 
     def done(self) -> dict[int, bool]:
         """The numbers of the cases in the file, and whether each has a result."""
@@ -159,7 +159,8 @@ class Output:
         return dict(zip(whole["index"].to_pylist(), whole["error"].is_null().to_pylist()))
 
     def add(self, row: Row, result: Row) -> None:
-        """Takes a row and the columns of its result; a result that fits no row becomes the row's error."""
+        """Adds a row and the columns of its result; a result that cannot be written becomes the row's
+        error."""
         try:
             self._types = self._types_with(result)
         except TypeError as error:
@@ -185,7 +186,7 @@ class Output:
         return types
 
     def flush(self) -> None:
-        """Writes the rows that have come since the last time. Raises OSError."""
+        """Writes the rows since the last call. Raises OSError."""
         self._flushed = time.monotonic()
         if not self._rows:
             return
@@ -197,16 +198,16 @@ class Output:
         self._waiting += 1
         written = sum(len(table) for table in self._tables)
         if self._waiting >= max(PARTS, written / ROWS / PARTS):
-            self._fold()
+            self._merge_parts()
 
     def _table(self, rows: list[Row]) -> pyarrow.Table:
-        """Rows as a table: who and which case, what became of it, the result."""
+        """Rows as a table: identity, case, outcome, result."""
         indices = [row["index"] for row in rows]
         cases = self._cases.take(indices) if self._cases is not None else pyarrow.table({})
         results = {n: kind for n, kind in self._types.items() if n == "result" or n.startswith("result.")}
         data = {}
         for name, kind in (FIXED | results).items():
-            if name == "error":  # which case stands before what became of it
+            if name == "error":  # the case stands before its outcome
                 data |= {case: cases[case] for case in cases.column_names}
             data[name] = pyarrow.array([row.get(name) for row in rows], kind)
         return pyarrow.table(data)
@@ -227,8 +228,8 @@ class Output:
         self._tables = [whole]
         return whole
 
-    def _fold(self) -> None:
-        """Brings the part files into the output."""
+    def _merge_parts(self) -> None:
+        """Merges the part files into the output."""
         whole = self._whole()
         if whole is not None:
             self._write(self._path, whole)
@@ -249,7 +250,7 @@ class Output:
                 os.fsync(file.fileno())
             draft.replace(path)
         except OSError as error:
-            raise OSError(f"'{path}' cannot be written ({error}). Complete rows are safe.") from error
+            raise OSError(f"'{path}' cannot be written ({error}). Rows written before are kept.") from error
 
     def rows(self) -> Iterator[Row]:
         """All rows, in order, with the columns of the file."""
@@ -260,7 +261,7 @@ class Output:
 
 
 def result_of(row: Row) -> object:
-    """The result in a row: a dict if the function gave one; a key that only other cases have is None."""
+    """The result in a row: a dict if the function gave one; keys of other cases are None."""
     if row["error"] is not None:
         return None
     if row.get("result") is not None:
@@ -279,7 +280,7 @@ def table_of(values: list[object], name: str) -> pyarrow.Table:
 
 
 def _common(one: pyarrow.DataType, other: pyarrow.DataType) -> pyarrow.DataType:
-    """The type that holds both, such as double for int64 and double. Raises ArrowException."""
+    """The common type of both, such as double for int64 and double. Raises ArrowException."""
     fields = [pyarrow.schema([("x", kind)]) for kind in (one, other)]
     return pyarrow.unify_schemas(fields, promote_options="permissive").field("x").type
 
@@ -300,7 +301,7 @@ def _cast(table: pyarrow.Table, schema: pyarrow.Schema) -> pyarrow.Table:
 
 
 def _read(path: Path) -> pyarrow.Table:
-    """A file of either format. Raises ValueError if it is none."""
+    """A file of either format. Raises ValueError if it is not."""
     try:
         return _read_csv(path) if path.suffix == ".csv" else pyarrow.parquet.read_table(path)
     except (pyarrow.ArrowException, UnicodeDecodeError, StopIteration) as error:
@@ -321,7 +322,8 @@ def _checked(path: Path, table: pyarrow.Table, identity: str) -> pyarrow.Table:
     return table
 
 
-# CSV has no types: a text that looks like something else is written as JSON, in quotes, and lists as JSON.
+# CSV has no types: a text that could be read as another type is written as JSON, in quotes, and lists as
+# JSON.
 
 
 def _texts(table: pyarrow.Table) -> pyarrow.Table:

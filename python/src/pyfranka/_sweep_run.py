@@ -28,10 +28,11 @@ from distributed.deploy.subprocess import SubprocessWorker
 from distributed.utils import silence_logging_cmgr
 
 IN_FLIGHT = 100  # futures at least: an adaptive cluster sees that there is work (chosen here)
-PER_THREAD = 3  # futures a thread: a worker has its next case before it asks (chosen here)
+PER_THREAD = 3  # futures a thread: a worker has its next case queued (chosen here)
 LOOK = 1.0  # [s] between two looks at a silent cluster (chosen here)
 OURS = ("pyfranka", "_pyfranka")
 CONNECT = 30.0  # [s] to reach a scheduler, or to start one (chosen here)
+ALONE = 60.0  # [s] until a worker ends that cannot reach its scheduler: its program was killed (chosen here)
 
 # ---- the cluster -----------------------------------------------------------------------------------------
 
@@ -83,6 +84,7 @@ def local_cluster(workers: int):
     options = local | {
         "nthreads": 1,
         "memory_limit": 1 / workers,  # of the machine's
+        "death_timeout": ALONE,
         "silence_logs": logging.CRITICAL,  # failures are reported by the sweep
     }
     worker = {"cls": SubprocessWorker, "options": {"worker_kwargs": options}}
@@ -142,7 +144,7 @@ def run_case(case: bytes, seed: int, payload: bytes, paths: tuple[str, ...], pla
         function = _loaded(payload, paths)
         result = function(pickle.loads(case), seed)
     except (Exception, SystemExit) as error:
-        raise CaseFailed(told(error), time.perf_counter() - begin, worker) from None
+        raise CaseFailed(in_one_line(error), time.perf_counter() - begin, worker) from None
     duration = time.perf_counter() - begin
     if not plain:
         return {"result": result}, None, duration, worker
@@ -154,12 +156,13 @@ def run_case(case: bytes, seed: int, payload: bytes, paths: tuple[str, ...], pla
         return {}, f"The result cannot be written: {error}.", duration, worker
 
 
-def told(error: BaseException) -> str:
+def in_one_line(error: BaseException) -> str:
     """An exception in one line, with the place that raised it."""
     text = f"{type(error).__name__}: {' '.join(str(error).split())}"
     frames = [frame for frame in inspect.getinnerframes(error.__traceback__) if frame.filename != __file__]
     if frames:
-        text += f" ({Path(frames[-1].filename).name}, line {frames[-1].lineno}, in {frames[-1].function})"
+        last = frames[-1]
+        text += f" ({Path(last.filename).name}, line {last.lineno}, in {last.function})"
     return text
 
 
@@ -295,7 +298,7 @@ class Run:
             return {}, f"Its workers died, the last one at {worker}; their logs may say why.", None, worker, 0
         if isinstance(error, ImportError) and (error.name or "").partition(".")[0] in OURS:
             raise ImportError(f"The cluster's workers cannot import pyfranka ({error}); install it there.")
-        return {}, told(error), None, "", 1
+        return {}, in_one_line(error), None, "", 1
 
     def _give_up(self) -> None:
         """Cancels what has not finished."""

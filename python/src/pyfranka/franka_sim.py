@@ -42,7 +42,7 @@ KINDS = {"panda": 5, "fr3": 10}  # and the newest protocol that each speaks
 TO_START, TO_END = 60.0, 20.0  # [s], on a busy machine (chosen here)
 PAUSE = 0.01  # [s] between two looks (chosen here)
 LAST_LINES = 100  # of a log in a message (chosen here)
-# Chosen here, away from the addresses that people type. All of 127.0.0.0/8 belongs to the machine.
+# Chosen here, away from the addresses that users type. All of 127.0.0.0/8 belongs to the machine.
 FIRST_ADDRESS, ADDRESSES = IPv4Address("127.64.0.0"), 1 << 22
 ATTEMPTS = 50  # to find a free one (chosen here)
 TAKEN = "Another simulated robot runs there"
@@ -54,7 +54,7 @@ class FrankaSimError(RuntimeError):
 
 @dataclass(frozen=True)
 class SimRobot:
-    """A robot to serve; the options of franka_sim with these names say more (docs/franka_sim.md).
+    """A robot to serve; the options of franka_sim with these names are described in docs/franka_sim.md.
 
     kind: "panda" or "fr3". arm_id: prefix of its links and joints (its kind). base: x, y, z [m] and,
     optionally, the turn about the vertical [rad]. hand: "gripper", "vacuum" or "none". realism: a profile
@@ -170,7 +170,7 @@ class FrankaSim:
         return list(cls._all)
 
     def log(self, since: int = 0) -> str:
-        """What the program has written on standard output and standard error, from that byte on."""
+        """The program's output (standard output and standard error) from that byte on."""
         return os.pread(self._log.fileno(), self.log_size() - since, since).decode(errors="replace")
 
     def log_size(self) -> int:
@@ -201,7 +201,7 @@ class FrankaSim:
         self._end()
         self._release()
         if self.process.returncode != 0:
-            when = "by itself" if by_itself else "when it was told to"
+            when = "by itself" if by_itself else "on request"
             raise FrankaSimError(
                 f"{self.status()} It ended {when}; its last lines:\n{last_lines(self.log())}"
             )
@@ -212,6 +212,7 @@ class FrankaSim:
         for _ in range(ATTEMPTS):
             robots = [replace(each, address=each.address or self._reserve()) for each in self._asked]
             self._log = tempfile.TemporaryFile(prefix="franka_sim.")
+            weakref.finalize(self, self._log.close)
             words = [word for robot in robots for word in robot.options()]
             self.process = _started([self._program, *words, *self._options], self._log)
             # Ends the program when this object or the interpreter ends.

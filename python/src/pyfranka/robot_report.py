@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the line `report` of the control interface says about a robot, with types (docs/franka_sim.md).
+"""The answer to the line `report` of the control interface, with types (docs/franka_sim.md).
 
 Only the standard library is needed.
 """
@@ -84,8 +84,8 @@ class Hand:
 
 @dataclass(frozen=True)
 class EndEffector:
-    """What the robot assumes at its flange: mass [kg], centre of mass in the flange's frame, 3 [m], inertia
-    about it, 9 [kg m^2], and the pose F_T_NE of its tool, 16, column-major."""
+    """The end effector that the robot assumes: mass [kg], centre of mass in the flange's frame, 3 [m],
+    inertia about it, 9 [kg m^2], and the pose F_T_NE of its tool, 16, column-major."""
 
     mass: float
     center: Numbers
@@ -146,7 +146,7 @@ class Report:
 
 
 def report_of(text: str) -> Report:
-    """Reads the value of an answer to `report`. Raises ValueError that says what is wrong."""
+    """Reads the value of an answer to `report`. Raises ValueError with the reason."""
     try:
         return _object(Report, json.loads(text), "the report")
     except RecursionError:
@@ -155,7 +155,7 @@ def report_of(text: str) -> Report:
 
 def _object(kind: type, value: typing.Any, name: str) -> typing.Any:
     if not isinstance(value, dict):
-        raise ValueError(f"{name} is no object")
+        raise ValueError(f"{name} is not an object")
     hints = _hints(kind)
     missing = [each for each in hints if each not in value]
     if missing:
@@ -169,11 +169,11 @@ def _value(hint: typing.Any, value: typing.Any, name: str) -> typing.Any:
     origin = typing.get_origin(hint)
     if origin is tuple:
         if not isinstance(value, list):
-            raise ValueError(f"{name} is no list")
+            raise ValueError(f"{name} is not a list")
         return tuple(_value(typing.get_args(hint)[0], each, name) for each in value)
     if origin is dict:
         if not isinstance(value, dict):
-            raise ValueError(f"{name} is no object")
+            raise ValueError(f"{name} is not an object")
         return {str(key): str(each) for key, each in value.items()}
     return _plain(hint, value, name)
 

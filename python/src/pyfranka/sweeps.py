@@ -12,10 +12,10 @@
     print(len(done.failed), [outcome.result["error"] for outcome in done if outcome.ok])
 
 The module has another name than the function, so that `pyfranka.sweep` is always the function. Dask, tqdm
-and pyarrow are imported when a sweep starts; `pip install pyfranka[cluster]` brings them.
+and pyarrow are imported when a sweep starts; `pip install pyfranka[cluster]` installs them.
 
-Scheduling is that of dask.distributed. Cases of this process's `__main__` and of scripts travel by value
-(cloudpickle), so workers need not have the file.
+dask.distributed schedules the cases. Objects of this process's `__main__` and of scripts are sent by value
+(cloudpickle), so workers do not need the file.
 """
 
 from __future__ import annotations
@@ -49,11 +49,11 @@ SCRIPT = "pyfranka_sweep_script"  # the name of a script as a module
 
 
 class Outcome(typing.NamedTuple):
-    """What became of a case.
+    """The outcome of a case.
 
     index: its number. case, seed: the function's arguments. result: what the function returned; None if it
-    failed. error: why it failed, in a sentence, or None. tries: how often it was begun. duration: of the
-    last try [s]; None if the worker died. worker: the address of the last one.
+    failed. error: why it failed, in a sentence, or None. tries: how often it was started. duration: of the
+    last try [s]; None if the worker died. worker: address of the last worker.
     """
 
     index: int
@@ -98,8 +98,8 @@ class Sweep(Sequence):
 
 
 def seed_of(seed: int, index: int) -> int:
-    """The seed of a case, 63 bits: the same however many cases and workers there are."""
-    child = numpy.random.SeedSequence(seed, spawn_key=(index,))  # as SeedSequence(seed).spawn gives them
+    """The seed of a case, 63 bits; it does not depend on the numbers of cases and workers."""
+    child = numpy.random.SeedSequence(seed, spawn_key=(index,))  # as SeedSequence(seed).spawn
     return int(child.generate_state(1, numpy.uint64)[0] >> numpy.uint64(1))
 
 
@@ -116,26 +116,26 @@ def sweep(
     retry_failed: bool = False,
     patience: float = 600.0,
 ) -> Sweep:
-    """Calls `function(case, seed)` for each case and returns what became of them, in order.
+    """Calls `function(case, seed)` for each case and returns the outcomes, in order.
 
     cases: any values that can be pickled, or a number n for the cases 0 ... n-1. cluster: None for processes
     on this machine, one core each; the address of a Dask scheduler ("tcp://host:8786"); the path of a
     scheduler file; a cluster of Dask, such as dask_jobqueue.SLURMCluster or dask.distributed.SSHCluster; or a
-    dask.distributed.Client. The last two stay open.
+    dask.distributed.Client. A cluster object and a Client stay open.
 
-    output: a .parquet or .csv file. Results are written while they come; the same call goes on where an
-    earlier one was interrupted. Results are then numbers, texts, lists, numpy arrays, or dicts of them, and
-    arrays come back as lists. seed: of the sweep; each case has one of its own (seed_of). retries: how often
-    a case that raises is run again. Dask runs a case whose worker died again, as often as its setting
-    distributed.scheduler.allowed-failures says (3). Then it is reported, and the sweep goes on. workers: how
-    many processes on this machine. progress: show a bar; None: if standard error is a terminal.
-    retry_failed: run cases again that the output reports as failed. patience: how long the cluster may be
-    without workers [s].
+    output: a .parquet or .csv file. Results are written as they arrive; the same call continues an
+    interrupted sweep. With an output, results must be numbers, texts, lists, numpy arrays, or dicts of them,
+    and arrays are returned as lists. seed: of the sweep; each case has its own (seed_of). retries: how often
+    a case that raises is run again. If its worker died, Dask runs the case again, up to its setting
+    distributed.scheduler.allowed-failures (3). After that the case is reported as failed, and the sweep
+    continues. workers: number of processes on this machine. progress: shows a bar; None: if standard error is
+    a terminal. retry_failed: runs cases again that failed according to the output. patience: time that the
+    cluster may be without workers [s].
 
-    Blocks. Raises TypeError or ValueError for arguments that cannot be used, before anything is begun;
-    ImportError if a package is missing; ConnectionError if the scheduler cannot be reached or is lost;
-    TimeoutError if there are no workers; OSError if the output cannot be written. Finished cases are then in
-    the output. Thread-safe, except for two sweeps with the same output, of which one raises RuntimeError.
+    Blocks. Raises TypeError or ValueError for invalid arguments, before any case starts; ImportError if a
+    package is missing; ConnectionError if the scheduler cannot be reached or is lost; TimeoutError without
+    workers; OSError if the output cannot be written. Finished cases are then in the output.
+    Thread-safe. Exception: of two sweeps with the same output, one raises RuntimeError.
     """
     _require()
     from pyfranka import _sweep_run
@@ -147,7 +147,7 @@ def sweep(
         if cluster is not None:
             raise ValueError("workers is the number of processes on this machine; a cluster has its own.")
     if not isinstance(patience, numbers.Real) or not patience > 0:
-        raise ValueError(f"patience is a time above 0 s, not {patience!r}.")
+        raise ValueError(f"patience must be a time above 0 s, not {patience!r}.")
     _sweep_run.check_cluster(cluster)
     with ExitStack() as stack:
         record, done = _Memory(), {}
@@ -174,23 +174,28 @@ def sweep(
 
 
 def _require() -> None:
+    # The Debian package of a sweep's dependencies has its own folder, for this process and its workers.
+    folder = str(Path(__file__).resolve().parents[3] / "pyfranka-sweep")
+    if os.path.isdir(folder) and folder not in sys.path:
+        sys.path.insert(0, folder)
+        os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, [folder, os.environ.get("PYTHONPATH")]))
     for name in ("distributed", "pyarrow", "tqdm"):
         if importlib.util.find_spec(name) is None:
             raise ImportError(
-                f"A sweep needs the Python package {name}, and this Python ({sys.executable}) has none: "
-                "pip install pyfranka[cluster]; in the workspace use .venv/bin/python3.",
+                f"A sweep needs the Python package {name}, which this Python ({sys.executable}) does not "
+                "have: pip install pyfranka[cluster]; in the workspace use .venv/bin/python3.",
                 name=name,
             )
 
 
 def _check_number(name: str, value: object, least: int) -> int:
     if isinstance(value, bool) or not isinstance(value, numbers.Integral) or value < least:
-        raise ValueError(f"{name} is a whole number from {least}, not {value!r}.")
+        raise ValueError(f"{name} must be a whole number from {least}, not {value!r}.")
     return operator.index(value)
 
 
 class _Plan:
-    """What to compute: function, cases, seeds, and the identity by which an output is recognised."""
+    """Function, cases and seeds of a sweep, and the identity by which its output is recognised."""
 
     def __init__(self, function: Function, cases: int | Iterable, seed: int):
         if not callable(function):
@@ -203,7 +208,7 @@ class _Plan:
                 f"function is called with a case and a seed; '{name}' cannot be: {error}."
             ) from None
         except ValueError:
-            pass  # functions in C that do not tell
+            pass  # functions in C: signature not available
         self.seed = _check_number("seed", seed, 0)
         self.counted = isinstance(cases, numbers.Integral)
         if self.counted:
@@ -211,7 +216,7 @@ class _Plan:
         elif isinstance(cases, Iterable) and not isinstance(cases, (str, bytes)):
             self.cases = list(cases)
         else:
-            raise TypeError(f"cases is a number or a list of cases, not {cases!r}.")
+            raise TypeError(f"cases must be a number or a list of cases, not {cases!r}.")
         if not self.cases:
             raise ValueError("There are no cases.")
         self.payload = _pickled(function, "function")
@@ -228,7 +233,7 @@ class _Plan:
 
     @functools.cached_property
     def identity(self) -> str:
-        """Function, cases and seed, in a few letters each."""
+        """Function, cases and seed, with short digests."""
         cases = str(len(self))
         if not self.counted:
             digest = hashlib.sha256()
@@ -243,15 +248,16 @@ def _pickled(value: object, what: str) -> bytes:
 
     try:
         return dumps(value)
-    except Exception as error:  # whatever a value's own pickling raises
+    except Exception as error:  # any exception of a value's own pickling
         raise TypeError(f"{what} cannot be sent to a worker: {error}.") from error
 
 
 def _stable(value: object, what: str) -> bytes:
-    """Bytes that are the same in each run; cloudpickle's contain random numbers for classes of scripts."""
+    """Bytes that are the same in each run. Those of cloudpickle contain random numbers for classes of
+    scripts."""
     try:
         return pickle.dumps(value, protocol=5)
-    except Exception:  # whatever a value's own pickling raises
+    except Exception:  # any exception of a value's own pickling
         return _pickled(value, what)
 
 
@@ -262,7 +268,8 @@ def _name(function: Function) -> str:
 
 
 def _digest(function: Function) -> str:
-    """Of the function's own text and the values bound to it; not of what it calls."""
+    """Digest of the function's own source and of the values bound to it, not of the functions that it
+    calls."""
     digest = hashlib.sha256()
     while isinstance(function, functools.partial):
         digest.update(_stable((function.args, sorted(function.keywords.items())), "function"))
@@ -329,7 +336,8 @@ def _outcome(row: dict, plan: _Plan) -> Outcome:
 
 @contextmanager
 def _bar(progress: bool | None, cases: int, done: int) -> Iterator[Callable]:
-    """A progress bar on standard error with rate and time left. Yields what is called after each case."""
+    """A progress bar on standard error with rate and time left. Yields the function to call after each
+    case."""
     from tqdm import tqdm
 
     disable = None if progress is None else not progress  # None: unless it is a terminal
@@ -354,8 +362,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser = argparse.ArgumentParser(
         prog="pyfranka-sweep",
         description="Calls the function case(index, seed) of a Python file for many cases, on all cores or "
-        "on a Dask cluster, and writes what it returns into a file. Called again, it goes on where it was "
-        "interrupted. A file may have the cases itself: a list `cases`, or a function that returns one.",
+        "on a Dask cluster, and writes the results into a file. A second call continues an interrupted "
+        "sweep. The file may also define the cases: a list `cases`, or a function that returns one.",
     )
     parser.add_argument("script", type=Path, help="a Python file with a function case(index, seed)")
     parser.add_argument("--cases", type=int, metavar="N", help="cases 0 ... N-1 (the file's `cases`)")
@@ -364,7 +372,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--cluster", help="address or file of a Dask scheduler (processes on this machine)")
     parser.add_argument("--workers", type=int, metavar="N", help="processes on this machine (its cores)")
     parser.add_argument("--retries", type=int, default=1, help="of a case that raises (%(default)s)")
-    parser.add_argument("--retry-failed", action="store_true", help="run again what the output has as failed")
+    parser.add_argument("--retry-failed", action="store_true", help="run failed cases of the output again")
     parser.add_argument("--patience", type=float, default=600.0, help="[s] without any worker (%(default)g)")
     parser.add_argument("--function", default="case", metavar="NAME", help="its name (%(default)s)")
     parser.add_argument(
@@ -388,7 +396,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
             patience=options.patience,
         )
     except KeyboardInterrupt:
-        print(f"\npyfranka-sweep: interrupted; the same command goes on from {output}.", file=sys.stderr)
+        print(f"\npyfranka-sweep: interrupted; the same command continues from {output}.", file=sys.stderr)
         return 130
     except (TypeError, ValueError, OSError, ImportError, RuntimeError) as error:
         print(f"pyfranka-sweep: {error}", file=sys.stderr)
@@ -402,7 +410,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _from_script(path: Path, name: str, number: int | None) -> tuple[Function, int | Iterable]:
-    """The function and the cases of a file, whose parts are pickled by value from now on."""
+    """The function and the cases of a file; its objects are pickled by value from now on."""
     _require()
     import cloudpickle
 
@@ -423,7 +431,7 @@ def _from_script(path: Path, name: str, number: int | None) -> tuple[Function, i
 
 def _imported(path: Path) -> ModuleType:
     """The file as a module; files beside it can be imported, as in a script."""
-    from pyfranka._sweep_run import told
+    from pyfranka._sweep_run import in_one_line
 
     spec = importlib.util.spec_from_loader(
         SCRIPT, importlib.machinery.SourceFileLoader(SCRIPT, str(path)), origin=str(path)
@@ -434,7 +442,7 @@ def _imported(path: Path) -> ModuleType:
     try:
         spec.loader.exec_module(module)
     except Exception as error:  # whatever the script raises
-        raise RuntimeError(f"'{path}' cannot be imported: {told(error)}.") from error
+        raise RuntimeError(f"'{path}' cannot be imported: {in_one_line(error)}.") from error
     return module
 
 

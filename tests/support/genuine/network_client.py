@@ -50,6 +50,7 @@ class Panda:
         self.library, self.robot = libfranka, libfranka.Robot(address)
 
     def mode(self):
+        self.robot.read_once()  # an old one may wait in the socket, which drops new ones when it is full
         return str(self.robot.read_once().robot_mode).split(".k")[-1]
 
     def move(self, motion, torque):

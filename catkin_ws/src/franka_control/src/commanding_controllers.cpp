@@ -26,7 +26,7 @@ bool commands(const controller_manager_msgs::ControllerState& controller) {
 bool stopCommandingControllers(const ros::NodeHandle& nh) {
   controller_manager_msgs::ListControllers list;
   if (!ros::service::call(nh.resolveName("controller_manager/list_controllers"), list)) {
-    ROS_ERROR("franka_control: the controller manager did not say which controllers run.");
+    ROS_ERROR("franka_control: the controller manager did not report which controllers run.");
     return false;
   }
   controller_manager_msgs::SwitchController stop;

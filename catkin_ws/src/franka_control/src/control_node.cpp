@@ -18,7 +18,7 @@ namespace franka_control {
 namespace {
 
 // A timer with period zero would never fire.
-const ros::WallDuration kAtOnce(0.001);
+const ros::WallDuration kMinTimerPeriod(0.001);
 
 }  // namespace
 
@@ -85,7 +85,7 @@ void ControlNode::watchIdleRobot() {
       state->robot_mode == franka::RobotMode::kIdle) {
     recoveredByOthers();
   }
-  connection_.mutex().giveWay();
+  connection_.mutex().yieldToRequests();
 }
 
 void ControlNode::controllerThrew(const std::string& what) {
@@ -103,7 +103,7 @@ void ControlNode::recoveredByOthers() {
   } else if (!stopping_controllers_.exchange(true)) {
     // Called by a timer, because stopping controllers waits for this loop.
     stop_timer_ = public_nh_.createWallTimer(
-        kAtOnce,
+        kMinTimerPeriod,
         [this](const ros::WallTimerEvent&) {
           stopCommandingControllers(public_nh_);
           stopping_controllers_ = false;
@@ -127,11 +127,11 @@ bool ControlNode::updateMoving(const ros::Time& time, const ros::Duration& perio
   robot_health_->state(*robot_state_);
   // After an interruption the controllers are restarted at the robot's present position.
   // Controllers that a switch has just started must not be restarted: they may already have a goal.
-  const bool anew = first && (interrupted_ || franka_hw_.motionGoesOn());
+  const bool restart = first && (interrupted_ || franka_hw_.motionGoesOn());
   if (first) {
     interrupted_ = false;
   }
-  updateControllers(time, period, anew);
+  updateControllers(time, period, restart);
   franka_hw_.checkJointLimits();
   if (first) {
     franka_hw_.reset();
@@ -149,7 +149,7 @@ void ControlNode::updateControllers(const ros::Time& time, const ros::Duration& 
   } catch (const std::exception&) {
     throw;
   } catch (...) {
-    throw std::runtime_error("something that is no std::exception.");
+    throw std::runtime_error("a value that is not a std::exception.");
   }
   loop_health_->cycleEnds();
 }

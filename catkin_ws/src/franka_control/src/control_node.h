@@ -27,7 +27,7 @@ namespace franka_control {
 /// the robot stopped are started again after a recovery, through their starting(), or are stopped
 /// first.
 ///
-/// One thread, the robot's, calls init() and run().
+/// The robot's thread calls init() and run().
 class ControlNode {
  public:
   ControlNode(const ros::NodeHandle& public_nh, const ros::NodeHandle& private_nh);

@@ -101,7 +101,7 @@ void updateControllers(controller_manager::ControllerManager& controllers,
   } catch (const std::exception& error) {
     stop(error.what());
   } catch (...) {
-    stop("something that is no std::exception.");
+    stop("a value that is not a std::exception.");
   }
 }
 

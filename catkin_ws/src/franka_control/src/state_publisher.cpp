@@ -9,20 +9,20 @@ namespace franka_control {
 
 namespace {
 
-constexpr double kLongestPause = 0.002;  // [s]
+constexpr double kMaxPause = 0.002;  // [s]
 /// roscpp's own thread may also be late by this time. A larger value would make the states older
 /// that a slow subscriber receives.
-constexpr double kLongestDelay = 0.064;  // [s]
+constexpr double kMaxDelay = 0.064;  // [s]
 
 int queueSize(double period) {
-  return static_cast<int>(std::clamp(std::ceil(kLongestDelay / period), 1.0,
+  return static_cast<int>(std::clamp(std::ceil(kMaxDelay / period), 1.0,
                                      static_cast<double>(StatePublisher::kWaiting)));
 }
 
 }  // namespace
 
 StatePublisher::StatePublisher(const ros::NodeHandle& node, const std::string& topic, double period)
-    : pause_(std::min(period / 2, kLongestPause)), ring_(kWaiting) {
+    : pause_(std::min(period / 2, kMaxPause)), ring_(kWaiting) {
   ros::NodeHandle handle(node);
   publisher_ = handle.advertise<franka_msgs::FrankaState>(topic, queueSize(period));
   thread_ = std::thread([this] { run(); });

@@ -18,8 +18,8 @@ namespace franka_control {
 /// Publishes states of a 1 kHz loop. Up to kWaiting states are queued while the publishing thread
 /// does not run; later ones are lost.
 ///
-/// The thread of the loop fills messages (`next`, `handOver`: no allocation, lock or system call);
-/// a thread of this object sends them in the same order.
+/// The thread of the loop fills messages (`next`, `handOver`); a thread of this object sends them
+/// in the same order.
 class StatePublisher {
  public:
   static constexpr std::size_t kWaiting = 64;

@@ -6,11 +6,12 @@
 #include <hardware_interface/robot_hw.h>
 #include <pluginlib/class_loader.h>
 #include <ros/ros.h>
+#include <ros_test/arm_controller_test.h>
+#include <ros_test/eventually.h>
 #include <rt_guard/rt_guard.h>
 
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <mutex>
 #include <string>
@@ -22,27 +23,8 @@
 namespace franka_control {
 namespace {
 
-constexpr std::chrono::seconds kDeadline{10};
-using Names = std::vector<std::string>;
-
-Names jointNames(const std::string& arm_id, int count = 7) {
-  Names names;
-  for (int i = 1; i <= count; ++i) {
-    names.push_back(arm_id + "_joint" + std::to_string(i));
-  }
-  return names;
-}
-
-bool waitFor(const std::function<bool()>& condition) {
-  const auto end = std::chrono::steady_clock::now() + kDeadline;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) {
-      return false;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
+using ros_test::eventually;
+using ros_test::jointNames;
 
 /// Collects the messages of one topic.
 template <typename Message>
@@ -88,20 +70,8 @@ class FakeRobot : public hardware_interface::RobotHW {
   franka_hw::FrankaStateInterface states_;
 };
 
-class FrankaStateControllerTest : public testing::Test {
+class FrankaStateControllerTest : public ros_test::ArmControllerTest {
  protected:
-  FrankaStateControllerTest() : node("~" + nextName()) {}
-
-  static std::string nextName() {
-    static int number = 0;
-    return "state_controller_" + std::to_string(++number);
-  }
-
-  void setParameters(const std::string& arm_id) {
-    node.setParam("arm_id", arm_id);
-    node.setParam("joint_names", jointNames(arm_id));
-  }
-
   bool initialise(FrankaStateController& controller, hardware_interface::RobotHW& robot) {
     ros::NodeHandle root;
     controller_interface::ControllerBase::ClaimedResources claims;
@@ -114,7 +84,6 @@ class FrankaStateControllerTest : public testing::Test {
     return is_ready;
   }
 
-  ros::NodeHandle node;
   const ros::Duration kMillisecond{0.001};
 };
 
@@ -133,7 +102,7 @@ TEST_F(FrankaStateControllerTest, PublishesEveryTopicOfAnyArm) {
     Listener<geometry_msgs::WrenchStamped> wrench(node.resolveName("F_ext"));
     Listener<sensor_msgs::JointState> joints(node.resolveName("joint_states"));
     Listener<sensor_msgs::JointState> desired(node.resolveName("joint_states_desired"));
-    ASSERT_TRUE(waitFor([&] {
+    ASSERT_TRUE(eventually([&] {
       return state.isConnected() && transforms.isConnected() && wrench.isConnected() &&
              joints.isConnected() && desired.isConnected();
     }));
@@ -141,7 +110,7 @@ TEST_F(FrankaStateControllerTest, PublishesEveryTopicOfAnyArm) {
     controller.starting(ros::Time(12.0));
     const ros::Time stamp(12.345);
     controller.update(stamp, kMillisecond);
-    ASSERT_TRUE(waitFor([&] {
+    ASSERT_TRUE(eventually([&] {
       return state.count() > 0 && transforms.count() > 0 && wrench.count() > 0 &&
              joints.count() > 0 && desired.count() > 0;
     }));
@@ -190,14 +159,14 @@ TEST_F(FrankaStateControllerTest, PublishesEveryTopicOfAnyArm) {
   }
 }
 
-TEST_F(FrankaStateControllerTest, PublishesAtTheRateAskedFor) {
+TEST_F(FrankaStateControllerTest, PublishesAtTheRequestedRate) {
   setParameters("panda");
   node.setParam("publish_rate", 100);  // an integer is a number, too
   FakeRobot robot("panda");
   FrankaStateController controller;
   ASSERT_TRUE(initialise(controller, robot));
   Listener<franka_msgs::FrankaState> states(node.resolveName("franka_states"));
-  ASSERT_TRUE(waitFor([&] { return states.isConnected(); }));
+  ASSERT_TRUE(eventually([&] { return states.isConnected(); }));
 
   // One simulated second, not faster than the messages are received.
   controller.starting(ros::Time(100.0));
@@ -206,7 +175,7 @@ TEST_F(FrankaStateControllerTest, PublishesAtTheRateAskedFor) {
     controller.update(ros::Time(100, i * 1000000), kMillisecond);
     if (i % 10 == 0) {
       ++expected;
-      ASSERT_TRUE(waitFor([&] { return states.count() == expected; })) << i;
+      ASSERT_TRUE(eventually([&] { return states.count() == expected; })) << i;
     }
     ASSERT_EQ(expected, states.count()) << i;
   }
@@ -225,16 +194,16 @@ TEST_F(FrankaStateControllerTest, LosesNoStateToAThreadThatIsLate) {
   FrankaStateController controller;
   ASSERT_TRUE(initialise(controller, robot));
   Listener<franka_msgs::FrankaState> states(node.resolveName("franka_states"));
-  ASSERT_TRUE(waitFor([&] { return states.isConnected(); }));
+  ASSERT_TRUE(eventually([&] { return states.isConnected(); }));
 
   // Each round is faster than any thread wakes up, and then waits for its messages.
   controller.starting(ros::Time(20.0));
-  constexpr unsigned kAtOnce = 60, kRounds = 20;
-  for (unsigned i = 1; i <= kRounds * kAtOnce; ++i) {
+  constexpr unsigned kStatesPerRound = 60, kRounds = 20;
+  for (unsigned i = 1; i <= kRounds * kStatesPerRound; ++i) {
     robot.state.q[0] = i;
     controller.update(ros::Time(20 + i / 1000, i % 1000 * 1000000), kMillisecond);
-    if (i % kAtOnce == 0) {
-      ASSERT_TRUE(waitFor([&] { return states.count() == i; })) << states.count() << " of " << i;
+    if (i % kStatesPerRound == 0) {
+      ASSERT_TRUE(eventually([&] { return states.count() == i; })) << states.count() << " of " << i;
     }
   }
   const auto all = states.all();
@@ -244,19 +213,19 @@ TEST_F(FrankaStateControllerTest, LosesNoStateToAThreadThatIsLate) {
   }
 }
 
-TEST_F(FrankaStateControllerTest, PublishesThirtyTimesASecondUnlessTold) {
+TEST_F(FrankaStateControllerTest, PublishesThirtyTimesASecondByDefault) {
   setParameters("panda");
   FakeRobot robot("panda");
   FrankaStateController controller;
   ASSERT_TRUE(initialise(controller, robot));
   Listener<franka_msgs::FrankaState> states(node.resolveName("franka_states"));
-  ASSERT_TRUE(waitFor([&] { return states.isConnected(); }));
+  ASSERT_TRUE(eventually([&] { return states.isConnected(); }));
   controller.starting(ros::Time(50.0));
   for (const unsigned milliseconds : {1, 33, 34, 66, 67, 99, 100}) {
     controller.update(ros::Time(50, milliseconds * 1000000), kMillisecond);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
   }
-  ASSERT_TRUE(waitFor([&] { return states.count() >= 3; }));
+  ASSERT_TRUE(eventually([&] { return states.count() >= 3; }));
   EXPECT_EQ(3U, states.count());
 }
 

@@ -55,8 +55,8 @@ def run_assimp(dae, obj):
     except FileNotFoundError:
         raise ConversionError("assimp is not installed (Debian package assimp-utils)") from None
     if result.returncode != 0 or not obj.is_file():
-        said = result.stdout.strip().splitlines()[-1:] or ["nothing"]
-        raise ConversionError(f"assimp could not convert {dae.name}; it says: {said[0]}")
+        printed = result.stdout.strip().splitlines()[-1:] or ["nothing"]
+        raise ConversionError(f"assimp could not convert {dae.name}; its output: {printed[0]}")
 
 
 def read_colours(mtl):

@@ -217,7 +217,7 @@ def test_primitives_fit_the_meshes(link):
     """The bounds that primitives.yaml states, where the meshes are installed."""
     meshes = ROBOTS.parent / "meshes"
     if not (meshes / "mujoco" / "visual" / link / "index.yaml").is_file():
-        pytest.skip("the meshes are not installed")
+        pytest.skip("the robots' meshes are not installed: run ./franka install")
     found = shapes(expand("panda/panda", hand="true").links[f"panda_{link}"])
     points = visual_points(meshes / "mujoco" / "visual" / link)
     assert np.min([distance(shape, points) for shape in found], axis=0).max() < 0.020

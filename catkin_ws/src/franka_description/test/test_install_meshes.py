@@ -74,7 +74,7 @@ def test_all_files_are_installed_at_their_paths(place, monkeypatch, capsys):
     assert re.search(r"done in \d+\.\d s", capsys.readouterr().out)
 
 
-def test_xacro_sees_what_was_installed(place, monkeypatch):
+def test_xacro_uses_the_installed_meshes(place, monkeypatch):
     place.run(monkeypatch=monkeypatch)
     robot = expand("fr3/fr3", mesh_index=str(place.meshes / "available.xacro"))
     filename = "package://franka_description/meshes/visual/fr3/link5.dae"
@@ -119,9 +119,9 @@ def test_missing_wheels_leave_simple_shapes(place, monkeypatch, capsys, required
     shutil.rmtree(place.wheels)
     place.wheels.mkdir()
     assert place.run(*required, monkeypatch=monkeypatch) == status
-    said = capsys.readouterr().err
-    assert "example_robot_data-4.4.0-1-py3-none-any.whl (Panda meshes) is not in" in said
-    assert "simple shapes" in said
+    printed = capsys.readouterr().err
+    assert "example_robot_data-4.4.0-1-py3-none-any.whl (Panda meshes) is not in" in printed
+    assert "simple shapes" in printed
     assert place.files() == []
     robot = expand("panda/panda", mesh_index=str(place.meshes / "available.xacro"))
     assert "<mesh" not in robot.text
@@ -196,9 +196,9 @@ def test_missing_network_is_reported(place, tmp_path, monkeypatch, capsys):
         monkeypatch.delenv(name, raising=False)
     monkeypatch.setattr(sys, "argv", ["install_meshes", f"--meshes={tmp_path / 'm'}"])
     assert place.script.main() == 0
-    said = capsys.readouterr().err
-    assert "is there a network?" in said or "has no pip" in said
-    assert "simple shapes" in said
+    printed = capsys.readouterr().err
+    assert "is there a network?" in printed or "has no pip" in printed
+    assert "simple shapes" in printed
 
 
 def test_unwritable_folder_is_reported(place, tmp_path, monkeypatch):

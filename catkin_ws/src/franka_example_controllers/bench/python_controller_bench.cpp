@@ -49,7 +49,10 @@ class Running {
   bool ready_{false};
 };
 
+/// In simulated time (argument 1) or on hardware (0), where the loop sleeps until the script
+/// answers.
 void run(benchmark::State& state, const std::string& script, const std::string& name) {
+  ros::param::set("/use_sim_time", state.range(0) == 1);
   Running controller(script, name);
   if (!controller.ready()) {
     state.SkipWithError("the controller could not be set up");
@@ -64,12 +67,12 @@ void run(benchmark::State& state, const std::string& script, const std::string& 
 void jointImpedance(benchmark::State& state) {
   run(state, std::string(EXAMPLES) + "/joint_impedance.py", "JointImpedance");
 }
-BENCHMARK(jointImpedance)->UseRealTime();
+BENCHMARK(jointImpedance)->ArgName("simulated")->Arg(0)->Arg(1)->UseRealTime();
 
 void constantCommand(benchmark::State& state) {
   run(state, std::string(BENCH) + "/constant_command.py", "ConstantCommand");
 }
-BENCHMARK(constantCommand)->UseRealTime();
+BENCHMARK(constantCommand)->ArgName("simulated")->Arg(0)->Arg(1)->UseRealTime();
 
 void callOfPython(benchmark::State& state) {
   const pybind11::gil_scoped_acquire interpreter;

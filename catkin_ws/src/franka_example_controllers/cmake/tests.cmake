@@ -26,8 +26,6 @@ target_link_libraries(cartesian_impedance_example_controller_test franka_example
   ${CMAKE_DL_LIBS})
 
 add_rostest(test/interactive_marker.test)
-add_rostest(test/python_controllers.test)
-add_rostest(test/teleop_gripper.test)
 
 add_rostest_gtest(python_controller_test test/python_controller.test
   test/python_controller_test.cpp)

@@ -4,7 +4,7 @@
 
 import numpy as np
 
-LARGEST_STEP = 1.0  # [Nm] per cycle, the robot's limit
+MAX_STEP = 1.0  # [Nm] per cycle, the robot's limit
 
 
 class JointImpedance:
@@ -32,4 +32,4 @@ class JointImpedance:
         self.time += period
         q, dq = self.target()
         tau = self.k * (q - state.q) + self.d * (dq - state.dq) + model.coriolis()
-        return state.tau_J_d + np.clip(tau - state.tau_J_d, -LARGEST_STEP, LARGEST_STEP)
+        return state.tau_J_d + np.clip(tau - state.tau_J_d, -MAX_STEP, MAX_STEP)

@@ -18,7 +18,7 @@ import rospy_connections
 from franka_msgs.msg import FrankaState
 from geometry_msgs.msg import Pose, PoseStamped, Quaternion
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
-from scipy.spatial.transform import Rotation
+from tf.transformations import quaternion_from_matrix, unit_vector
 from visualization_msgs.msg import (
     InteractiveMarker,
     InteractiveMarkerControl,
@@ -49,8 +49,7 @@ def pose_from_state(state):
         return None
     pose = Pose()
     pose.position.x, pose.position.y, pose.position.z = matrix[12:15]
-    rotation = np.reshape(matrix, (4, 4)).T[:3, :3]
-    pose.orientation = Quaternion(*Rotation.from_matrix(rotation).as_quat())
+    pose.orientation = Quaternion(*unit_vector(quaternion_from_matrix(np.reshape(matrix, (4, 4)).T)))
     return pose
 
 

@@ -22,7 +22,7 @@ from control_msgs.msg import (
 from sensor_msgs.msg import JointState
 from trajectory_msgs.msg import JointTrajectoryPoint
 
-SHORTEST = 0.5  # [s]
+MIN_DURATION = 0.5  # [s]
 WAIT = 30.0  # [s] for the controller and the joints
 POLL = 0.05  # [s]
 
@@ -36,7 +36,7 @@ def goal_for(pose, present, max_dq):
     """A goal of one point at rest, no faster than max_dq [rad/s]."""
     farthest = max(abs(pose[name] - present[name]) for name in pose)
     point = JointTrajectoryPoint()
-    point.time_from_start = rospy.Duration.from_sec(max(farthest / max_dq, SHORTEST))
+    point.time_from_start = rospy.Duration.from_sec(max(farthest / max_dq, MIN_DURATION))
     goal = FollowJointTrajectoryGoal()
     goal.trajectory.joint_names, point.positions = map(list, zip(*pose.items()))
     point.velocities = [0.0] * len(pose)

@@ -11,7 +11,7 @@ namespace {
 
 /// Share of the difference to a target that is covered in one update of 1 ms; the original's
 /// constant.
-constexpr double kFilter = 0.005;
+constexpr double kComplianceFilter = 0.005;
 
 using Pose = Eigen::Map<const Eigen::Matrix4d>;
 using Joints = Eigen::Map<const CartesianImpedance::Vector7>;
@@ -19,7 +19,7 @@ using Wrench = Eigen::Matrix<double, 6, 1>;
 
 template <typename Value>
 Value filtered(const Value& current, const Value& target) noexcept {
-  return kFilter * target + (1.0 - kFilter) * current;
+  return kComplianceFilter * target + (1.0 - kComplianceFilter) * current;
 }
 
 double criticalDamping(double stiffness) noexcept { return 2.0 * std::sqrt(stiffness); }
@@ -57,7 +57,7 @@ CartesianImpedance::Vector7 CartesianImpedance::update(const Arm& arm) noexcept 
   const Vector7 tau_elbow =
       nullspace_stiffness_ * (q_nullspace_ - q) - criticalDamping(nullspace_stiffness_) * dq;
   const Eigen::Matrix<double, 7, 6> Jt = J.transpose();
-  const Wrench elbow_wrench = dampedPseudoInverse(Jt, kNullSpaceDamping) * tau_elbow;
+  const Wrench elbow_wrench = dampedSolution(Jt, tau_elbow, kNullSpaceDamping);
 
   const Vector7 tau = Jt * (wrench - elbow_wrench) + tau_elbow + Joints(arm.coriolis.data());
   approachTargets();
@@ -92,7 +92,7 @@ void CartesianImpedance::approachTargets() noexcept {
   }
   nullspace_stiffness_ = filtered(nullspace_stiffness_, compliance_target_.nullspace_stiffness);
   position_d_ = filtered(position_d_, position_target_);
-  orientation_d_ = orientation_d_.slerp(kFilter, orientation_target_).normalized();
+  orientation_d_ = orientation_d_.slerp(kComplianceFilter, orientation_target_).normalized();
 }
 
 }  // namespace franka_example_controllers

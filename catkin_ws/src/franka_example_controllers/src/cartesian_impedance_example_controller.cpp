@@ -15,10 +15,6 @@ namespace franka_example_controllers {
 
 namespace {
 
-constexpr char kName[] = "CartesianImpedanceExampleController";
-constexpr double kShortestQuaternion = 1e-3;  ///< below it a quaternion is no valid rotation
-constexpr double kLogPeriod = 1.0;            ///< [s] between log messages about invalid input
-
 bool isFinite(const compliance_paramConfig& config) {
   return std::isfinite(config.translational_stiffness) &&
          std::isfinite(config.rotational_stiffness) && std::isfinite(config.nullspace_stiffness);
@@ -95,11 +91,11 @@ void CartesianImpedanceExampleController::equilibriumPoseCallback(
   equilibrium.orientation =
       Eigen::Quaterniond(orientation.w, orientation.x, orientation.y, orientation.z);
   const double length = equilibrium.orientation.norm();
-  if (!equilibrium.position.allFinite() || !std::isfinite(length) || length < kShortestQuaternion) {
+  if (!equilibrium.position.allFinite() || !std::isfinite(length) || length < kMinQuaternionNorm) {
     ROS_ERROR_THROTTLE(
         kLogPeriod,
         "%s: an equilibrium pose was ignored, since its position (%g, %g, %g) is not "
-        "finite or its quaternion (%g, %g, %g, %g) is no rotation; send numbers, and a "
+        "finite or its quaternion (%g, %g, %g, %g) is not a rotation; send numbers, and a "
         "quaternion of length 1.",
         kName, position.x, position.y, position.z, orientation.x, orientation.y, orientation.z,
         orientation.w);

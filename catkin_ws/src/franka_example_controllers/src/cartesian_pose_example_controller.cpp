@@ -9,16 +9,6 @@
 
 namespace franka_example_controllers {
 
-namespace {
-
-constexpr char kName[] = "CartesianPoseExampleController";
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kRadius = 0.15;      // [m]
-constexpr double kCycle = 10.0;       // [s]
-constexpr double kSweep = kPi / 2.0;  // of the arc, there and back [rad]
-
-}  // namespace
-
 bool CartesianPoseExampleController::init(hardware_interface::RobotHW* robot_hw,
                                           ros::NodeHandle& node_handle) {
   std::string arm_id;

@@ -9,16 +9,6 @@
 
 namespace franka_example_controllers {
 
-namespace {
-
-constexpr char kName[] = "CartesianVelocityExampleController";
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kCycle = 4.0;         // [s]
-constexpr double kMaxVelocity = 0.05;  // [m/s]
-constexpr double kSlope = kPi / 4.0;   // [rad]
-
-}  // namespace
-
 bool CartesianVelocityExampleController::init(hardware_interface::RobotHW* robot_hw,
                                               ros::NodeHandle& node_handle) {
   std::string arm_id;

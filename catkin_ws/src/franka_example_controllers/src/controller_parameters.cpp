@@ -10,7 +10,7 @@ namespace franka_example_controllers {
 
 namespace {
 
-constexpr std::size_t kJoints = 7;
+constexpr std::size_t kJointCount = 7;
 
 }  // namespace
 
@@ -26,7 +26,7 @@ bool readArmId(const char* controller, const ros::NodeHandle& node_handle, std::
 bool readJointNames(const char* controller, const ros::NodeHandle& node_handle,
                     std::vector<std::string>& joint_names) {
   joint_names.clear();
-  if (!node_handle.getParam("joint_names", joint_names) || joint_names.size() != kJoints) {
+  if (!node_handle.getParam("joint_names", joint_names) || joint_names.size() != kJointCount) {
     ROS_ERROR(
         "%s: the parameter %s/joint_names must be a list of the arm's seven joint names; it has "
         "%zu.",
@@ -39,7 +39,7 @@ bool readJointNames(const char* controller, const ros::NodeHandle& node_handle,
 bool readGains(const char* controller, const ros::NodeHandle& node_handle, const std::string& name,
                std::vector<double>& gains) {
   gains.clear();
-  if (!node_handle.getParam(name, gains) || gains.size() != kJoints ||
+  if (!node_handle.getParam(name, gains) || gains.size() != kJointCount ||
       !std::all_of(gains.begin(), gains.end(), [](double gain) { return std::isfinite(gain); })) {
     ROS_ERROR("%s: the parameter %s must be a list of seven numbers, one for each joint.",
               controller, node_handle.resolveName(name).c_str());

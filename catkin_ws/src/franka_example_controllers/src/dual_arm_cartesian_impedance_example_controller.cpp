@@ -15,11 +15,6 @@ namespace franka_example_controllers {
 
 namespace {
 
-constexpr char kName[] = "DualArmCartesianImpedanceExampleController";
-constexpr double kTransformTimeout = 4.0;  // [s]
-constexpr double kPublishRate = 30.0;      // [Hz]
-constexpr double kShortestQuaternion = 1e-3;
-
 Eigen::Affine3d poseOf(const FrankaDataContainer& arm) {
   return Eigen::Affine3d(
       Eigen::Map<const Eigen::Matrix4d>(arm.state_handle->getRobotState().O_T_EE.data()));
@@ -166,10 +161,10 @@ void DualArmCartesianImpedanceExampleController::targetCallback(
   const auto& p = message->pose.position;
   const Eigen::Vector3d position(p.x, p.y, p.z);
   const Eigen::Quaterniond orientation = quaternion(message->pose.orientation);
-  if (!position.allFinite() || !(orientation.norm() > kShortestQuaternion)) {
+  if (!position.allFinite() || !(orientation.norm() > kMinQuaternionNorm)) {
     ROS_ERROR_THROTTLE(1.0,
                        "%s: a target pose was ignored, since its position is not finite or its "
-                       "quaternion is no rotation.",
+                       "quaternion is not a rotation.",
                        kName);
     return;
   }

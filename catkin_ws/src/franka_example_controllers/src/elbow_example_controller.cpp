@@ -9,15 +9,6 @@
 
 namespace franka_example_controllers {
 
-namespace {
-
-constexpr char kName[] = "ElbowExampleController";
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kCycle = 10.0;       // [s]
-constexpr double kSwing = kPi / 5.0;  // of joint 3 there and back [rad]
-
-}  // namespace
-
 bool ElbowExampleController::init(hardware_interface::RobotHW* robot_hw,
                                   ros::NodeHandle& node_handle) {
   std::string arm_id;

@@ -14,13 +14,13 @@ namespace franka_example_controllers {
 
 namespace {
 
-constexpr char kName[] = "ForceExampleController";
 constexpr double kGravity = 9.81;  // [m/s^2]
-constexpr double kFilter = 0.001;  // share of the difference to a target per cycle; the original's
+constexpr double kForceFilter =
+    0.001;  // share of the difference to a target per cycle; the original's
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
 double filtered(double current, double target) noexcept {
-  return kFilter * target + (1.0 - kFilter) * current;
+  return kForceFilter * target + (1.0 - kForceFilter) * current;
 }
 
 }  // namespace

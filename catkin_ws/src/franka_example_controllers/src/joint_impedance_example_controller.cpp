@@ -13,15 +13,10 @@ namespace franka_example_controllers {
 
 namespace {
 
-constexpr char kName[] = "JointImpedanceExampleController";
-constexpr double kTwoPi = 2.0 * 3.14159265358979323846;
-constexpr double kLeastRadius = 0.005;  // [m]
-// Share of the new velocity in the filtered one; the original's constant.
-constexpr double kVelocityShare = 0.99;
-
-bool readPositive(const ros::NodeHandle& nh, const std::string& name, double& value) {
+bool readPositive(const char* controller, const ros::NodeHandle& nh, const std::string& name,
+                  double& value) {
   if (nh.hasParam(name) && !(nh.getParam(name, value) && std::isfinite(value) && value > 0.0)) {
-    ROS_ERROR("%s: the parameter %s must be a number above zero.", kName,
+    ROS_ERROR("%s: the parameter %s must be a number above zero.", controller,
               nh.resolveName(name).c_str());
     return false;
   }
@@ -52,9 +47,9 @@ bool JointImpedanceExampleController::init(hardware_interface::RobotHW* robot_hw
 bool JointImpedanceExampleController::readParameters(const ros::NodeHandle& node_handle) {
   if (!readGains(kName, node_handle, "k_gains", k_gains_) ||
       !readGains(kName, node_handle, "d_gains", d_gains_) ||
-      !readPositive(node_handle, "vel_max", vel_max_) ||
-      !readPositive(node_handle, "acceleration_time", acceleration_time_) ||
-      !readPositive(node_handle, "publish_rate", publish_rate_)) {
+      !readPositive(kName, node_handle, "vel_max", vel_max_) ||
+      !readPositive(kName, node_handle, "acceleration_time", acceleration_time_) ||
+      !readPositive(kName, node_handle, "publish_rate", publish_rate_)) {
     return false;
   }
   node_handle.getParam("coriolis_factor", coriolis_factor_);
@@ -64,7 +59,7 @@ bool JointImpedanceExampleController::readParameters(const ros::NodeHandle& node
               node_handle.resolveName("coriolis_factor").c_str());
     return false;
   }
-  if (!(std::abs(radius_) >= kLeastRadius)) {
+  if (!(std::abs(radius_) >= kMinRadius)) {
     ROS_INFO("%s: a radius of %g m is too small for a circle; using 0.1 m.", kName, radius_);
     radius_ = 0.1;
   }

@@ -9,16 +9,6 @@
 
 namespace franka_example_controllers {
 
-namespace {
-
-constexpr char kName[] = "JointPositionExampleController";
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kCycle = 10.0;             // [s]
-constexpr double kSwing = 0.2 * kPi / 8.0;  // of each joint there and back [rad]
-constexpr std::size_t kOpposite = 4;        // the fifth joint moves in the opposite direction
-
-}  // namespace
-
 bool JointPositionExampleController::init(hardware_interface::RobotHW* robot_hw,
                                           ros::NodeHandle& node_handle) {
   std::vector<std::string> joint_names;

@@ -2,21 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_example_controllers/controller_parameters.h>
 #include <franka_example_controllers/joint_velocity_example_controller.h>
+#include <franka_example_controllers/pi.h>
 #include <franka_example_controllers/robot_handles.h>
 #include <pluginlib/class_list_macros.h>
 
 #include <cmath>
 
 namespace franka_example_controllers {
-
-namespace {
-
-constexpr char kName[] = "JointVelocityExampleController";
-constexpr double kPi = 3.14159265358979323846;
-constexpr double kCycle = 8.0;        // [s]
-constexpr double kMaxVelocity = 0.1;  // [rad/s]
-
-}  // namespace
 
 bool JointVelocityExampleController::init(hardware_interface::RobotHW* robot_hw,
                                           ros::NodeHandle& node_handle) {

@@ -12,9 +12,6 @@ namespace franka_example_controllers {
 
 namespace {
 
-constexpr char kName[] = "ModelExampleController";
-constexpr double kPrintPeriod = 0.1;  // [s] between checks for new results
-
 template <std::size_t size>
 std::string text(const std::array<double, size>& values) {
   std::ostringstream out;

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_example_controllers/pi.h>
 #include <franka_example_controllers/robot_handles.h>
 
 #include <cmath>
@@ -8,7 +9,6 @@ namespace franka_example_controllers {
 
 namespace {
 
-constexpr double kPi = 3.14159265358979323846;
 constexpr std::array<double, 7> kStartPose{
     {0.0, -kPi / 4.0, 0.0, -3.0 * kPi / 4.0, 0.0, kPi / 2.0, kPi / 4.0}};  // [rad]
 constexpr double kTolerance = 0.1;                                         // [rad]

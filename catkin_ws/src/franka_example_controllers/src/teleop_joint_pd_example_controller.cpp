@@ -16,29 +16,27 @@ namespace franka_example_controllers {
 
 namespace {
 
-constexpr char kName[] = "TeleopJointPDExampleController";
-constexpr double kPublishRate = 60.0;  // [Hz]
-
 // The walls before the soft limits; the original's constants. [rad] [Nm/rad] [Nm s/rad]
 constexpr std::array<double, 7> kWallWidth{{0.12, 0.09, 0.09, 0.09, 0.0349, 0.0349, 0.0349}};
 constexpr std::array<double, 7> kWallStiffness{
     {2000.0, 2000.0, 1000.0, 1000.0, 500.0, 200.0, 200.0}};
 constexpr std::array<double, 7> kWallDamping{{30.0, 30.0, 30.0, 10.0, 5.0, 5.0, 5.0}};
 
-bool readVector(const ros::NodeHandle& nh, const std::string& name, Vector7d& values) {
+bool readVector(const char* controller, const ros::NodeHandle& nh, const std::string& name,
+                Vector7d& values) {
   std::vector<double> gains;
-  if (!readGains(kName, nh, name, gains)) {
+  if (!readGains(controller, nh, name, gains)) {
     return false;
   }
   values = Eigen::Map<const Vector7d>(gains.data());
   return true;
 }
 
-bool readThreshold(const ros::NodeHandle& nh, double& value) {
+bool readThreshold(const char* controller, const ros::NodeHandle& nh, double& value) {
   if (nh.getParam("contact_force_threshold", value) && std::isfinite(value)) {
     return true;
   }
-  ROS_ERROR("%s: the parameter %s must be a number [N].", kName,
+  ROS_ERROR("%s: the parameter %s must be a number [N].", controller,
             nh.resolveName("contact_force_threshold").c_str());
   return false;
 }
@@ -73,19 +71,19 @@ bool TeleopJointPDExampleController::readParameters(const ros::NodeHandle& node_
   const ros::NodeHandle leader(node_handle, "leader");
   const ros::NodeHandle follower(node_handle, "follower");
   TeleopParameters& p = parameters_;
-  return readVector(leader, "d_gains_lower", p.leader_d_gains_lower) &&
-         readVector(leader, "d_gains_upper", p.leader_d_gains_upper) &&
-         readVector(leader, "dq_max_lower", p.leader_dq_max_lower) &&
-         readVector(leader, "dq_max_upper", p.leader_dq_max_upper) &&
-         readVector(follower, "p_gains", p.follower_p_gains) &&
-         readVector(follower, "d_gains", p.follower_d_gains) &&
-         readVector(follower, "drift_comp_gains", p.drift_comp_gains) &&
-         readVector(follower, "dq_max_lower", p.follower_dq_max_lower) &&
-         readVector(follower, "dq_max_upper", p.follower_dq_max_upper) &&
-         readVector(follower, "ddq_max_lower", p.follower_ddq_max_lower) &&
-         readVector(follower, "ddq_max_upper", p.follower_ddq_max_upper) &&
-         readThreshold(leader, p.leader_contact_force_threshold) &&
-         readThreshold(follower, p.follower_contact_force_threshold);
+  return readVector(kName, leader, "d_gains_lower", p.leader_d_gains_lower) &&
+         readVector(kName, leader, "d_gains_upper", p.leader_d_gains_upper) &&
+         readVector(kName, leader, "dq_max_lower", p.leader_dq_max_lower) &&
+         readVector(kName, leader, "dq_max_upper", p.leader_dq_max_upper) &&
+         readVector(kName, follower, "p_gains", p.follower_p_gains) &&
+         readVector(kName, follower, "d_gains", p.follower_d_gains) &&
+         readVector(kName, follower, "drift_comp_gains", p.drift_comp_gains) &&
+         readVector(kName, follower, "dq_max_lower", p.follower_dq_max_lower) &&
+         readVector(kName, follower, "dq_max_upper", p.follower_dq_max_upper) &&
+         readVector(kName, follower, "ddq_max_lower", p.follower_ddq_max_lower) &&
+         readVector(kName, follower, "ddq_max_upper", p.follower_ddq_max_upper) &&
+         readThreshold(kName, leader, p.leader_contact_force_threshold) &&
+         readThreshold(kName, follower, p.follower_contact_force_threshold);
 }
 
 bool TeleopJointPDExampleController::initArm(hardware_interface::RobotHW* robot_hw,

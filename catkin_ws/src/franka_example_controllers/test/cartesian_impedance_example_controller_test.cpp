@@ -9,6 +9,8 @@
 #include <pluginlib/class_loader.h>
 #include <ros/callback_queue.h>
 #include <ros/ros.h>
+#include <ros_test/arm_controller_test.h>
+#include <ros_test/eventually.h>
 #include <rosgraph_msgs/Log.h>
 #include <rt_guard/rt_guard.h>
 
@@ -16,7 +18,6 @@
 #include <array>
 #include <chrono>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <set>
 #include <string>
@@ -26,27 +27,9 @@
 namespace franka_example_controllers {
 namespace {
 
-constexpr std::chrono::seconds kDeadline{10};
-using Names = std::vector<std::string>;
-
-Names jointNames(const std::string& arm_id, int count = 7) {
-  Names names;
-  for (int i = 1; i <= count; ++i) {
-    names.push_back(arm_id + "_joint" + std::to_string(i));
-  }
-  return names;
-}
-
-bool waitFor(const std::function<bool()>& condition) {
-  const auto end = std::chrono::steady_clock::now() + kDeadline;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) {
-      return false;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
+using ros_test::eventually;
+using ros_test::jointNames;
+using ros_test::Names;
 
 /// A simple model with predictable torques: joint i moves along axis i of the end effector.
 class PlainModel : public franka_hw::ModelBase {
@@ -112,19 +95,9 @@ class FakeRobot : public hardware_interface::RobotHW {
   hardware_interface::EffortJointInterface efforts_;
 };
 
-class ControllerTest : public testing::Test {
+class ControllerTest : public ros_test::ArmControllerTest {
  protected:
-  ControllerTest() : node("~" + nextName()) { setParameters("panda"); }
-
-  static std::string nextName() {
-    static int number = 0;
-    return "impedance_" + std::to_string(++number);
-  }
-
-  void setParameters(const std::string& arm_id) {
-    node.setParam("arm_id", arm_id);
-    node.setParam("joint_names", jointNames(arm_id));
-  }
+  ControllerTest() { setParameters("panda"); }
 
   bool initialise(CartesianImpedanceExampleController& controller,
                   hardware_interface::RobotHW& robot) {
@@ -155,7 +128,7 @@ class ControllerTest : public testing::Test {
     if (!publisher) {
       publisher = node.advertise<geometry_msgs::PoseStamped>("equilibrium_pose", 10);
     }
-    ASSERT_TRUE(waitFor([&] { return publisher.getNumSubscribers() > 0; }));
+    ASSERT_TRUE(eventually([&] { return publisher.getNumSubscribers() > 0; }));
     publisher.publish(message);
   }
 
@@ -178,7 +151,6 @@ class ControllerTest : public testing::Test {
     return is_done;
   }
 
-  ros::NodeHandle node;
   ros::Publisher publisher;
   controller_interface::ControllerBase::ClaimedResources claims;
 };
@@ -217,7 +189,7 @@ TEST_F(ControllerTest, FollowsTheEquilibriumPoseWithItsStiffness) {
   ASSERT_TRUE(initialise(controller, robot));
   controller.starting(ros::Time(1.0));
   send(poseMessage(0.35));
-  ASSERT_TRUE(waitFor([&] {
+  ASSERT_TRUE(eventually([&] {
     run(controller, robot, 1);
     return robot.command[0] > 1e-3;
   }));
@@ -230,7 +202,7 @@ TEST_F(ControllerTest, FollowsTheEquilibriumPoseWithItsStiffness) {
   message.pose.orientation.x = -3.0;
   send(message);
   send(poseMessage(0.31));
-  ASSERT_TRUE(waitFor([&] {
+  ASSERT_TRUE(eventually([&] {
     run(controller, robot, 1);
     return robot.command[0] < 9.9;
   }));
@@ -247,7 +219,7 @@ TEST_F(ControllerTest, DropsPosesFromBeforeItsStart) {
   ASSERT_TRUE(initialise(controller, robot));
   controller.starting(ros::Time(1.0));
   send(poseMessage(0.35));
-  ASSERT_TRUE(waitFor([&] {
+  ASSERT_TRUE(eventually([&] {
     run(controller, robot, 1);
     return robot.command[0] > 1e-3;
   }));
@@ -274,7 +246,7 @@ TEST_F(ControllerTest, RefusesInvalidPoses) {
   send(poseMessage(0.9, infinite));
   send(zero);
   send(poseMessage(0.29));  // sent last, so that the others were received before
-  ASSERT_TRUE(waitFor([&] {
+  ASSERT_TRUE(eventually([&] {
     run(controller, robot, 1);
     return robot.command[0] < -1e-3;
   }));
@@ -294,7 +266,7 @@ TEST_F(ControllerTest, TakesStiffnessFromDynamicReconfigure) {
   EXPECT_NEAR(-0.5 * 0.2, robot.command[6], 1e-12);
 
   ASSERT_TRUE(setStiffness(400.0, 10.0));
-  ASSERT_TRUE(waitFor([&] {
+  ASSERT_TRUE(eventually([&] {
     run(controller, robot, 1);
     return robot.command[6] < -0.11;
   }));
@@ -360,14 +332,14 @@ TEST_F(ControllerTest, RefusesMissingAndWrongParametersWithOneSentence) {
           errors.push_back(message->msg);
         }
       });
-  ASSERT_TRUE(waitFor([&] { return log.getNumPublishers() > 0; }));
+  ASSERT_TRUE(eventually([&] { return log.getNumPublishers() > 0; }));
 
   FakeRobot robot("panda");
   const auto expectRefusal = [&](const std::string& words) {
     errors.clear();
     CartesianImpedanceExampleController controller;
     EXPECT_FALSE(initialise(controller, robot)) << words;
-    EXPECT_TRUE(waitFor([&] {
+    EXPECT_TRUE(eventually([&] {
       queue.callAvailable();
       return !errors.empty();
     })) << words;

@@ -113,7 +113,7 @@ class InteractiveMarkerTest(unittest.TestCase):
         # The median: a busy machine delays some.
         stamps = [pose.header.stamp.to_sec() for pose in self.poses]
         period = statistics.median(b - a for a, b in zip(stamps, stamps[1:]))
-        self.assertLess(period, 0.01, "5 ms were asked for")
+        self.assertLess(period, 0.01, "5 ms were requested")
         self.assertGreater(period, 0.0047)
 
         # Dragged inside and outside of the marker's range.

@@ -20,14 +20,14 @@ void expectSameAnswers() {
     }
     Eigen::MatrixXd by_singular_values;
     pseudoInverse(matrix, by_singular_values);
-    const Eigen::Matrix<double, Columns, Rows> inverse = dampedPseudoInverse(matrix);
-    ASSERT_LT((inverse - by_singular_values).cwiseAbs().maxCoeff(), 1e-12);
+    const Eigen::Matrix<double, Rows, 1> vector = Eigen::Matrix<double, Rows, 1>::Random();
+    const Eigen::Matrix<double, Columns, 1> solution = dampedSolution(matrix, vector);
+    ASSERT_LT((solution - by_singular_values * vector).cwiseAbs().maxCoeff(), 1e-12);
   }
 }
 
 TEST(PseudoInversion, FixedSizeMatchesSingularValues) {
   expectSameAnswers<7, 6>();
-  expectSameAnswers<6, 7>();
   expectSameAnswers<3, 3>();
 }
 

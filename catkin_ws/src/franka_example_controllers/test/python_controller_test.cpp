@@ -4,13 +4,15 @@
 #include <franka_example_controllers/python_controller.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <ros_test/eventually.h>
 #include <rosgraph_msgs/Log.h>
 #include <rt_guard/rt_guard.h>
+#include <transform_sweep.h>
 
 #include <chrono>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
-#include <functional>
 #include <limits>
 #include <mutex>
 #include <string>
@@ -22,20 +24,9 @@
 namespace franka_example_controllers {
 namespace {
 
+using ros_test::eventually;
 using Names = std::vector<std::string>;
-constexpr double kPeriod = 1e-3;               // [s]
-constexpr std::chrono::seconds kDeadline{30};  // for events in other threads
-
-bool waitFor(const std::function<bool()>& condition) {
-  const auto end = std::chrono::steady_clock::now() + kDeadline;
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > end) {
-      return false;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-  return true;
-}
+constexpr double kPeriod = 1e-3;  // [s]
 
 /// The log's errors, and the controllers' requests to the controller manager, which the test
 /// replaces.
@@ -99,10 +90,12 @@ World& world() {
   return instance;
 }
 
-class PythonControllerTest : public testing::Test {
+/// On hardware, where loop and script sleep while they wait, and in simulated time (true).
+class PythonControllerTest : public testing::TestWithParam<bool> {
  protected:
   PythonControllerTest() : node("python_" + std::to_string(++number())) {
     world().forget();
+    ros::param::set("/use_sim_time", GetParam());
     node.setParam("class", "Law");
     node.setParam("arm_id", "panda");
     node.setParam("joint_names", arm.joint_names);
@@ -154,12 +147,13 @@ class PythonControllerTest : public testing::Test {
     ASSERT_TRUE(initialise(controller)) << world().errors();
     controller.starting(ros::Time(1.0));
     const std::string name = node.getNamespace().substr(1);
-    EXPECT_TRUE(waitFor([&] {
+    EXPECT_TRUE(eventually([&] {
       run(controller, 300);
       return !world().stopped().empty();
     })) << text;
     EXPECT_EQ(Names{name}, world().stopped());
-    EXPECT_TRUE(waitFor([&] { return world().logged(text); })) << text << "\n" << world().errors();
+    EXPECT_TRUE(eventually([&] { return world().logged(text); })) << text << "\n"
+                                                                  << world().errors();
     EXPECT_TRUE(world().logged("PythonController '" + name + "' has failed"));
     controller.stopping(ros::Time(9.0));
   }
@@ -167,7 +161,8 @@ class PythonControllerTest : public testing::Test {
   void expectRefusal(const std::string& text) {
     PythonController controller;
     EXPECT_FALSE(initialise(controller));
-    EXPECT_TRUE(waitFor([&] { return world().logged(text); })) << text << "\n" << world().errors();
+    EXPECT_TRUE(eventually([&] { return world().logged(text); })) << text << "\n"
+                                                                  << world().errors();
   }
 
   WholeArm arm;
@@ -175,7 +170,7 @@ class PythonControllerTest : public testing::Test {
   controller_interface::ControllerBase::ClaimedResources claims;
 };
 
-TEST_F(PythonControllerTest, PassesEveryAllowedCombination) {
+TEST_P(PythonControllerTest, PassesEveryAllowedCombination) {
   const std::string seven = "np.arange(7.0) + 10.0";
   const std::string pose = "np.array(state.O_T_EE_d)";
   const std::string twist = "np.arange(6.0) + 20.0";
@@ -219,7 +214,7 @@ TEST_F(PythonControllerTest, PassesEveryAllowedCombination) {
   EXPECT_EQ("", world().errors());
 }
 
-TEST_F(PythonControllerTest, ElbowAccompaniesCartesianCommands) {
+TEST_P(PythonControllerTest, ElbowAccompaniesCartesianCommands) {
   command({"cartesian_velocity"});
   law("return {'cartesian_velocity': [0.0] * 6, 'elbow': [0.25, -1.0]}");
   PythonController controller;
@@ -229,7 +224,7 @@ TEST_F(PythonControllerTest, ElbowAccompaniesCartesianCommands) {
   EXPECT_EQ((std::array<double, 2>{{0.25, -1.0}}), arm.elbow);
 }
 
-TEST_F(PythonControllerTest, ShowsStateModelPeriodAndParameters) {
+TEST_P(PythonControllerTest, ShowsStateModelPeriodAndParameters) {
   node.setParam("gains/k", 2.5);
   node.setParam("list", Names{"a", "b"});
   script(R"(
@@ -263,12 +258,12 @@ class Law:
   EXPECT_EQ((std::array<double, 7>{{2.5, kPeriod, -0.7, 0.5, 0.0, 0.0, 0.0}}), arm.velocity);
 }
 
-TEST_F(PythonControllerTest, StopsItselfWithASentenceForAnyScriptError) {
+TEST_P(PythonControllerTest, StopsItselfWithASentenceForAnyScriptError) {
   const std::pair<const char*, const char*> cases[] = {
       {"return 1.0 / 0", "ZeroDivisionError: float division by zero"},
       {"return None", "update() returned None; it must return joint_velocity."},
       {"return [float('nan')] * 7",
-       "The command joint_velocity holds a value that is no finite number."},
+       "The command joint_velocity holds a value that is not a finite number."},
       {"return [0.0] * 6", "joint_velocity needs 7 numbers, not 6."},
       {"return 'left'", "joint_velocity needs 7 numbers."},
       {"return {'effort': [0.0] * 7}", "The dict that update() returned must hold joint_velocity."},
@@ -286,16 +281,64 @@ TEST_F(PythonControllerTest, StopsItselfWithASentenceForAnyScriptError) {
   EXPECT_TRUE(world().logged(", in starting"));
 }
 
-TEST_F(PythonControllerTest, RefusesInvalidPoses) {
+TEST_P(PythonControllerTest, RefusesInvalidPosesByTheRobotsRule) {
   command({"cartesian_pose"});
-  for (const char* body : {"return 1.1 * np.array(state.O_T_EE_d)",
-                           "return np.diag([1, 1, -1, 1.0])", "return np.ones(16)"}) {
+  const std::pair<const char*, const char*> cases[] = {
+      {"return np.diag([1, 1.1, 1, 1])", "column 2 of its rotation has the length 1.1"},
+      {"return np.diag([1, 1, -1, 1])", "it mirrors"},
+      {"T = np.full((4, 4), 3.0**-0.5); T[3] = 0, 0, 0, 1; return T",
+       "columns 1 and 2 of its rotation are not at right angles"},
+      {"return np.ones(16)", "its bottom row (entries 4, 8, 12 and 16"},
+      {"T = np.eye(4); T[1, 3] = np.nan; return T", "its entry in row 2 and column 4 is nan"}};
+  for (const auto& [body, fault] : cases) {
     law(body);
-    expectFailure("The command cartesian_pose is no pose");
+    expectFailure("The command cartesian_pose is not a pose: " + std::string(fault));
   }
 }
 
-TEST_F(PythonControllerTest, AbandonsALateScriptAndContinuesWithOthers) {
+/// Python that adds a rounding error to the pose `T`, whose array has its columns one after
+/// another.
+std::string perturbing(const franka_test::PerturbedMatrix& perturbed) {
+  char text[80];
+  std::snprintf(text, sizeof(text), "T[%zu, %zu] += %.17g", perturbed.entry % 4,
+                perturbed.entry / 4, perturbed.error);
+  return text;
+}
+
+TEST_P(PythonControllerTest, TakesTheRoundedPosesThatTheRobotTakes) {
+  command({"cartesian_pose"});
+  const std::vector<franka_test::PerturbedMatrix> all =
+      franka_test::perturbations(arm.state.O_T_EE_d);
+  std::string body = "T = np.array(state.O_T_EE_d)";
+  std::vector<franka_test::PerturbedMatrix> accepted;
+  for (const franka_test::PerturbedMatrix& perturbed : all) {
+    if (perturbed.accepted) {
+      accepted.push_back(perturbed);
+      body +=
+          "\n    if self.n == " + std::to_string(accepted.size()) + ": " + perturbing(perturbed);
+    }
+  }
+  law(body + "\n    return T");
+  PythonController controller;
+  ASSERT_TRUE(initialise(controller)) << world().errors();
+  controller.starting(ros::Time(1.0));
+  for (const franka_test::PerturbedMatrix& perturbed : accepted) {
+    run(controller, 1);
+    EXPECT_EQ(perturbed.matrix, arm.pose) << perturbed;
+  }
+  controller.stopping(ros::Time(2.0));
+  EXPECT_EQ("", world().errors());
+  for (const franka_test::PerturbedMatrix& perturbed : all) {
+    if (!perturbed.accepted) {
+      SCOPED_TRACE(testing::Message() << perturbed);
+      law("T = np.array(state.O_T_EE_d); " + perturbing(perturbed) + "; return T");
+      expectFailure(
+          "The command cartesian_pose is not a pose: its bottom row (entries 4, 8, 12 and ");
+    }
+  }
+}
+
+TEST_P(PythonControllerTest, AbandonsALateScriptAndContinuesWithOthers) {
   node.setParam("max_update_time", 0.2);
   node.setParam("fallback_controllers", Names{"other"});
   law("\n    while self.n == 3: pass\n    return [0.0] * 7");
@@ -307,9 +350,10 @@ TEST_F(PythonControllerTest, AbandonsALateScriptAndContinuesWithOthers) {
   run(controller, 1);
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
   run(controller, 3000);
-  EXPECT_TRUE(waitFor([] { return world().logged("within the 200 ms that it is allowed"); }));
-  EXPECT_TRUE(waitFor([] { return world().logged("was interrupted here:"); })) << world().errors();
-  EXPECT_TRUE(waitFor([] { return !world().started().empty(); }));
+  EXPECT_TRUE(eventually([] { return world().logged("within the 200 ms that it is allowed"); }));
+  EXPECT_TRUE(eventually([] { return world().logged("was interrupted here:"); }))
+      << world().errors();
+  EXPECT_TRUE(eventually([] { return !world().started().empty(); }));
   EXPECT_EQ(Names{"other"}, world().started());
   // After a restart it begins from the start.
   controller.stopping(ros::Time(5.0));
@@ -318,32 +362,32 @@ TEST_F(PythonControllerTest, AbandonsALateScriptAndContinuesWithOthers) {
   EXPECT_EQ(0.0, arm.velocity[0]);
 }
 
-TEST_F(PythonControllerTest, RefusesTheModelBetweenCycles) {
+TEST_P(PythonControllerTest, RefusesTheModelBetweenCycles) {
   law("\n    self.model = model\n    import threading\n    return [0.0] * 7");
   script(R"(
 import threading, time
 class Law:
   def starting(self, state, model):
-    self.said = ''
+    self.message = ''
     self.gone = threading.Event()
     def later():
       self.gone.wait()
-      while not self.said:
+      while not self.message:
         try:
           model.mass()
         except RuntimeError as error:
-          self.said = str(error)
+          self.message = str(error)
     threading.Thread(target=later, daemon=True).start()
   def update(self, state, model, period):
     self.gone.set()
-    if self.said:
-      raise RuntimeError(self.said)
+    if self.message:
+      raise RuntimeError(self.message)
     return [0.0] * 7
 )");
   expectFailure("The model may be used only within starting() and update()");
 }
 
-TEST_F(PythonControllerTest, RefusesScriptsThatCannotBeLoaded) {
+TEST_P(PythonControllerTest, RefusesScriptsThatCannotBeLoaded) {
   script("class Law:\n  def starting(self\n");
   expectRefusal("SyntaxError");
   script("class Other: pass\n");
@@ -375,7 +419,7 @@ TEST_F(PythonControllerTest, RefusesScriptsThatCannotBeLoaded) {
   expectRefusal("must be a time above zero");
 }
 
-TEST_F(PythonControllerTest, ReloadsAScriptTwentyTimes) {
+TEST_P(PythonControllerTest, ReloadsAScriptTwentyTimes) {
   for (int i = 0; i < 20; ++i) {
     law("return [" + std::to_string(i) + ".0] * 7");
     PythonController controller;
@@ -387,7 +431,7 @@ TEST_F(PythonControllerTest, ReloadsAScriptTwentyTimes) {
   }
 }
 
-TEST_F(PythonControllerTest, CallsStopping) {
+TEST_P(PythonControllerTest, CallsStopping) {
   node.setParam("mark", "python_stopping_mark");
   script(R"(
 class Law:
@@ -408,7 +452,7 @@ class Law:
   }
 }
 
-TEST_F(PythonControllerTest, LoopNeitherAllocatesNorLocks) {
+TEST_P(PythonControllerTest, LoopNeitherAllocatesNorLocks) {
   law("return [0.0] * 7");
   PythonController controller;
   ASSERT_TRUE(initialise(controller));
@@ -421,7 +465,7 @@ TEST_F(PythonControllerTest, LoopNeitherAllocatesNorLocks) {
 }
 
 /// Runs a motion that raises after a second, and returns the commands from then on.
-TEST_F(PythonControllerTest, BringsJointsToRestWithoutAJump) {
+TEST_P(PythonControllerTest, BringsJointsToRestWithoutAJump) {
   command({"joint_position"});
   law("\n    t = self.n * 1e-3\n    if self.n > 1000: raise RuntimeError('enough')\n"
       "    return self.q + 0.25 * (1 - np.cos(2.0 * t))",
@@ -454,7 +498,7 @@ TEST_F(PythonControllerTest, BringsJointsToRestWithoutAJump) {
   EXPECT_NEAR(v * stop / 2.0 + a * stop * stop / 12.0, q.back() - q[999], 1e-3);
 }
 
-TEST_F(PythonControllerTest, BringsPosesToRestAsPoses) {
+TEST_P(PythonControllerTest, BringsPosesToRestAsPoses) {
   command({"cartesian_pose"});
   law("\n    if self.n > 500: raise RuntimeError('enough')\n"
       "    a = 0.1 * (1 - np.cos(3e-3 * self.n)); c, s = np.cos(a), np.sin(a)\n"
@@ -484,7 +528,7 @@ TEST_F(PythonControllerTest, BringsPosesToRestAsPoses) {
   EXPECT_NEAR(positions.back() - 0.3, angle, 1e-4);
 }
 
-TEST_F(PythonControllerTest, DampsWithTorquesAtALimitedRate) {
+TEST_P(PythonControllerTest, DampsWithTorquesAtALimitedRate) {
   command({"effort"});
   law("return [20.0] * 7 if self.n < 3 else None");
   arm.state.dq.fill(0.1);
@@ -499,6 +543,9 @@ TEST_F(PythonControllerTest, DampsWithTorquesAtALimitedRate) {
   run(controller, 30);
   EXPECT_NEAR(-5.0, arm.effort[0], 1e-12) << "50 Nm s/rad at 0.1 rad/s";
 }
+
+INSTANTIATE_TEST_SUITE_P(BothTimes, PythonControllerTest, testing::Bool(),
+                         [](const auto& info) { return info.param ? "Simulated" : "Hardware"; });
 
 }  // namespace
 }  // namespace franka_example_controllers

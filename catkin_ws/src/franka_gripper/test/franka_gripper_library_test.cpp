@@ -78,7 +78,7 @@ class FakeHand {
     std::memcpy(&reply[6], &length, 4);
     std::memcpy(&reply[10], &answer, 2);
     if (connects) {
-      std::memcpy(&reply[12], &request[10], 2);  // the version it asked for
+      std::memcpy(&reply[12], &request[10], 2);  // the requested version
       to.sin_family = AF_INET;
       to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
       std::uint16_t port;

@@ -1,24 +1,39 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""franka_gripper_node with a simulated hand and a stone; checks the report of gripper_client.py."""
+"""franka_gripper_node with a simulated hand and a stone, called as users do, also with invalid goals."""
 
-import json
+import math
 import os
 import statistics
 import subprocess
+import threading
 import time
-from pathlib import Path
 
+import actionlib
 import pytest
-from franka_sim_mujoco.session import Session
-from lines import Lines
+import rospy
+from control_msgs.msg import GripperCommand, GripperCommandAction, GripperCommandGoal
+from franka_gripper.msg import (
+    GraspAction,
+    GraspEpsilon,
+    GraspGoal,
+    HomingAction,
+    HomingGoal,
+    MoveAction,
+    MoveGoal,
+    StopAction,
+    StopGoal,
+)
 from pyfranka.franka_sim import FrankaSim, SimRobot
+from ros_client import Action, launched
+from sensor_msgs.msg import JointState
+from waiting import wait_for
 
-HERE = Path(__file__).resolve().parent
-ADDRESS = "127.0.31.1"
+ADDRESS = "127.0.28.1"
 PREEMPTED, SUCCEEDED, ABORTED = 2, 3, 4
 RECALLED = 8
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
+STREAMED = 200 if LONG else 40  # goals, 20 a second
 
 # Pairs of a running action and the one that ends it; the long form has all pairs.
 ACTIONS = ("homing", "move", "grasp", "gripper_action")
@@ -39,235 +54,412 @@ WORLD = f"""<mujoco><worldbody>
     <geom type="box" size="0.02 0.015 0.03" mass="0.1" friction="0.8 0.005 0.0001"/>
   </body>
 </worldbody></mujoco>"""
+KINDS = {
+    "homing": HomingAction,
+    "stop": StopAction,
+    "move": MoveAction,
+    "grasp": GraspAction,
+    "gripper_action": GripperCommandAction,
+}
+TOLERANCE = GraspEpsilon(0.005, 0.005)
+
+pytestmark = pytest.mark.own_process
 
 
-def start_hand(world) -> FrankaSim:
-    return FrankaSim(SimRobot("panda", address=ADDRESS), world=world, pace="realtime")
+class Fingers:
+    """Follows joint_states."""
+
+    def __init__(self):
+        self.stamps, self.message = [], None
+        self._changed = threading.Condition()
+        rospy.Subscriber("/franka_gripper/joint_states", JointState, self._receive, queue_size=100)
+
+    def _receive(self, message):
+        with self._changed:
+            self.message = message
+            self.stamps.append(message.header.stamp.to_sec())
+            self._changed.notify_all()
+
+    @property
+    def width(self):
+        return sum(self.message.position)
+
+    def until(self, condition, timeout=20.0):
+        with self._changed:
+            return self._changed.wait_for(lambda: self.message is not None and condition(self.width), timeout)
+
+    def next(self, count=3, timeout=20.0):
+        """Waits for more messages; returns whether they arrived."""
+        with self._changed:
+            end = len(self.stamps) + count
+            return self._changed.wait_for(lambda: len(self.stamps) >= end, timeout)
 
 
-def talk(client, world, hand) -> tuple[dict, FrankaSim]:
-    """Reads the client's output, and ends and starts the hand on request."""
-    lines = Lines(client.stdout)
-    deadline = time.monotonic() + 600
-    while time.monotonic() < deadline:
-        line = lines.next(120.0)
-        if line is None:
-            break
-        if line == "kill":
-            hand.kill()
-        elif line == "restart":
-            hand = start_hand(world)
-            client.stdin.write("\n")
-            client.stdin.flush()
-        elif line.startswith("{"):
-            return json.loads(line), hand
-    pytest.fail("The client has ended early.")
+class Goal:
+    """A running goal, and the time of its end."""
+
+    def __init__(self, action, goal):
+        self.active, self.ended = threading.Event(), threading.Event()
+        self.at, self.sent = None, time.monotonic()
+        self.handle = action.send(goal, transition_cb=self._transition)
+
+    def _transition(self, handle):
+        state = handle.get_comm_state()
+        if state == actionlib.CommState.ACTIVE:
+            self.active.set()
+        elif state == actionlib.CommState.DONE:
+            self.at = time.monotonic()
+            self.active.set()
+            self.ended.set()
+
+    def until_active(self):
+        self.active.wait(20.0)
+
+    def result(self, timeout=30.0):
+        """State, success and message."""
+        assert self.ended.wait(timeout), "the goal never ended"
+        outcome = self.handle.get_result()
+        text = getattr(outcome, "error", "") or self.handle.get_goal_status_text()
+        success = getattr(outcome, "success", getattr(outcome, "reached_goal", None))
+        return self.handle.get_terminal_state(), success, text
 
 
-def errors_of_nodes(session) -> dict:
-    """Exit of nodes with errors: [status, output]."""
-    names = "_joint_names:=[a, b]"
-    cases = {
-        "no address": [names],
-        "one name": ["_robot_ip:=127.0.31.1", "_joint_names:=[a]"],
-        "no rate": ["_robot_ip:=127.0.31.1", names, "_publish_rate:=0"],
-        "no map": ["_robot_ip:=127.0.31.1", names, "_default_grasp_epsilon:=0.1"],
-        "no such host": ["_robot_ip:=no.such.host.invalid", names],
-        "no gripper": ["_robot_ip:=127.0.31.9", names],
-    }
-    nodes = {}
-    for i, (name, arguments) in enumerate(cases.items()):
-        nodes[name] = subprocess.Popen(
-            ["rosrun", "franka_gripper", "franka_gripper_node", f"__name:=wrong_{i}", *arguments],
-            env=session.environment,
-            stdout=subprocess.PIPE,
-            stderr=subprocess.STDOUT,
-            text=True,
-        )
-    report = {}
-    for name, node in nodes.items():
-        try:
-            report[name] = [node.wait(300), node.stdout.read()]
-        except subprocess.TimeoutExpired:
-            report[name] = ["does not end", ""]  # the session ends it
-    return report
+class Hand:
+    """The simulated hand and stone, and the node's actions and fingers."""
+
+    def __init__(self, world):
+        self._world, self.server, self.session = world, None, None
+
+    def start(self):
+        self.server = FrankaSim(SimRobot("panda", address=ADDRESS), world=self._world, pace="realtime")
+
+    def join(self, session):
+        self.session = session
+        self.actions = {name: Action(f"/franka_gripper/{name}", kind) for name, kind in KINDS.items()}
+        self.fingers = Fingers()
+        assert self.fingers.until(lambda width: True, 60.0), "There are no joint states."
+
+    def move(self, width, speed=0.1):
+        return Goal(self.actions["move"], MoveGoal(width, speed))
+
+    def grasp(self, width, speed=0.1, force=20.0, epsilon=TOLERANCE):
+        return Goal(self.actions["grasp"], GraspGoal(width, epsilon, speed, force))
+
+    def command(self, position, effort=0.0):
+        return Goal(self.actions["gripper_action"], GripperCommandGoal(GripperCommand(position, effort)))
+
+    def homing(self):
+        return Goal(self.actions["homing"], HomingGoal())
+
+    def stop(self):
+        return Goal(self.actions["stop"], StopGoal())
+
+    def open(self):
+        if self.fingers.width < 0.0793:
+            assert self.move(0.08).result()[0] == SUCCEEDED
+            assert self.fingers.until(lambda width: width > 0.0793)
+
+    def reaches(self, width):
+        return self.fingers.until(lambda now: abs(now - width) < 1e-3)
+
+    def place_stone(self, between_fingers):
+        place = STONE if between_fingers else (1.0, 1.0, 0.031)
+        self.server.robot.remote.place("stone", place)
 
 
 @pytest.fixture(scope="module")
-def report(tmp_path_factory):
+def started(tmp_path_factory):
     folder = tmp_path_factory.mktemp("gripper")
     world = folder / "stone.xml"
     world.write_text(WORLD)
-    hand = start_hand(world)
-    client = None
+    hand = Hand(world)
+    hand.start()
     launch = ["franka_gripper", "franka_gripper.launch", f"robot_ip:={ADDRESS}"]
     try:
-        with Session(*launch, log=folder / "launch.log") as session:
-            session.wait_for_master()
-            command = ["/usr/bin/python3", str(HERE / "gripper_client.py"), ADDRESS]
-            client = subprocess.Popen(
-                [*command, *map(str, STONE), "200" if LONG else "40", *map(",".join, PAIRS)],
-                env=session.environment,
-                stdin=subprocess.PIPE,
-                stdout=subprocess.PIPE,
-                text=True,
-            )
-            result, hand = talk(client, world, hand)
-            session.check()
-            result["complaints"] = errors_of_nodes(session)
-            print(session.tail(80))
-            return result
+        with launched(*launch, log=folder / "launch.log") as session:
+            hand.join(session)
+            yield hand
     finally:
-        hand.kill()
-        if client is not None:
-            client.kill()
-            client.wait()
+        hand.server.kill()
 
 
-def test_each_action_moves_the_hand(report):
-    plain = report["plain"]
-    assert plain["homing"] == [SUCCEEDED, True, ""]
-    assert plain["names"] == ["panda_finger_joint1", "panda_finger_joint2"]
-    assert plain["move"] == [SUCCEEDED, True, "", True]
+@pytest.fixture
+def hand(started):
+    """Open, and without the stone."""
+    started.open()
+    started.place_stone(False)
+    return started
 
 
-def test_a_grasp_without_object_is_reported(report):
-    state, success, text, width = report["plain"]["empty grasp"]
+@pytest.fixture
+def hand_with_stone(hand):
+    hand.place_stone(True)
+    yield hand
+    hand.open()
+    hand.place_stone(False)
+
+
+def test_homing_succeeds(hand):
+    assert hand.homing().result() == (SUCCEEDED, True, "")
+
+
+def test_joint_states_name_the_fingers(hand):
+    assert hand.fingers.message.name == ["panda_finger_joint1", "panda_finger_joint2"]
+
+
+def test_a_move_reaches_its_width(hand):
+    assert hand.move(0.03).result() == (SUCCEEDED, True, "")
+    assert hand.reaches(0.03)
+
+
+def test_a_grasp_without_object_is_reported(hand):
+    hand.move(0.03).result()
+    state, success, text = hand.grasp(0.02).result()
     assert (state, success) == (SUCCEEDED, False)
     assert "there is no object between them" in text
-    assert width < 0.002
+    assert hand.fingers.width < 0.002
 
 
-def test_gripper_command_takes_one_finger_and_returns_the_whole_width(report):
-    plain = report["plain"]
-    assert plain["command moves"][:2] == [SUCCEEDED, True]
-    assert plain["command moves"][3] == pytest.approx(0.02, abs=1e-3)
-    assert plain["command is there"][:2] == [SUCCEEDED, True]
-    assert plain["command grasps nothing"][:2] == [ABORTED, False]
-    assert "did not reach" in plain["command grasps nothing"][2]
-    assert report["with_stone"]["command grasps"][:2] == [SUCCEEDED, True]
+def test_gripper_command_takes_one_finger_and_returns_the_whole_width(hand):
+    moved = hand.command(0.01)
+    assert moved.result()[:2] == (SUCCEEDED, True)
+    assert moved.handle.get_result().position == pytest.approx(0.02, abs=1e-3)
+    assert hand.command(0.01).result()[:2] == (SUCCEEDED, True)  # it is there already
+    state, success, text = hand.command(0.0025, 10.0).result()
+    assert (state, success) == (ABORTED, False)
+    assert "did not reach" in text
 
 
-def test_the_width_decides_whether_the_expected_object_is_grasped(report):
-    stone = report["with_stone"]
-    assert stone["fits"][:3] == [SUCCEEDED, True, ""]
-    assert stone["fits"][3] == pytest.approx(0.03, abs=1e-3)
-    for name in ("too wide", "too narrow"):
-        state, success, text, _ = stone[name]
-        assert (state, success) == (SUCCEEDED, False), name
-        assert "another one than expected" in text
+def test_gripper_command_grasps_the_stone(hand_with_stone):
+    assert hand_with_stone.command(0.014, 20.0).result()[:2] == (SUCCEEDED, True)
 
 
-def test_a_blocked_move_ends_at_once_and_reports_the_width(report):
-    state, success, text, seconds, width = report["with_stone"]["obstacle"]
+def test_a_grasp_of_the_expected_width_succeeds(hand_with_stone):
+    assert hand_with_stone.grasp(0.03).result() == (SUCCEEDED, True, "")
+    assert hand_with_stone.fingers.width == pytest.approx(0.03, abs=1e-3)
+
+
+@pytest.mark.parametrize("expected", [0.015, 0.05])
+def test_a_grasp_of_another_width_reports_another_object(hand_with_stone, expected):
+    state, success, text = hand_with_stone.grasp(expected).result()
+    assert (state, success) == (SUCCEEDED, False)
+    assert "another one than expected" in text
+
+
+def test_a_blocked_move_ends_at_once_and_reports_the_width(hand_with_stone):
+    begin = time.monotonic()
+    state, success, text = hand_with_stone.move(0.0, 0.05).result()
+    seconds = time.monotonic() - begin
     assert (state, success) == (SUCCEEDED, False)
     assert "something is in their way" in text and "instead of 0.0 mm" in text
     # 50 mm at 50 mm/s, and the time to detect the end.
     assert 0.9 < seconds < 2.5
-    assert width == pytest.approx(0.03, abs=2e-3)
+    assert hand_with_stone.fingers.width == pytest.approx(0.03, abs=2e-3)
 
 
-def test_a_lost_object_shows_in_the_width(report):
-    assert report["with_stone"]["hold"][:2] == [SUCCEEDED, True]
-    assert report["with_stone"]["slipped"]
+def test_a_lost_object_shows_in_the_width(hand_with_stone):
+    assert hand_with_stone.grasp(0.03, force=5.0).result()[:2] == (SUCCEEDED, True)
+    # Out of the fingers, but not out of the world.
+    hand_with_stone.server.robot.remote.push("stone", (20, 0, 0), 60)
+    assert hand_with_stone.fingers.until(lambda width: width < 0.005)
+
+
+class Interruption:
+    """An action that another one ends: its outcome, the time that this took, and the new one's state."""
+
+    def __init__(self, hand, first, second):
+        slow = {
+            "homing": hand.homing,
+            "move": lambda: hand.move(0.0, 0.02),
+            "grasp": lambda: hand.grasp(0.02, 0.02),
+            "gripper_action": lambda: hand.command(0.0),
+        }
+        others = {
+            "homing": hand.homing,
+            "move": lambda: hand.move(0.03, 0.02),
+            "grasp": lambda: hand.grasp(0.01, 0.02),
+            "gripper_action": lambda: hand.command(0.0),  # the longest motion: it must not end by itself
+            "stop": hand.stop,
+        }
+        hand.open()
+        running, new = slow[first](), None
+        self.moved = hand.fingers.until(lambda width: width < 0.0785)
+        if second == "cancel":
+            begin = time.monotonic()
+            running.handle.cancel()
+        else:
+            new = others[second]()
+            begin = new.sent
+        self.outcome = running.result()
+        self.seconds = running.at - begin
+        if second in slow:
+            new.until_active()
+            hand.stop().result()
+        self.new_state = new and new.result()[0]
+
+
+@pytest.fixture(scope="module")
+def interruption(started):
+    """Interruptions by their pairs of actions; each is made once."""
+    made = {}
+
+    def make(*pair):
+        if pair not in made:
+            made[pair] = Interruption(started, *pair)
+        return made[pair]
+
+    return make
 
 
 @pytest.mark.parametrize("first, second", PAIRS)
-def test_a_new_goal_or_stop_ends_the_running_action(report, first, second):
-    state, success, text, seconds, moving, new = report["interrupted"][f"{first},{second}"]
-    assert moving
+def test_a_new_goal_or_stop_ends_the_running_action(interruption, first, second):
+    seen = interruption(first, second)
+    assert seen.moved
+    state, success, text = seen.outcome
     assert state == (ABORTED if second == "stop" else PREEMPTED), text
     assert not success
     assert "ended this one" in text
-    assert seconds < 1.0
-    assert new == {"stop": SUCCEEDED, "cancel": None}.get(second, ABORTED)
+    assert seen.seconds < 1.0
+    assert seen.new_state == {"stop": SUCCEEDED, "cancel": None}.get(second, ABORTED)
 
 
-def test_interruptions_take_less_than_100_ms(report):
-    latencies = [outcome[3] for outcome in report["interrupted"].values()]
-    assert len(latencies) == len(PAIRS)
+def test_interruptions_take_less_than_100_ms(interruption):
     # The median: other processes may use both cores.
-    assert statistics.median(latencies) < 0.1
+    assert statistics.median(interruption(*pair).seconds for pair in PAIRS) < 0.1
 
 
-def test_a_stopped_grasp_stays_where_it_is(report):
-    stopped = report["stopped_on_the_way"]
-    assert stopped["stop"][:2] == [SUCCEEDED, True]
-    assert stopped["grasp"][0] == ABORTED
-    assert 0.03 < stopped["begin"] < 0.061
-    assert stopped["end"] == pytest.approx(stopped["begin"], abs=5e-4)
+def test_a_stopped_grasp_stays_where_it_is(hand):
+    running = hand.grasp(0.02, 0.05)
+    hand.fingers.until(lambda width: width < 0.06)
+    assert hand.stop().result()[:2] == (SUCCEEDED, True)
+    hand.fingers.next(3)
+    begin = hand.fingers.width
+    hand.fingers.next(15)
+    assert running.result()[0] == ABORTED
+    assert 0.03 < begin < 0.061
+    assert hand.fingers.width == pytest.approx(begin, abs=5e-4)
 
 
-def test_the_last_goal_of_a_stream_is_carried_out(report):
-    stream = report["stream"]
-    assert set(stream["states"][:-1]) <= {PREEMPTED, RECALLED, SUCCEEDED}
-    assert stream["states"].count(SUCCEEDED) < len(stream["states"]) // 2
-    assert stream["states"][-1] == SUCCEEDED
-    assert stream["reached"]
+@pytest.fixture(scope="module")
+def stream(started):
+    """Goals at 20 Hz, each before the end of the previous one: their states, and joint states meanwhile."""
+    started.open()
+    begin, at = len(started.fingers.stamps), time.monotonic()
+    goals = []
+    for i in range(STREAMED):
+        goals.append(started.move(0.02 if i % 2 else 0.06, 0.05))
+        time.sleep(max(0.0, at + 0.05 * (i + 1) - time.monotonic()))
+    states = [goal.result()[0] for goal in goals]
+    return states, started.reaches(0.02), started.fingers.stamps[begin:]
 
 
-def test_joint_states_keep_their_rate_during_actions(report):
-    gaps = report["stream"]["gaps"]
+def test_the_last_goal_of_a_stream_is_carried_out(stream):
+    states, reached, _ = stream
+    assert set(states[:-1]) <= {PREEMPTED, RECALLED, SUCCEEDED}
+    assert states.count(SUCCEEDED) < len(states) // 2
+    assert states[-1] == SUCCEEDED
+    assert reached
+
+
+def test_joint_states_keep_their_rate_during_actions(stream):
+    stamps = stream[2]
+    gaps = [b - a for a, b in zip(stamps, stamps[1:])]
     # The median, and an upper bound: other processes may use both cores.
     assert statistics.median(gaps) == pytest.approx(1 / 30, rel=0.05)
     assert max(gaps) < 0.5
 
 
-@pytest.mark.parametrize("goal", ["move nan", "move below", "move beyond", "grasp nan", "grasp beyond"])
-def test_impossible_widths_are_refused(report, goal):
-    state, success, text = report["nonsense"][goal]
-    assert (state, success) == (ABORTED, False)
-    assert "it must lie between 0 and 0.08 m" in text
+WIDTH = "it must lie between 0 and 0.08 m"
 
 
 @pytest.mark.parametrize(
-    "goal, sentence",
+    "send, sentence",
     [
-        ("move speed nan", "Only positive speeds"),
-        ("move speed below", "Only positive speeds"),
-        ("move speed zero", "Only positive speeds"),
-        ("grasp speed", "Only positive speeds"),
-        ("grasp force nan", "The force must be"),
-        ("grasp force below", "The force must be"),
-        ("grasp epsilon", "The epsilons must be"),
-        ("command nan", "it must lie between"),
-        ("command below", "it must lie between"),
-        ("command beyond", "it must lie between"),
-        ("command effort", "max_effort must be"),
+        (lambda hand: hand.move(math.nan), WIDTH),
+        (lambda hand: hand.move(-0.01), WIDTH),
+        (lambda hand: hand.move(0.2), WIDTH),
+        (lambda hand: hand.grasp(math.nan), WIDTH),
+        (lambda hand: hand.grasp(math.inf), WIDTH),
+        (lambda hand: hand.move(0.04, math.nan), "Only positive speeds"),
+        (lambda hand: hand.move(0.04, -0.1), "Only positive speeds"),
+        (lambda hand: hand.move(0.04, 0.0), "Only positive speeds"),
+        (lambda hand: hand.grasp(0.02, -1.0), "Only positive speeds"),
+        (lambda hand: hand.grasp(0.02, force=math.nan), "The force must be"),
+        (lambda hand: hand.grasp(0.02, force=-1.0), "The force must be"),
+        (lambda hand: hand.grasp(0.02, epsilon=GraspEpsilon(-0.1, 0.005)), "The epsilons must be"),
+        (lambda hand: hand.command(math.nan), "it must lie between"),
+        (lambda hand: hand.command(-0.01), "it must lie between"),
+        (lambda hand: hand.command(0.08), "it must lie between"),
+        (lambda hand: hand.command(0.02, math.nan), "max_effort must be"),
+    ],
+    ids=[
+        *("move nan", "move below", "move beyond", "grasp nan", "grasp beyond", "move speed nan"),
+        *("move speed below", "move speed zero", "grasp speed", "grasp force nan", "grasp force below"),
+        *("grasp epsilon", "command nan", "command below", "command beyond", "command effort"),
     ],
 )
-def test_other_invalid_goals_are_refused(report, goal, sentence):
-    state, success, text = report["nonsense"][goal]
+def test_an_invalid_goal_is_refused_and_moves_nothing(hand, send, sentence):
+    state, success, text = send(hand).result()
     assert (state, success) == (ABORTED, False)
     assert sentence in text
+    hand.fingers.next(3)
+    assert hand.fingers.width == pytest.approx(0.08, abs=2e-3)
 
 
-def test_refused_goals_move_nothing(report):
-    assert report["nonsense"]["width"] == pytest.approx(0.08, abs=2e-3)
+def test_a_lost_hand_is_reported_and_reconnected(hand):
+    running = hand.move(0.0, 0.01)
+    hand.fingers.until(lambda width: width < 0.0785)
+    hand.server.kill()
+    state, _, text = running.result()
+    assert state == ABORTED and "libfranka" in text
+    state, _, text = hand.move(0.05).result()
+    assert state == ABORTED and text
+    # No old widths with new time stamps.
+    wait_for(lambda: time.time() - hand.fingers.stamps[-1] >= 1.0, "The end of joint states", 30.0)
+    hand.start()
+    assert hand.fingers.next(5, 60.0)
+    assert hand.move(0.05).result() == (SUCCEEDED, True, "")
+    assert hand.reaches(0.05)
 
 
-def test_a_lost_hand_is_reported_and_reconnected(report):
-    death = report["death"]
-    assert death["running"][0] == ABORTED and "libfranka" in death["running"][2]
-    assert death["meanwhile"][0] == ABORTED and death["meanwhile"][2]
-    assert death["again"]
-    assert death["silent"]  # no old widths with new time stamps
-    assert death["move"] == [SUCCEEDED, True, "", True]
+NAMES = "_joint_names:=[a, b]"
+WRONG = {
+    "no address": ([NAMES], "/robot_ip is missing"),
+    "one name": ([f"_robot_ip:={ADDRESS}", "_joint_names:=[a]"], "must hold two names"),
+    "no rate": (
+        [f"_robot_ip:={ADDRESS}", NAMES, "_publish_rate:=0"],
+        "publish_rate must be a number not below 0.001",
+    ),
+    "no map": (
+        [f"_robot_ip:={ADDRESS}", NAMES, "_default_grasp_epsilon:=0.1"],
+        "default_grasp_epsilon must be a map",
+    ),
+    "no such host": (["_robot_ip:=no.such.host.invalid", NAMES], "no gripper at no.such.host.invalid"),
+    "no gripper": (["_robot_ip:=127.0.28.9", NAMES], "no gripper at 127.0.28.9"),
+}
 
 
-@pytest.mark.parametrize(
-    "case, sentence",
-    [
-        ("no address", "/robot_ip is missing"),
-        ("one name", "must hold two names"),
-        ("no rate", "publish_rate must be a number not below 0.001"),
-        ("no map", "default_grasp_epsilon must be a map"),
-        ("no such host", "no gripper at no.such.host.invalid"),
-        ("no gripper", "no gripper at 127.0.31.9"),
-    ],
-)
-def test_a_node_that_cannot_start_reports_why_and_exits(report, case, sentence):
-    status, text = report["complaints"][case]
-    assert status == 255
-    assert sentence in text
+@pytest.fixture(scope="module")
+def wrong_nodes(started):
+    """Nodes with wrong parameters; all are started at once."""
+    nodes = {}
+    for i, (case, (arguments, _)) in enumerate(WRONG.items()):
+        nodes[case] = subprocess.Popen(
+            ["rosrun", "franka_gripper", "franka_gripper_node", f"__name:=wrong_{i}", *arguments],
+            env=started.session.environment,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.STDOUT,
+            text=True,
+        )
+    yield nodes
+    for node in nodes.values():
+        node.kill()
+        node.wait()
+
+
+@pytest.mark.parametrize("case", WRONG)
+def test_a_node_that_cannot_start_reports_why_and_exits(wrong_nodes, case):
+    text, _ = wrong_nodes[case].communicate(timeout=300)
+    assert wrong_nodes[case].returncode == 255
+    assert WRONG[case][1] in text
     assert "Traceback" not in text

@@ -18,11 +18,12 @@ AbortReporter::AbortReporter(ros::NodeHandle& nh, const std::string& arm_id)
   }
 }
 
-void AbortReporter::report(const std::string& what, const std::vector<franka::Record>& log) {
+void AbortReporter::report(const std::string& what, const std::vector<franka::Record>& log,
+                           unsigned version) {
   std_msgs::String message;
   message.data = what;
   if (!log.empty()) {
-    const std::string file = save(log);
+    const std::string file = save(what, log, version);
     message.data +=
         file.empty() ? "\nThe log of the motion could not be written to '" + directory_ + "'."
                      : "\nThe last " + std::to_string(log.size()) + " states and commands: " + file;
@@ -31,16 +32,22 @@ void AbortReporter::report(const std::string& what, const std::vector<franka::Re
   publisher_.publish(message);
 }
 
-std::string AbortReporter::save(const std::vector<franka::Record>& log) const {
+std::string AbortReporter::save(const std::string& what, const std::vector<franka::Record>& log,
+                                unsigned version) const {
   const std::time_t now = std::time(nullptr);
   char stamp[32];
   std::strftime(stamp, sizeof(stamp), "%Y-%m-%d_%H-%M-%S", std::localtime(&now));
   // The robot's own time distinguishes two aborts in the same second.
   const std::string path = directory_ + "/franka_abort_" + arm_id_ + "_" + stamp + "_" +
-                           std::to_string(log.back().state.time.toMSec()) + ".csv";
-  std::ofstream file(path);
+                           std::to_string(log.back().state.time.toMSec());
+  std::ofstream file(path + ".csv");
   file << franka::logToCSV(log);
-  return file.good() ? path : "";
+  std::ofstream reason(path + ".txt");
+  reason << what << "\n";
+  if (version > 0) {
+    reason << "Robot's protocol version: " << version << "\n";
+  }
+  return file.good() ? path + ".csv" : "";
 }
 
 }  // namespace franka_hw

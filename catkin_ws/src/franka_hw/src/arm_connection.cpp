@@ -11,14 +11,16 @@
 #include <std_msgs/Bool.h>
 #include <std_srvs/Trigger.h>
 
+#include <chrono>
 #include <utility>
 
 namespace franka_hw {
 
 namespace {
 
-// The number of attempts to read a state before a robot at rest counts as lost.
+// A robot at rest counts as lost after so many attempts to read a state, or after this time.
 constexpr int kReadAttempts = 3;
+constexpr std::chrono::seconds kSilenceAtRest{3};
 
 using RecoveryServer = actionlib::SimpleActionServer<franka_msgs::ErrorRecoveryAction>;
 typedef std_srvs::Trigger::Request TriggerRequest;
@@ -130,7 +132,7 @@ bool ArmConnection::move(const std::function<void()>& motion) {
 void ArmConnection::abort(ArmEvent event, const std::string& what,
                           const std::vector<franka::Record>& log) {
   state_.handle(event);
-  offer_->aborts.report(what, log);
+  offer_->aborts.report(what, log, robot_ ? robot_->serverVersion() : 0);
 }
 
 std::optional<franka::RobotState> ArmConnection::readAtRest() {
@@ -146,11 +148,13 @@ std::optional<franka::RobotState> ArmConnection::readAtRest() {
 }
 
 franka::RobotState ArmConnection::readPatiently(franka::Robot& robot) {
+  const auto begin = std::chrono::steady_clock::now();
   for (int left = kReadAttempts - 1;; left--) {
     try {
       return robot.readOnce();
     } catch (const franka::NetworkException&) {
-      if (left == 0 || !ros::ok()) {
+      const auto silence = std::chrono::steady_clock::now() - begin;
+      if (left == 0 || silence >= kSilenceAtRest || !ros::ok()) {
         throw;
       }
     }
@@ -254,7 +258,7 @@ void ArmConnection::offer(const ros::NodeHandle& nh, const std::string& arm_id) 
   }
 }
 
-void ArmConnection::close() {
+void ArmConnection::close() noexcept {
   if (offer_) {
     offer_->connect.shutdown();
     offer_->disconnect.shutdown();
@@ -271,7 +275,7 @@ void ArmConnection::offerRobot() {
   offer_->recovery->start();
 }
 
-void ArmConnection::withdrawRobot() {
+void ArmConnection::withdrawRobot() noexcept {
   if (offer_ && offer_->recovery) {
     // A running recovery still sends its result through this pointer: shutdown() ends it before
     // reset() clears the pointer.

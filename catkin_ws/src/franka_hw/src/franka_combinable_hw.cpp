@@ -81,7 +81,7 @@ void FrankaCombinableHW::controlLoop() {
     } else {
       watchRobot();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-      robot_mutex_.giveWay();
+      robot_mutex_.yieldToRequests();
     }
   }
 }
@@ -126,9 +126,10 @@ franka::Torques FrankaCombinableHW::torqueCallback(const franka::RobotState& rob
   effort_joint_command_libfranka_ =
       answer.since > motion_ended_ ? answer.torques : franka::Torques(std::array<double, 7>{});
   if (commandHasNaN(effort_joint_command_libfranka_)) {
-    throw std::invalid_argument("A controller of " + arm_id_ +
-                                " commands a torque that is no number (NaN). The motion was ended "
-                                "before it reached the robot.");
+    throw std::invalid_argument(
+        "A controller of " + arm_id_ +
+        " commands a torque that is not a number (NaN). The motion was ended "
+        "before it reached the robot.");
   }
   response_times_.commandReady(answer.since, ResponseTimes::Clock::now());
   return effort_joint_command_libfranka_;
@@ -163,7 +164,7 @@ bool FrankaCombinableHW::checkForConflict(
   }
   ArmClaimedMap claims;
   if (!getArmClaimedMap(resources, claims)) {
-    ROS_ERROR("FrankaCombinableHW: a controller claims what is no part of a Franka arm.");
+    ROS_ERROR("FrankaCombinableHW: a controller claims what is not part of a Franka arm.");
     return true;
   }
   if (hasTrajectoryClaim(claims, arm_id_)) {

@@ -20,8 +20,8 @@ bool FrankaCombinedHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_
       arms_.push_back(arm);
     } else {
       ROS_WARN(
-          "FrankaCombinedHW: one part of robot_hardware is no FrankaCombinableHW; errors and "
-          "connections of it are its own affair.");
+          "FrankaCombinedHW: one part of robot_hardware is not a FrankaCombinableHW; its errors "
+          "and connections are not managed here.");
     }
   }
   setupServices(robot_hw_nh);

@@ -130,8 +130,8 @@ bool FrankaHW::connected() { return connection_.connected(); }
 franka::Robot& FrankaHW::robot() const {
   if (!initialized_ || !robot_) {
     throw std::logic_error(!initialized_
-                               ? "FrankaHW: the robot was asked for before init() succeeded."
-                               : "FrankaHW: the robot was asked for while disconnected.");
+                               ? "FrankaHW: the robot was requested before init() succeeded."
+                               : "FrankaHW: the robot was requested while disconnected.");
   }
   return *robot_;
 }
@@ -257,9 +257,9 @@ void FrankaHW::reset() { position_joint_limit_interface_.reset(); }
 void FrankaHW::checkJointLimits() {
   for (size_t i = 0; i < joint_names_.size(); i++) {
     const double q = robot_state_ros_.q[i];
-    const double room =
+    const double distance_to_limit =
         std::min(std::abs(q - joint_ranges_[i][0]), std::abs(q - joint_ranges_[i][1]));
-    const bool near = has_range_[i] && room < joint_limit_warning_threshold_;
+    const bool near = has_range_[i] && distance_to_limit < joint_limit_warning_threshold_;
     near_limit_[i].store(near ? q : kNan, std::memory_order_relaxed);
   }
 }
@@ -272,9 +272,9 @@ void FrankaHW::reportJointLimits(const ros::WallTimerEvent& /*event*/) {
     if (std::isnan(q)) {
       continue;
     }
-    const double room =
+    const double distance_to_limit =
         std::min(std::abs(q - joint_ranges_[i][0]), std::abs(q - joint_ranges_[i][1]));
-    joints << "\n\t" << joint_names_[i] << ": " << room * kDegreesPerRadian
+    joints << "\n\t" << joint_names_[i] << ": " << distance_to_limit * kDegreesPerRadian
            << " degrees to the end of its range (q = " << q << ", limits " << joint_ranges_[i][0]
            << " and " << joint_ranges_[i][1] << " rad)";
   }

@@ -17,7 +17,7 @@ namespace {
 constexpr double kDesiredAtRest = 0.005;
 constexpr double kMeasuredAtRest = 0.05;
 // A robot needs some hundred milliseconds to come to rest from full speed.
-constexpr std::chrono::seconds kLongestStop{2};
+constexpr std::chrono::seconds kMaxStopTime{2};
 
 bool anyAbove(const std::array<double, 7>& values, double limit) noexcept {
   return std::any_of(values.begin(), values.end(),
@@ -72,7 +72,7 @@ bool FrankaHW::checkForConflict(const std::list<hardware_interface::ControllerIn
   }
   ArmClaimedMap claims;
   if (!getArmClaimedMap(resources, claims)) {
-    ROS_ERROR_STREAM("FrankaHW: a controller claims what is no part of a Franka arm.");
+    ROS_ERROR_STREAM("FrankaHW: a controller claims what is not part of a Franka arm.");
     return true;
   }
   return hasConflictingJointAndCartesianClaim(claims, arm_id_) ||
@@ -109,7 +109,7 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
   const bool was_active = controller_active_;
   if (!endMotion()) {
     ROS_ERROR_STREAM("FrankaHW: the motion of '" << arm_id_ << "' did not end within "
-                                                 << kLongestStop.count() << " s.");
+                                                 << kMaxStopTime.count() << " s.");
     goOnAsBefore(was_active);
     return false;
   }
@@ -167,7 +167,7 @@ void FrankaHW::goOnAsBefore(bool was_active) {
 bool FrankaHW::endMotion() {
   // Does not use robot_mutex_: a loop that only reads locks it again before other threads wake up.
   controller_active_ = false;
-  const auto deadline = std::chrono::steady_clock::now() + kLongestStop;
+  const auto deadline = std::chrono::steady_clock::now() + kMaxStopTime;
   while (in_control_) {
     if (std::chrono::steady_clock::now() > deadline) {
       return false;

@@ -181,7 +181,7 @@ std::vector<double> FrankaHW::getCollisionThresholds(const std::string& name,
   std::vector<double> thresholds;
   if (!robot_hw_nh.getParam(name, thresholds) || thresholds.size() != defaults.size()) {
     ROS_WARN_STREAM("FrankaHW: the parameter '"
-                    << robot_hw_nh.resolveName(name) << "' is missing or is no list of "
+                    << robot_hw_nh.resolveName(name) << "' is missing or is not a list of "
                     << defaults.size() << " numbers; using the defaults.");
     return defaults;
   }

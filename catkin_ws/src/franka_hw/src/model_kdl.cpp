@@ -12,6 +12,7 @@
 #include <kdl/chaindynparam.hpp>
 #include <kdl/tree.hpp>
 #include <kdl_parser/kdl_parser.hpp>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -56,7 +57,7 @@ KDL::Chain chainFromUrdf(const urdf::Model& model, const std::string& root,
     if (tree.getSegment(link) == tree.getSegments().end()) {
       throw refusal(root, tip,
                     "the robot description has no link '" + link +
-                        "'; check that its arm_id is the one this model is asked for.");
+                        "'; check that arm_id matches this model.");
     }
   }
   KDL::Chain chain;
@@ -136,6 +137,7 @@ struct ModelKDL::Workspace {
         last_inertia(chain.getSegment(kJoints - 1).getInertia()),
         dynamics(chain, KDL::Vector::Zero()),
         threshold(singularity_threshold) {
+    moved_to.fill(std::numeric_limits<double>::quiet_NaN());  // to nowhere
     for (unsigned int i = 0; i < kJoints; ++i) {
       const KDL::RigidBodyInertia& inertia = chain.getSegment(i).getInertia();
       masses[i] = inertia.getMass();
@@ -150,16 +152,17 @@ struct ModelKDL::Workspace {
     return chain;
   }
 
-  void setPositions(const std::array<double, 7>& positions) {
-    std::copy(positions.begin(), positions.end(), q.data.data());
-  }
-
   void setPayload(const KDL::RigidBodyInertia& payload) {
     chain.getSegment(kJoints - 1).setInertia(last_inertia + payload);
   }
 
-  /// Updates frames, joint axes and joint origins in O.
+  /// Updates frames, joint axes and joint origins in O. Controllers ask for several quantities at
+  /// the same positions.
   void moveTo(const std::array<double, 7>& positions) {
+    if (positions == moved_to) {
+      return;
+    }
+    moved_to = positions;
     KDL::Frame frame;
     for (unsigned int i = 0; i < kJoints; ++i) {
       const KDL::Segment& segment = chain.getSegment(i);
@@ -168,6 +171,36 @@ struct ModelKDL::Workspace {
       frame = frame * segment.pose(positions[i]);
       frames[i] = frame;
     }
+  }
+
+  /// Joint torques of a motion without acceleration of the joints and without gravity: recursive
+  /// Newton-Euler, in the axes of O. Call moveTo() first.
+  std::array<double, 7> coriolisTorques(const std::array<double, 7>& dq) const {
+    std::array<KDL::Wrench, kJoints> wrenches;  // of inertia, about the joint's origin
+    KDL::Vector omega = KDL::Vector::Zero();    // of the link
+    KDL::Vector alpha = KDL::Vector::Zero();
+    KDL::Vector acceleration = KDL::Vector::Zero();  // of the joint's origin
+    for (std::size_t i = 0; i < kJoints; ++i) {
+      if (i > 0) {
+        acceleration += ofPoint(origins[i] - origins[i - 1], omega, alpha);
+      }
+      const KDL::Vector turn = axes[i] * dq[i];
+      alpha += omega * turn;
+      omega += turn;
+      const KDL::Vector arm = frames[i].p - origins[i];
+      wrenches[i] = inertialWrench(i, acceleration + ofPoint(arm, omega, alpha), omega, alpha);
+      wrenches[i].torque += arm * wrenches[i].force;
+    }
+    std::array<double, 7> result;
+    KDL::Wrench sum = KDL::Wrench::Zero();
+    for (std::size_t i = kJoints; i-- > 0;) {
+      if (i + 1 < kJoints) {
+        sum.torque += (origins[i + 1] - origins[i]) * sum.force;
+      }
+      sum += wrenches[i];
+      result[i] = KDL::dot(axes[i], sum.torque);
+    }
+    return result;
   }
 
   /// Pose of a frame in O. Call moveTo() first.
@@ -208,6 +241,27 @@ struct ModelKDL::Workspace {
     return jacobian;
   }
 
+  /// Acceleration of a point of a body, seen from another one. `*` is the cross product.
+  static KDL::Vector ofPoint(const KDL::Vector& arm, const KDL::Vector& omega,
+                             const KDL::Vector& alpha) {
+    return alpha * arm + omega * (omega * arm);
+  }
+
+  /// Force and torque that move a link, about the origin of its frame, in the axes of O.
+  /// @param acceleration of that origin
+  KDL::Wrench inertialWrench(std::size_t link, const KDL::Vector& acceleration,
+                             const KDL::Vector& omega, const KDL::Vector& alpha) const {
+    const KDL::RigidBodyInertia& inertia = chain.getSegment(link).getInertia();
+    const KDL::Rotation& R = frames[link].M;
+    const KDL::Vector first_moment = R * (inertia.getMass() * inertia.getCOG());
+    const KDL::Vector omega_link = R.Inverse(omega);
+    const KDL::RotationalInertia& about_origin = inertia.getRotationalInertia();
+    const KDL::Vector spin =
+        about_origin * R.Inverse(alpha) + omega_link * (about_origin * omega_link);
+    return {inertia.getMass() * acceleration + ofPoint(first_moment, omega, alpha),
+            R * spin + first_moment * acceleration};
+  }
+
   /// Runs at a reduced rate: an eigenvalue decomposition is expensive, and the warning is not
   /// needed at 1 kHz.
   void checkSingularity(const std::array<double, 42>& jacobian) {
@@ -233,10 +287,9 @@ struct ModelKDL::Workspace {
 
   KDL::ChainDynParam dynamics;
   KDL::JntArray q{kJoints};
-  KDL::JntArray dq{kJoints};
-  KDL::JntArray torques{kJoints};
   KDL::JntSpaceInertiaMatrix mass_matrix{kJoints};
 
+  std::array<double, kJoints> moved_to{};
   std::array<KDL::Frame, kJoints> frames;  ///< of the links in O; the last one is the flange's
   std::array<KDL::Vector, kJoints> axes;
   std::array<KDL::Vector, kJoints> origins;
@@ -288,7 +341,7 @@ std::array<double, 42> ModelKDL::zeroJacobian(franka::Frame frame, const std::ar
 std::array<double, 49> ModelKDL::mass(const std::array<double, 7>& q,
                                       const std::array<double, 9>& total_inertia, double total_mass,
                                       const std::array<double, 3>& F_x_Ctotal) const {
-  workspace_->setPositions(q);
+  std::copy(q.begin(), q.end(), workspace_->q.data.data());
   workspace_->setPayload(toInertia(total_mass, F_x_Ctotal, total_inertia));
   workspace_->dynamics.JntToMass(workspace_->q, workspace_->mass_matrix);
   std::array<double, 49> mass;
@@ -302,14 +355,9 @@ std::array<double, 7> ModelKDL::coriolis(const std::array<double, 7>& q,
                                          const std::array<double, 9>& total_inertia,
                                          double total_mass,
                                          const std::array<double, 3>& F_x_Ctotal) const {
-  workspace_->setPositions(q);
-  std::copy(dq.begin(), dq.end(), workspace_->dq.data.data());
+  workspace_->moveTo(q);
   workspace_->setPayload(toInertia(total_mass, F_x_Ctotal, total_inertia));
-  workspace_->dynamics.JntToCoriolis(workspace_->q, workspace_->dq, workspace_->torques);
-  std::array<double, 7> coriolis;
-  const double* values = workspace_->torques.data.data();
-  std::copy(values, values + coriolis.size(), coriolis.begin());
-  return coriolis;
+  return workspace_->coriolisTorques(dq);
 }
 
 std::array<double, 7> ModelKDL::gravity(const std::array<double, 7>& q, double total_mass,

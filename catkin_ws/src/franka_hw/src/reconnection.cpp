@@ -16,7 +16,7 @@ const ros::WallDuration kWarningPeriod(30.0);  // [s]
 
 bool Reconnection::init(const ros::NodeHandle& nh) {
   std::string name;
-  if (!nh.searchParam("reconnect", name) || nh.getParam(name, wanted_)) {
+  if (!nh.searchParam("reconnect", name) || nh.getParam(name, enabled_)) {
     return true;
   }
   ROS_ERROR_STREAM("FrankaHW: the parameter '" << name << "' is not true or false.");
@@ -25,7 +25,7 @@ bool Reconnection::init(const ros::NodeHandle& nh) {
 
 void Reconnection::attempt(const std::string& robot, const std::function<void()>& connect) {
   const ros::WallTime now = ros::WallTime::now();
-  if (!wanted_ || now - last_attempt_ < kAttemptPeriod) {
+  if (!enabled_ || now - last_attempt_ < kAttemptPeriod) {
     return;
   }
   try {
@@ -42,12 +42,11 @@ void Reconnection::attempt(const std::string& robot, const std::function<void()>
 std::string Reconnection::report(const std::string& what) const {
   const bool silent = what.find("Timeout") != std::string::npos;
   return "the robot is lost. " + what +
-         (silent
-              ? " It has sent no states for a second or more: it is switched off, there is no way "
-                "to it, or, if it is a simulated one, its computer had no time for it."
-              : "") +
-         (wanted_ ? " Trying to connect again every second."
-                  : " Call the service connect when it is back.");
+         (silent ? " It has sent no states for a second or more: it is switched off, the network "
+                   "path is broken, or, if it is a simulated one, its computer had no time for it."
+                 : "") +
+         (enabled_ ? " Trying to connect again every second."
+                   : " Call the service connect when it is back.");
 }
 
 }  // namespace franka_hw

@@ -139,8 +139,7 @@ bool hasConflictingJointAndCartesianClaim(const ArmClaimedMap& arm_claim_map,
   const bool joint = claims.joint_position_claims + claims.joint_velocity_claims > 0;
   if (cartesian && joint) {
     ROS_ERROR(
-        "Arm '%s' is asked to follow joint and Cartesian commands at once; start one or the "
-        "other.",
+        "Arm '%s' cannot follow joint and Cartesian commands at once; start one or the other.",
         arm_id.c_str());
   }
   return cartesian && joint;

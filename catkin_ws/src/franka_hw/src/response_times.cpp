@@ -23,8 +23,8 @@ void ResponseTimes::stateArrived(franka::Duration robot_time, Clock::time_point 
   if (!begins_ && robot_time == last_time_) {
     return;
   }
-  const bool starts_anew = starts_anew_.load(std::memory_order_acquire);
-  if (starts_anew) {
+  const bool restarts = restarts_.load(std::memory_order_acquire);
+  if (restarts) {
     window_ = Window();
     begins_ = true;  // clocks drift: only delays of one report are compared
   }
@@ -39,8 +39,8 @@ void ResponseTimes::stateArrived(franka::Duration robot_time, Clock::time_point 
   last_time_ = robot_time;
   last_arrival_ = now;
   published_.write(window_);
-  if (starts_anew) {  // not for a request that came after the check above
-    starts_anew_.store(false, std::memory_order_release);
+  if (restarts) {  // not for a request that came after the check above
+    restarts_.store(false, std::memory_order_release);
   }
 }
 
@@ -59,7 +59,7 @@ void ResponseTimes::commandReady(Clock::time_point since, Clock::time_point now)
 
 ResponseTimes::Report ResponseTimes::take() noexcept {
   Report report;
-  if (starts_anew_.load(std::memory_order_acquire)) {
+  if (restarts_.load(std::memory_order_acquire)) {
     return report;
   }
   const Window& window = published_.read();
@@ -67,7 +67,7 @@ ResponseTimes::Report ResponseTimes::take() noexcept {
   report.mean = window.cycles > 0 ? seconds(window.total) / window.cycles : 0.0;
   report.longest = seconds(window.longest);
   report.spread = seconds(window.spread);
-  starts_anew_.store(true, std::memory_order_release);
+  restarts_.store(true, std::memory_order_release);
   return report;
 }
 

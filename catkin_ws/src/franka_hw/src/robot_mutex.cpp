@@ -10,9 +10,9 @@ namespace franka_hw {
 namespace {
 
 // Time between two attempts to lock.
-constexpr std::chrono::microseconds kMoment{100};
-// The largest number of kMoment that the reading loop gives way.
-constexpr int kLongestWay = 50;
+constexpr std::chrono::microseconds kAttemptPeriod{100};
+// Number of these periods for which the reading loop sleeps at most while there is a request.
+constexpr int kMaxYields = 50;
 // A thread that only reads a state holds the robot for one or two milliseconds, and longer if the
 // machine is busy with other work or the robot is silent.
 constexpr std::chrono::milliseconds kSoon{500};
@@ -28,7 +28,7 @@ std::unique_lock<std::mutex> RobotMutex::takeWhile(const std::function<bool()>& 
   const Request request(*this);
   std::unique_lock<std::mutex> lock(*this, std::defer_lock);
   while (reason() && !lock.try_lock()) {
-    std::this_thread::sleep_for(kMoment);
+    std::this_thread::sleep_for(kAttemptPeriod);
   }
   return lock;
 }
@@ -39,14 +39,14 @@ std::unique_lock<std::mutex> RobotMutex::takeSoon(std::mutex& mutex,
   std::unique_lock<std::mutex> lock(mutex, std::defer_lock);
   while (!lock.try_lock() && std::chrono::steady_clock::now() < deadline) {
     busy();
-    std::this_thread::sleep_for(kMoment);
+    std::this_thread::sleep_for(kAttemptPeriod);
   }
   return lock;
 }
 
-void RobotMutex::giveWay() const {
-  for (int i = 0; i < kLongestWay; i++) {
-    std::this_thread::sleep_for(kMoment);
+void RobotMutex::yieldToRequests() const {
+  for (int i = 0; i < kMaxYields; i++) {
+    std::this_thread::sleep_for(kAttemptPeriod);
     if (waiting_ == 0) {
       return;
     }

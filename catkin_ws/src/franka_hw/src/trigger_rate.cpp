@@ -13,7 +13,7 @@ namespace franka_hw {
 namespace {
 
 /// Longest period [s]; slower rates do not fire within a robot's life in any case.
-constexpr double kLongestPeriod = 1e9;
+constexpr double kMaxPeriod = 1e9;
 
 ros::Duration periodOf(double rate) {
   if (!std::isfinite(rate) || rate <= 0.0) {
@@ -21,8 +21,7 @@ ros::Duration periodOf(double rate) {
                                 std::to_string(rate) + ".");
   }
   ros::Duration period;
-  period.fromNSec(
-      std::max<std::int64_t>(1, std::llround(std::min(1.0 / rate, kLongestPeriod) * 1e9)));
+  period.fromNSec(std::max<std::int64_t>(1, std::llround(std::min(1.0 / rate, kMaxPeriod) * 1e9)));
   return period;
 }
 

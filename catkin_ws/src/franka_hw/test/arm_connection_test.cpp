@@ -19,7 +19,7 @@ namespace {
 class Owner : public ArmConnection::Owner {
  public:
   std::unique_ptr<franka::Robot> openRobot() override {
-    throw franka::NetworkException("nobody is there");
+    throw franka::NetworkException("there is no robot");
   }
   void connect() override {}
   bool disconnect() override { return true; }
@@ -88,7 +88,7 @@ TEST_F(ArmWithoutRobot, WaitingForOthersIsAnErrorButNotItsOwn) {
   EXPECT_FALSE(arm_.hasError());
 }
 
-TEST(RobotMutex, IsInMotionAsTheStateSays) {
+TEST(RobotMutex, MatchesTheState) {
   ArmStateMachine state(ArmState::kIdle);
   const RobotMutex mutex(state);
   EXPECT_FALSE(mutex.inMotion());
@@ -100,7 +100,7 @@ TEST(RobotMutex, IsInMotionAsTheStateSays) {
   EXPECT_FALSE(mutex.inMotion());
 }
 
-TEST(RobotMutex, IsTakenWhileThereIsAReasonOnly) {
+TEST(RobotMutex, IsLockedOnlyWhileTheConditionHolds) {
   const ArmStateMachine state;
   RobotMutex mutex(state);
   EXPECT_TRUE(mutex.takeWhile([] { return true; }));
@@ -111,7 +111,7 @@ TEST(RobotMutex, IsTakenWhileThereIsAReasonOnly) {
   EXPECT_EQ(5, attempts);
 }
 
-TEST(RobotMutex, IsWaitedForAShortTimeOnly) {
+TEST(RobotMutex, WaitIsShort) {
   std::mutex mutex;
   const std::lock_guard<std::mutex> held(mutex);
   int attempts = 0;
@@ -119,26 +119,26 @@ TEST(RobotMutex, IsWaitedForAShortTimeOnly) {
   EXPECT_GT(attempts, 1);
 }
 
-TEST(RobotMutex, IsNotWaitedForWithAReasonAgainstIt) {
+TEST(RobotMutex, ARefusalEndsTheWait) {
   std::mutex mutex;
   const std::lock_guard<std::mutex> held(mutex);
   const auto refuse = [] { throw std::runtime_error("a motion has the robot"); };
   EXPECT_THROW(RobotMutex::takeSoon(mutex, refuse), std::runtime_error);
 }
 
-TEST(RobotMutex, LoopThatReadsGivesWayToARequest) {
+TEST(RobotMutex, ReadingLoopYieldsToARequest) {
   const ArmStateMachine state;
   RobotMutex mutex(state);
-  const auto timeOfGivingWay = [&] {
+  const auto timeOfYielding = [&] {
     const auto begin = std::chrono::steady_clock::now();
-    mutex.giveWay();
+    mutex.yieldToRequests();
     return std::chrono::steady_clock::now() - begin;
   };
   const RobotMutex::Request request(mutex);
-  EXPECT_GE(timeOfGivingWay(), std::chrono::milliseconds(5));
+  EXPECT_GE(timeOfYielding(), std::chrono::milliseconds(5));
 }
 
-TEST(RobotMutex, RequestForAnotherRobotIsNone) {
+TEST(RobotMutex, RequestForAnotherRobotIsIgnored) {
   const ArmStateMachine state;
   RobotMutex mutex(state), other(state);
   const RobotMutex::Request request(other);
@@ -146,7 +146,7 @@ TEST(RobotMutex, RequestForAnotherRobotIsNone) {
   auto shortest = std::chrono::steady_clock::duration::max();
   for (int i = 0; i < 20; i++) {
     const auto begin = std::chrono::steady_clock::now();
-    mutex.giveWay();
+    mutex.yieldToRequests();
     shortest = std::min(shortest, std::chrono::steady_clock::now() - begin);
   }
   EXPECT_LT(shortest, std::chrono::milliseconds(5));

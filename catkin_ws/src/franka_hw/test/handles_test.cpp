@@ -109,7 +109,7 @@ TEST(Interfaces, NameTheMissingResource) {
   FrankaStateInterface states;
   try {
     states.getHandle("panda_robot");
-    FAIL() << "a handle nobody registered was handed out";
+    FAIL() << "a handle was returned that is not registered";
   } catch (const hardware_interface::HardwareInterfaceException& error) {
     EXPECT_STREQ("Could not find resource 'panda_robot' in 'franka_hw::FrankaStateInterface'.",
                  error.what());

@@ -165,7 +165,7 @@ TEST_F(ModelTest, HandleEvaluatesTheLiveState) {
   expectBody();
 }
 
-TEST_F(ModelTest, HandleHoldsGravityUprightUnlessTold) {
+TEST_F(ModelTest, HandleAssumesUprightGravityByDefault) {
   handle.getGravity();
   expectBody();
   EXPECT_EQ(kUpright, model.gravity_earth);

@@ -305,12 +305,12 @@ TEST(ModelKDLRefusal, NamesTheLinkThatIsMissing) {
   const std::string text = readUrdf("panda");
   EXPECT_EQ(
       "ModelKDL: the chain from 'fr3_link0' to 'fr3_link8' cannot be used: the robot description "
-      "has no link 'fr3_link0'; check that its arm_id is the one this model is asked for.",
+      "has no link 'fr3_link0'; check that arm_id matches this model.",
       refusal(text, "fr3_link0", "fr3_link8"));
   EXPECT_NE(std::string::npos, refusal(text, "panda_link0", "tool").find("has no link 'tool'"));
 }
 
-TEST(ModelKDLRefusal, NamesAChainThatIsNoArm) {
+TEST(ModelKDLRefusal, NamesAChainThatIsNotAnArm) {
   const std::string text = readUrdf("panda");
   EXPECT_NE(std::string::npos,
             refusal(text, "panda_link0", "panda_link7").find("7 moving and 0 fixed joints"));

@@ -80,7 +80,7 @@ void expectVerdict(const Verdict& expected, const Verdict& actual, const std::st
   EXPECT_EQ(expected.mode, actual.mode) << what;
 }
 
-TEST(FindArmId, TakesWhatStandsBeforeTheLastMarker) {
+TEST(FindArmId, TakesTheTextBeforeTheLastMarker) {
   const std::vector<std::pair<std::string, std::string>> cases{
       {"panda_joint1", "panda"},
       {"panda_robot", "panda"},
@@ -218,7 +218,7 @@ TEST(ClaimRules, JudgeTheOwnArmOnly) {
                 "another arm is claimed in part");
 }
 
-TEST(GetControlMode, KnowsNineModesAndNothingElse) {
+TEST(GetControlMode, AcceptsExactlyNineModes) {
   // Every combination of the five kinds of command, as bits.
   int modes = 0;
   for (unsigned bits = 0; bits < 32; ++bits) {

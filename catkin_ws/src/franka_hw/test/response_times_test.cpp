@@ -81,8 +81,8 @@ TEST_F(Times, OfAnotherMotionAreNotMeasuredAgainstThisOne) {
   times_.motionBegins();
   cycle(1, 100, 10);
   cycle(2, 180, 10);
-  times_
-      .motionBegins();  // the robot was restarted, and counts anew; the last command is not counted
+  times_.motionBegins();  // the robot was restarted, and counts again; the last command is not
+                          // counted
   cycle(1, 800000, 10);
   cycle(2, 800030, 10);
   const ResponseTimes::Report report = times_.take();

@@ -62,19 +62,19 @@ TEST(RobotMismatch, IsNoneWhereRobotDescriptionAndNamesAgree) {
   }
 }
 
-TEST(RobotMismatch, TellsAnFr3WithThePandasDescription) {
+TEST(RobotMismatch, ReportsAnFr3WithThePandasDescription) {
   expectWords(mismatch(describe("panda", "left"), "left", kFr3),
               {"the robot is an FR3 (protocol 10)", "robot_description is a Panda's", "left_joint6",
                "-0.0175 to 3.7525 rad", "0.4398 to 4.6216 rad", "robot:=fr3"});
 }
 
-TEST(RobotMismatch, TellsAPandaWithTheFr3sDescription) {
+TEST(RobotMismatch, ReportsAPandaWithTheFr3sDescription) {
   expectWords(mismatch(describe("fr3", "fr3"), "fr3", kPanda),
               {"the robot is a Panda (protocol 5)", "robot_description is an FR3's", "fr3_joint6",
                "0.8521 to 4.2094 rad", "-0.0175 to 3.7525 rad", "robot:=panda"});
 }
 
-TEST(RobotMismatch, TellsARangeThatNeitherRobotHas) {
+TEST(RobotMismatch, ReportsARangeThatNeitherRobotHas) {
   const std::string limit = R"(lower="-2.8973" upper="2.8973")";
   const urdf::Model wide = describe("panda", "panda", limit, R"(lower="-6.0" upper="6.0")");
   for (const unsigned protocol : {kPanda, kFr3}) {
@@ -89,7 +89,7 @@ TEST(RobotMismatch, AcceptsNarrowerRanges) {
   EXPECT_EQ("", mismatch(narrow, "panda", kFr3)) << "all of it an FR3 can reach, too";
 }
 
-TEST(RobotMismatch, TellsAnArmThatTheDescriptionDoesNotHold) {
+TEST(RobotMismatch, ReportsAnArmThatIsNotInTheDescription) {
   expectWords(mismatch(describe("panda", "panda"), "fr3", kPanda),
               {"'fr3' (arm_id)", "no joint 'fr3_joint1'", "it describes 'panda'"});
   urdf::Model none;
@@ -97,7 +97,7 @@ TEST(RobotMismatch, TellsAnArmThatTheDescriptionDoesNotHold) {
   expectWords(mismatch(none, "panda", kPanda), {"no joint 'panda_joint1'", "it describes no arm"});
 }
 
-TEST(RobotMismatch, TellsJointsThatAreNamedAfterAnotherArm) {
+TEST(RobotMismatch, ReportsJointsThatAreNamedAfterAnotherArm) {
   const urdf::Model description = describe("panda", "panda");
   expectWords(robotMismatch(description, "fr3", joints("panda"), kPanda),
               {"arm_id is 'fr3'", "joint_names holds 'panda_joint1'", "fr3_joint1 to fr3_joint7"});

@@ -20,14 +20,14 @@ int firesInOneSecond(TriggerRate& trigger, int first_millisecond) {
   return fires;
 }
 
-TEST(TriggerRate, DeliversTheRateAskedFor) {
+TEST(TriggerRate, DeliversTheRequestedRate) {
   for (double rate : {1.0, 30.0, 250.0, 300.0, 999.0, 1000.0}) {
     TriggerRate trigger(rate, ros::Time(0.5));
     EXPECT_EQ(static_cast<int>(rate), firesInOneSecond(trigger, 500)) << rate;
   }
 }
 
-TEST(TriggerRate, FiresWithEveryCallWhenAskedForMore) {
+TEST(TriggerRate, FiresWithEveryCallAtHigherRates) {
   TriggerRate trigger(1e6, ros::Time(0.5));
   EXPECT_EQ(1000, firesInOneSecond(trigger, 500));
 }
@@ -38,7 +38,7 @@ TEST(TriggerRate, DoesNotCatchUpAfterAPause) {
   EXPECT_FALSE(trigger(ros::Time(100.001)));
 }
 
-TEST(TriggerRate, StartsAnewWhenTimeJumpsBack) {
+TEST(TriggerRate, StartsAgainWhenTimeJumpsBack) {
   TriggerRate trigger(10.0, ros::Time(100.0));
   EXPECT_FALSE(trigger(ros::Time(1.0)));
   EXPECT_FALSE(trigger(ros::Time(1.05)));
@@ -55,7 +55,7 @@ TEST(TriggerRate, UsesRosTimeWithoutAnArgument) {
   EXPECT_FALSE(trigger());
 }
 
-TEST(TriggerRate, RefusesWhatIsNoRate) {
+TEST(TriggerRate, RefusesInvalidRates) {
   for (double rate : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(),
                       std::numeric_limits<double>::infinity()}) {
     EXPECT_THROW(TriggerRate(rate, ros::Time(1.0)), std::invalid_argument) << rate;

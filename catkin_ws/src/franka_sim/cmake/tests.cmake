@@ -35,30 +35,44 @@ if(NOT catkin_FOUND)
 endif()
 
 # One program each: rt_guard.h works in one translation unit of a program.
-foreach(name control_unit external_force gripper_unit modes_and_requests parts repeatability)
+foreach(name control_unit external_force gripper_unit modes_and_requests repeatability)
   sim_test(robot_${name}_test SOURCES test/robot/${name}_test.cpp LIBRARIES franka_sim_robot)
 endforeach()
 
 sim_test(robot_unit_test
   SOURCES
+    test/robot/command_filter_test.cpp
     test/robot/command_link_test.cpp
+    test/robot/contact_monitor_test.cpp
+    test/robot/control_laws_test.cpp
     test/robot/error_flags_test.cpp
-    test/robot/laws_test.cpp
+    test/robot/external_wrench_test.cpp
+    test/robot/finger_motion_test.cpp
+    test/robot/motion_supervisor_test.cpp
+    test/robot/operator_motion_test.cpp
+    test/robot/pending_answers_test.cpp
+    test/robot/rest_sequence_test.cpp
     test/robot/safety_controller_test.cpp
+    test/robot/self_collision_test.cpp
+    test/robot/state_estimator_test.cpp
+    test/robot/torque_command_test.cpp
     test/robot/transform_entrances_test.cpp
     test/robot/unit_limits_test.cpp
     test/robot/unit_motion_test.cpp
-    test/robot/unit_parts_test.cpp
     test/robot/unit_restart_test.cpp
+    test/robot/virtual_walls_test.cpp
   LIBRARIES franka_sim_robot)
 
 sim_test(robot_motion_test
   SOURCES
+    test/robot/motion/async_joint_generator_test.cpp
+    test/robot/motion/brake_trajectory_test.cpp
     test/robot/motion/cartesian_limits_test.cpp
+    test/robot/motion/elbow_test.cpp
     test/robot/motion/inverse_kinematics_test.cpp
     test/robot/motion/joint_limits_test.cpp
     test/robot/motion/motion_generator_test.cpp
-    test/robot/motion/motion_parts_test.cpp
+    test/robot/motion/motion_start_test.cpp
     test/robot/motion/rate_limited_client_test.cpp
   LIBRARIES franka_sim_robot Franka::Franka)
 
@@ -69,10 +83,17 @@ sim_test(realism_test SOURCES test/world/realism_test.cpp
 sim_test(arm_in_world_test SOURCES test/world/arm_in_world_test.cpp
   LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})
 
+sim_test(steps_test
+  SOURCES test/physics/robot_clearance_test.cpp test/physics/adaptive_steps_test.cpp
+    test/physics/object_rest_test.cpp test/physics/equality_solver_test.cpp
+    test/physics/preparation_thread_test.cpp
+  LIBRARIES franka_sim_physics ${MUJOCO_LIBRARY})
+
 sim_test(physics_test
   SOURCES
     test/physics/arm_plant_test.cpp
     test/physics/determinism_test.cpp
+    test/physics/drawn_meshes_test.cpp
     test/physics/grasp_test.cpp
     test/physics/joint_drive_test.cpp
     test/physics/mjcf_world_test.cpp
@@ -85,6 +106,7 @@ sim_test(physics_test
     test/physics/urdf_robot_test.cpp
     test/physics/world_limits_test.cpp
     test/physics/world_objects_test.cpp
+    test/physics/world_snapshot_test.cpp
     test/physics/world_test.cpp
   LIBRARIES franka_sim_physics ${MUJOCO_LIBRARY} PkgConfig::TINYXML2 Franka::Core)
 
@@ -103,5 +125,17 @@ sim_test(fci_test
   LIBRARIES franka_sim_fci franka_sim_physics Franka::Franka PkgConfig::TINYXML2)
 
 sim_test(simulation_test
-  SOURCES test/simulation/batch_test.cpp test/simulation/simulation_test.cpp
+  SOURCES
+    test/simulation/batch_test.cpp
+    test/simulation/simulation_test.cpp
+    test/simulation/snapshot_test.cpp
   LIBRARIES franka_sim_simulation)
+
+# A program of python/test/test_equal_hashes.py. Python does not fuse multiplications with additions.
+add_executable(franka_sim_contact_scenario_test test/simulation/contact_scenario.cpp)
+target_compile_options(franka_sim_contact_scenario_test PRIVATE -ffp-contract=off)
+target_link_libraries(franka_sim_contact_scenario_test franka_sim_simulation)
+if(catkin_FOUND)
+  set_target_properties(franka_sim_contact_scenario_test PROPERTIES
+    RUNTIME_OUTPUT_DIRECTORY ${CATKIN_DEVEL_PREFIX}/lib/${PROJECT_NAME})
+endif()

@@ -10,10 +10,12 @@ from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
 import pytest
-from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, REFLEX, Client
+from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, LAYOUTS, REFLEX, Client
 from pyfranka.franka_sim import FrankaSim, SimRobot, find_program
+from waiting import wait_for
 
-USER_STOPPED = 5  # robot_mode
+GUIDING, USER_STOPPED, OTHER = 3, 5, 0  # robot_mode
+M_LOAD = 880  # its offset in a state of version 5
 ROBOTS = Path(__file__).resolve().parents[1] / "robots"
 
 WORLD = """<mujoco><worldbody>
@@ -81,16 +83,19 @@ def test_help_names_every_option():
         (["--pace", "lockstep", "--patience", "nan"], "seconds from 0.01 to 86400, or forever"),
         (["--pace", "lockstep", "--patience", "for ever"], "or forever, not for ever."),
         (["--pace", "lockstep", "--patience", "Forever"], "or forever, not Forever."),
-        (["--patience", "forever"], "only a robot that waits for its client takes it"),
+        (["--patience", "forever"], "needs --pace patient or --pace lockstep"),
         (["--pace", "patient", "--wait", "sleep"], "--wait: give auto, spin or block, not sleep."),
         (["--pace", "lockstep", "--wait="], "--wait: give auto, spin or block, not ."),
-        (["--wait", "auto"], "only a robot that waits for its client takes it"),
+        (["--wait", "auto"], "needs --pace patient or --pace lockstep"),
         (["--base", "1,2"], "three numbers"),
         (["--base", "1,2,3,4,5"], "three numbers"),
         (["--base", "1,2,x"], "three numbers"),
         (["--hand", "claw"], "--hand: claw not in {gripper,vacuum,none}"),
         (["--robot", "panda", "--robot", "fr3"], "--ip 127.0.0.1: two robots have it"),
-        (["--robot", "panda", "--robot", "fr3", "--ip", "127.0.0.2"], "stand within each other"),
+        (
+            ["--robot", "panda", "--robot", "fr3", "--ip", "127.0.0.2"],
+            "overlap; give them different positions",
+        ),
         (
             "--arm-id a --robot fr3 --ip 127.0.22.9 --robot fr3 --base 0,1,0 --arm-id a".split(),
             "--arm-id a: two robots have it",
@@ -175,7 +180,7 @@ def test_invalid_control_commands_are_reported():
         assert send("push panda_hand nan 0 0 10") == "error: 'nan' is not a finite number."
         assert send("loss 2") == "error: The probability of a loss is a number from 0 to 1."
         for seed in ("-1", "18446744073709551616", "1e300", "0.5"):
-            assert send(f"loss 0 {seed}").startswith(f"error: '{seed}' is no seed: give a whole number")
+            assert send(f"loss 0 {seed}").startswith(f"error: '{seed}' is not a seed: give a whole number")
         assert send("loss 0 18446744073709551615") == "ok"
         assert send("delay 21") == "error: Commands are delayed by a whole number of ticks from 0 to 20."
         assert send("load -1 0 0 0").startswith("error: The load was refused")
@@ -194,11 +199,6 @@ def test_a_push_moves_the_held_arm_and_it_returns(tmp_path):
     ]  # friction would keep it off its pose
     with simulated("127.0.22.5", *options) as (send, _):
 
-        def until(condition):
-            deadline = time.monotonic() + 20
-            while not condition():
-                assert time.monotonic() < deadline
-
         def displacement():
             return max(abs(a - b) for a, b in zip(joints(send), before))
 
@@ -206,10 +206,10 @@ def test_a_push_moves_the_held_arm_and_it_returns(tmp_path):
         assert send("place stone 0.5 -0.3 0.2") == "ok"
         # Long enough to be seen: time runs as fast as possible.
         assert send("push panda_hand 0 8 0 6000") == "ok"
-        until(lambda: displacement() > 1e-4)
-        until(lambda: displacement() < 1e-4)
+        wait_for(lambda: displacement() > 1e-4)
+        wait_for(lambda: displacement() < 1e-4)
         # It was released in the air and lies on the ground.
-        until(lambda: float(send("where stone").split()[3]) == pytest.approx(0.03, abs=2e-3))
+        wait_for(lambda: float(send("where stone").split()[3]) == pytest.approx(0.03, abs=2e-3))
 
 
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])
@@ -245,7 +245,7 @@ def test_a_vacuum_gripper_replaces_the_gripper():
         assert send("part on") == "ok"
         assert send("part perhaps") == "error: 'perhaps' is neither on nor off."
         assert send("pump red") == "ok"
-        assert send("pump blue") == "error: 'blue' is none of green, yellow, orange and red."
+        assert send("pump blue") == "error: 'blue' must be one of green, yellow, orange and red."
     with simulated("127.0.22.10") as (send, _):
         assert send("part on").startswith("error: There is no command 'part'")
 
@@ -308,7 +308,7 @@ def test_a_diverging_world_stops_is_reported_and_can_be_reset(pace, tmp_path):
             assert "of body 'feather'" in stopped and "until it is reset" in stopped
             assert send("push feather 1 0 0 10").startswith("error: The physics diverged")
             assert send("place feather 0 0 1").startswith("error: The physics diverged")
-            assert send("where feather").startswith("ok 5 5 "), "it did not begin anew by itself"
+            assert send("where feather").startswith("ok 5 5 "), "it did not start again by itself"
             client.state()
             assert send("reset") == "ok"
             assert send("state").startswith("ok Idle, client of protocol 5, errors none")
@@ -319,7 +319,7 @@ def test_a_diverging_world_stops_is_reported_and_can_be_reset(pace, tmp_path):
 
 def test_a_robot_that_starts_inside_a_body_is_reported():
     page = (ROBOTS.parents[3] / "docs" / "franka_sim.md").read_text()
-    example = next(line.split() for line in page.splitlines() if line.startswith("    franka_sim "))
+    example = next(line.split() for line in page.splitlines() if line.startswith("franka_sim --robot"))
     assert "stone.xml" in example
     for base, within in (([], False), (["--base=0,0,0"], True)):
         with simulated("127.0.22.15", *example[3:], *base, kind=example[2]) as (_, server):
@@ -371,31 +371,61 @@ def test_a_half_closed_control_connection_is_answered():
             assert answers[1].startswith("ok User stopped")
 
 
-def test_commands_are_answered_after_a_state_shows_their_effect():
+@pytest.mark.parametrize(
+    "words, mode",
+    [
+        (("user_stop on", "user_stop off"), USER_STOPPED),
+        (("guiding on", "guiding off"), GUIDING),
+        (("brakes close", "brakes open"), OTHER),
+    ],
+)
+def test_a_switch_is_answered_after_a_state_shows_its_mode(words, mode):
     with simulated("127.0.22.19") as (send, _), Client("127.0.22.19", 5) as client:
         client.connect()
-        for pressed in (True, False) * 10:
-            assert send("user_stop " + ("on" if pressed else "off")) == "ok"
+        for on in (True, False) * 10:
+            assert send(words[0 if on else 1]) == "ok"
             # Whatever waits in the socket now was sent before the answer came.
-            assert client.newest_state().mode == (USER_STOPPED if pressed else IDLE)
+            assert client.newest_state().mode == (mode if on else IDLE)
 
 
-def test_the_first_state_after_a_recovery_is_idle():
-    with simulated("127.0.22.20"), Client("127.0.22.20", 5) as client:
+def test_loads_pushes_and_places_are_answered_after_they_took_effect(tmp_path):
+    (tmp_path / "world.xml").write_text(WORLD)
+    options = {"world": tmp_path / "world.xml", "arguments": ["--realism=ideal"]}
+    robot = SimRobot("panda", address="127.0.22.19")
+    with served(robot, **options) as (send, _), Client("127.0.22.19", 5) as client:
         client.connect()
+        for kilograms in (0.5, 0.0) * 10:
+            assert send(f"load {kilograms:g} 0 0 0") == "ok"
+            assert struct.unpack_from("<d", client.newest_state().data, M_LOAD)[0] == kilograms
+        for place in ("0.5 -0.4 0.05", "0.4 0.5 0.05") * 10:
+            assert send(f"place stone {place}") == "ok"
+            seen = list(map(float, send("where stone").split()[1:4]))
+            assert seen == pytest.approx(list(map(float, place.split())), abs=1e-3)
+        # A force of a millisecond gives the stone of 0.1 kg a velocity in the tick of the answer.
+        assert send("place stone 0.4 0.5 0.05") == "ok"
+        assert send("push stone 100 0 0 1") == "ok"
+        assert float(send("where stone").split()[1]) > 0.4
+
+
+@pytest.mark.parametrize("kind, protocol", [("panda", 5), ("fr3", 10)])
+def test_the_first_state_after_a_recovery_is_idle(kind, protocol):
+    layout = LAYOUTS[protocol]
+    with simulated("127.0.22.20", kind=kind), Client("127.0.22.20", protocol) as client:
+        assert client.connect() == (0, protocol)
         for _ in range(2):
             client.start(JOINT_IMPEDANCE, JOINT_POSITION)  # and no command follows
             client.state_until(lambda state: state.mode == REFLEX)
-            assert client.reply()[1][0] == 6, "the motion was aborted"
-            client.request(12)  # automatic error recovery
+            assert client.reply()[1][0] == layout.reflex, "the motion was aborted"
+            client.request(layout.recovery)
             assert client.reply()[1][0] == 0
             # Whatever waits in the socket now was sent before the answer came.
             assert client.newest_state().mode == IDLE
 
 
+@pytest.mark.parametrize("kind", ["panda", "fr3"])
 @pytest.mark.parametrize("pace", ["realtime", "lockstep", "0.5"])
-def test_the_initial_width_of_a_hand_is_the_same_at_any_pace(pace):
-    with simulated("127.0.22.21", "--pace", pace):
+def test_the_initial_width_of_a_hand_is_the_same_at_any_pace(kind, pace):
+    with simulated("127.0.22.21", "--pace", pace, kind=kind):
         # Gripper protocol: Connect [u16 version, u16 port]; states are 23 bytes, the width behind the id.
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as states:
             states.bind(("", 0))

@@ -1,12 +1,12 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""docs/limits.md lists the motions of the limit tests."""
+"""docs/design/limits.md lists the motions of the limit tests."""
 
 import re
 from pathlib import Path
 
 PACKAGE = Path(__file__).resolve().parent.parent
-PAGE = PACKAGE.parents[2] / "docs" / "limits.md"
+PAGE = PACKAGE.parents[2] / "docs" / "design" / "limits.md"
 NUMBER = re.compile(r"-?\d+(?:\.\d+)?")
 ROW = re.compile(
     r"\{(\d+), k\w+, \{Part::k(\w+), \{\{([^}]*)\}\}(?:, \{([^}]*)\}([^}]*))?\}, ([\d.]+), (\d+)\}"

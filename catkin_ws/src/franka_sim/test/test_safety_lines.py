@@ -3,6 +3,7 @@
 """The lines of the safety controller: a locked robot is made ready, stopped, tested and switched off."""
 
 import json
+import re
 import socket
 import threading
 
@@ -110,7 +111,7 @@ def test_the_end_of_the_fci_ends_a_motion(robot, line, message):
     assert robot.connect().read_once().robot_mode == pyfranka.RobotMode.Idle
 
 
-def test_the_end_effector_is_seen_by_clients(robot):
+def test_clients_receive_the_end_effector(robot):
     make_ready(robot)
     transform = numpy.eye(4)
     transform[2, 3] = 0.2
@@ -145,11 +146,31 @@ def test_moves_to_the_pack_pose_without_fci(robot):
     assert not state["errors"]
     assert state["motion"] is False
     assert state["q"][3] == pytest.approx(-2.95, abs=0.02)
-    with pytest.raises(LineRefused, match="limits"):
+    with pytest.raises(LineRefused, match=r"joint 1 can be between -2\.\d+ and 2\.\d+ rad, not at 9\."):
         robot.remote.send("move 9 0 0 -1.5 0 1.5 0")
+    with pytest.raises(LineRefused, match="the speed must be above 0 and at most 1"):
+        robot.remote.send("move 0 0 0 -1.5 0 1.5 0 2")
 
 
-def test_a_motion_that_is_stopped_says_so():
+def test_moves_to_the_printed_end_of_its_reach(robot):
+    """Within an FR3's limits, but out of its reach: there the joint's velocity limit is 0."""
+    robot.remote.send("joints unlock")
+    target = [0, -0.3, 0, -1.6, 0, 2.4, 0.785]
+    limits = {"panda": (2.8973, -2.8973), "fr3": (2.9007, -3.0508)}[robot.kind]
+    for joint, limit in zip((0, 6), limits):
+        words = list(target)
+        words[joint] = limit
+        if robot.kind == "fr3":
+            with pytest.raises(LineRefused, match="can be between") as refused:
+                robot.remote.send("move " + " ".join(map(str, words)))
+            ends = re.search(r"between (\S+) and (\S+) rad", str(refused.value)).groups()
+            words[joint] = float(ends[joint == 0])
+        robot.remote.send("move " + " ".join(map(str, words)) + " 1")
+        assert report(robot)["q"][joint] == pytest.approx(words[joint], abs=5e-3)
+        assert not report(robot)["errors"]
+
+
+def test_stopped_motion_is_reported():
     with FrankaSim("panda", pace="realtime") as sim:
         sim.robot.remote.fci(False)
         threading.Timer(0.5, Remote(sim.robot.address).move, ["stop"]).start()
@@ -157,6 +178,26 @@ def test_a_motion_that_is_stopped_says_so():
             sim.robot.remote.move([1, -0.8, 0, -2.4, 0, 1.6, 0.8], speed=0.1)
         sim.robot.remote.wait()
         assert 0 < report(sim.robot)["q"][0] < 0.9
+
+
+def test_a_reset_ends_a_motion_unfinished():
+    """The line move is answered, and nothing of the motion remains."""
+    start = [0, -0.8, 0, -2.4, 0, 1.6, 0.8]
+    with FrankaSim("panda", pace="realtime") as sim:
+        robot = sim.robot
+        robot.remote.fci(False)
+        robot.remote.move(start, speed=1.0)
+        before = report(robot)["q"]
+        threading.Timer(0.5, Remote(robot.address).reset).start()
+        with pytest.raises(LineRefused, match="ended before its target was reached"):
+            robot.remote.move([1, *start[1:]], speed=0.1)
+        robot.remote.wait()
+        state = report(robot)
+        assert (state["mode"], state["errors"], state["motion"]) == ("Idle", [], False)
+        assert state["q"] == pytest.approx([0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854], abs=1e-3)
+        assert state["q"] != pytest.approx(before, abs=1e-3)
+        robot.remote.move(start, speed=1.0)
+        assert report(robot)["q"] == pytest.approx(before, abs=2e-3)
 
 
 def test_errors_are_acknowledged(robot):

@@ -20,12 +20,11 @@ if(TARGET ${PROJECT_NAME}_parts_test)
 endif()
 
 find_package(rostest REQUIRED)
-foreach(name devices parameters simulation worlds)
-  add_rostest(test/${name}.test DEPENDENCIES
-    franka_sim_mujoco_node franka_hw_sim franka_gripper_sim)
-endforeach()
-# Panda and FR3, and names without the robot's type.
-foreach(robot panda fr3)
-  add_rostest(test/interfaces.test ARGS robot:=${robot} arm_id:=my_${robot}
-    DEPENDENCIES franka_sim_mujoco_node franka_hw_sim)
-endforeach()
+add_rostest_gtest(arm_parameters_test test/arm_parameters.test test/arm_parameters_test.cpp)
+target_include_directories(arm_parameters_test PRIVATE
+  ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
+target_compile_definitions(arm_parameters_test PRIVATE
+  FRANKA_SIM_ROBOTS="${CMAKE_CURRENT_SOURCE_DIR}/../franka_sim/robots")
+target_link_libraries(arm_parameters_test franka_sim_ros)
+add_rostest(test/parameters.test DEPENDENCIES
+  franka_sim_mujoco_node franka_hw_sim franka_gripper_sim)

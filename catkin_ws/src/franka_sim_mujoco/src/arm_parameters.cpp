@@ -42,7 +42,7 @@ void readTransform(const ros::NodeHandle& node, const std::string& name,
   if (!fault.empty()) {
     throw std::invalid_argument(
         "The parameter " + node.resolveName(name) +
-        " is no column-major 4x4 transform to a frame on the arm: " + fault + ".");
+        " is not a column-major 4x4 transform to a frame on the arm: " + fault + ".");
   }
 }
 
@@ -201,12 +201,11 @@ franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
   franka_sim::ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(robot.urdf, arm_id)};
   parameters.protocol_version = franka_sim::protocolsOf(robot.robot_type).newest;
   parameters.has_hand = robot.world->hasHand(robot.name, arm_id);
-  parameters.substeps = franka_sim::World::kSubsteps;
   franka_sim::applyPhysics(robot.arm_physics, parameters);
   parameters.gravity = gravityInBase(*robot.world, arm_id + "_link0");
   readArray(node, "gravity_vector", parameters.gravity);
 
-  // With all three set, a hand without inertial in the URDF is no error.
+  // With all three set, a hand without inertial in the URDF is not an error.
   const bool explicit_end_effector =
       node.hasParam("m_ee") && node.hasParam("I_ee") && node.hasParam("F_x_Cee");
   if (!explicit_end_effector) {

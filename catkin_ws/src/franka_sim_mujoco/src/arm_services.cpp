@@ -7,6 +7,7 @@
 #include <franka_sim/robot/parameter_checks.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/arm_services.h>
+#include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/service_answer.h>
 #include <ros/console.h>
 #include <ros/service.h>
@@ -25,14 +26,13 @@ using franka_sim::Status;
 
 namespace {
 
-constexpr char kLog[] = "franka_hw_sim";
 constexpr double kSwitchTimeout = 3.0;     ///< [s]
 constexpr double kRecoveryTimeout = 20.0;  ///< [s] wall; the unit's own limit is 5 s
 constexpr double kRecoveryPoll = 0.005;    ///< [s] wall
 constexpr char kNotThresholds[] = "The thresholds must be finite and not negative.";
 
 std::string notATransform(const std::string& name, const std::array<double, 16>& matrix) {
-  return name + " is no column-major 4x4 transform to a frame on the arm: " +
+  return name + " is not a column-major 4x4 transform to a frame on the arm: " +
          franka_sim::frameFault(matrix) + ".";
 }
 
@@ -45,7 +45,7 @@ franka_sim::CollisionThresholds checked(const franka_sim::CollisionThresholds& t
   }
   const std::string remark = thresholdRemark(thresholds);
   if (!remark.empty()) {
-    ROS_WARN_STREAM_NAMED(kLog, phase << remark);
+    ROS_WARN_STREAM_NAMED(kHardwareLog, phase << remark);
   }
   return thresholds;
 }
@@ -162,7 +162,7 @@ void ArmServices::offer(ros::NodeHandle& node, const std::string& name,
         answer(
             response, [&] { handler(request); },
             [&](const char* sentence) {
-              ROS_ERROR_NAMED(kLog, "%s: %s: %s", arm_id_.c_str(), name.c_str(), sentence);
+              ROS_ERROR_NAMED(kHardwareLog, "%s: %s: %s", arm_id_.c_str(), name.c_str(), sentence);
             });
         return true;
       };
@@ -194,7 +194,7 @@ void ArmServices::offerSetters() {
 void ArmServices::offerUserStop() {
   offer<std_srvs::SetBool>(control_node_, "set_user_stop", [this](const auto& request) {
     between_ticks_([&] { arm_.setUserStop(request.data); });
-    ROS_WARN_NAMED(kLog,
+    ROS_WARN_NAMED(kHardwareLog,
                    request.data ? "%s: user stop pressed: commands of controllers have no effect"
                                 : "%s: user stop released: call franka_control/error_recovery to "
                                   "connect the controllers again",
@@ -249,11 +249,11 @@ void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request&
     }
   });
   for (const std::string& complaint : complaints) {
-    ROS_WARN_NAMED(kLog, "%s: set_franka_model_configuration: %s", arm_id_.c_str(),
+    ROS_WARN_NAMED(kHardwareLog, "%s: set_franka_model_configuration: %s", arm_id_.c_str(),
                    complaint.c_str());
   }
   if (complaints.size() == names.size()) {
-    throw std::runtime_error("No joint could be put anywhere. " + complaints.front());
+    throw std::runtime_error("No joint could be moved. " + complaints.front());
   }
   if (restart_controllers_) {
     restartArmControllers();
@@ -270,7 +270,7 @@ void ArmServices::recover() {
     }
     recovery_.setSucceeded();
   } catch (const std::exception& error) {
-    ROS_WARN_NAMED(kLog, "%s: error_recovery: %s", arm_id_.c_str(), error.what());
+    ROS_WARN_NAMED(kHardwareLog, "%s: error_recovery: %s", arm_id_.c_str(), error.what());
     recovery_.setAborted(franka_msgs::ErrorRecoveryResult(), error.what());
   }
 }

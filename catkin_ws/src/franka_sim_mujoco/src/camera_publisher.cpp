@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/camera_publisher.h>
+#include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/sim_messages.h>
 #include <franka_sim_mujoco/simulation.h>
 #include <ros/console.h>
@@ -19,9 +20,8 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr char kLog[] = "franka_sim_mujoco";
-constexpr std::chrono::milliseconds kNap{5};
-/// Interval of the search for new cameras (robots and objects bring them), in naps.
+constexpr std::chrono::milliseconds kIdleSleep{5};
+/// Interval of the search for new cameras (of robots and objects), in idle sleeps.
 constexpr int kLookInterval = 100;
 constexpr double kDegree = 3.14159265358979323846 / 180;
 
@@ -129,7 +129,7 @@ void CameraPublisher::loop() {
         ROS_WARN_THROTTLE_NAMED(10.0, kLog, "No pictures are published: %s", error.what());
       }
     }
-    std::this_thread::sleep_for(kNap);
+    std::this_thread::sleep_for(kIdleSleep);
   }
   renderer_.reset();
 }

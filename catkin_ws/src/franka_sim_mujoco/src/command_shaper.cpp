@@ -86,7 +86,7 @@ Joints shapePositions(const ShapingOptions& options, Joints q, const franka_core
 
 Joints shapeVelocities(const ShapingOptions& options, Joints dq,
                        const franka_core::RobotState& state,
-                       const franka_sim::MotionLimits& limits) noexcept {
+                       const franka_sim::MotionLimits& limits) {
   filter(options, state.dq_d, dq);
   if (options.rate_limiting) {
     limitVelocities(state, limits, dq);
@@ -100,8 +100,8 @@ franka_sim::Transform shapePose(const ShapingOptions& options, franka_sim::Trans
   if (isFiltered(options)) {
     pose = franka::cartesianLowpassFilter(kTick, pose, state.O_T_EE_c, options.cutoff_frequency);
   }
-  // As in the client's loop: a pose that is no transform after the filter goes to the robot, which
-  // checks it.
+  // As in the client's loop: a pose that is not a transform after the filter goes to the robot,
+  // which checks it.
   if (options.rate_limiting && franka_core::isHomogeneousTransformation(pose)) {
     const auto& [v, a, j] = limits.arm.translation;
     const auto& [w, dw, ddw] = limits.arm.rotation;

@@ -13,7 +13,7 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr std::chrono::milliseconds kInterval{33};
+constexpr std::chrono::milliseconds kContactInterval{33};
 
 }  // namespace
 
@@ -29,7 +29,7 @@ ContactPublisher::~ContactPublisher() {
 
 void ContactPublisher::loop() {
   while (!stop_) {
-    std::this_thread::sleep_for(kInterval);
+    std::this_thread::sleep_for(kContactInterval);
     if (publisher_.getNumSubscribers() == 0) {
       continue;
     }

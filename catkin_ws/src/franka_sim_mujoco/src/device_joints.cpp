@@ -14,7 +14,7 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr char kLog[] = "device_joints";
+constexpr char kDeviceLog[] = "device_joints";
 /// Limit of the target's lead over a blocked joint in velocity control, so that it continues from
 /// where it is. Chosen here: five times the drive's lag at that velocity.
 constexpr double kLeadTime = 0.02;  ///< [s]
@@ -74,7 +74,8 @@ void DeviceJoints::add(const TransmissionInfo& transmission, const urdf::Model& 
   joint.drive = &world_.drive(robot_, joint.name);
   readInterfaces(info, &joint);
   if (described->mimic) {
-    ROS_WARN_NAMED(kLog, "'%s' follows '%s' (mimic): it shows its state and takes no commands.",
+    ROS_WARN_NAMED(kDeviceLog,
+                   "'%s' follows '%s' (mimic): it shows its state and takes no commands.",
                    joint.name.c_str(), described->mimic->joint_name.c_str());
     joint.takes_effort = joint.takes_position = joint.takes_velocity = false;
     return;
@@ -96,7 +97,8 @@ void DeviceJoints::readInterfaces(const transmission_interface::JointInfo& info,
     } else if (name == "VelocityJointInterface") {
       joint->takes_velocity = true;
     } else if (name != "JointStateInterface") {
-      ROS_WARN_NAMED(kLog, "The hardware interface '%s' of the joint '%s' is unknown: ignored.",
+      ROS_WARN_NAMED(kDeviceLog,
+                     "The hardware interface '%s' of the joint '%s' is unknown: ignored.",
                      written.c_str(), info.name_.c_str());
     }
   }
@@ -109,8 +111,9 @@ void DeviceJoints::readGains(Joint* joint) const {
   }
   joint->pid.emplace();
   if (!joint->pid->init(gains, true)) {
-    throw std::invalid_argument("the parameters " + gains.getNamespace() +
-                                " are no PID gains: p is missing, or one of p, i, d is no number.");
+    throw std::invalid_argument(
+        "the parameters " + gains.getNamespace() +
+        " are not PID gains: p is missing, or one of p, i, d is not a number.");
   }
 }
 

@@ -5,9 +5,11 @@
 #include <franka_core/transform.h>
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/world.h>
+#include <franka_sim/robot/condition_text.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/controller_check.h>
 #include <franka_sim_mujoco/franka_hw_sim.h>
+#include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/param_reader.h>
 #include <ros/console.h>
 
@@ -21,7 +23,6 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr char kLog[] = "franka_hw_sim";
 constexpr double kDefaultTauExtLowpassFilter = 1.0;
 constexpr double kReportPeriod = 1.0;  ///< [s]
 
@@ -75,7 +76,7 @@ SimArmOptions readOptions(const ros::NodeHandle& node, bool reflexes) {
 void warnOfGains(const ros::NodeHandle& node, const std::string& arm_id) {
   const std::string gains = gainsWithoutEffect(node, arm_id);
   if (!gains.empty()) {
-    ROS_WARN_NAMED(kLog,
+    ROS_WARN_NAMED(kHardwareLog,
                    "%s: these parameters have no effect: %s. The robot's own controller follows "
                    "positions and velocities; only position/gains/*/p counts, as its stiffness "
                    "[Nm/rad], and its damping follows from that.",
@@ -163,7 +164,7 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
       readBool(node, "restart_controllers_after_recovery").value_or(true);
   const PlaceJoint place_joint = [this, &world](const std::string& joint, double position) {
     if (findJoint(joint) == nullptr && devices_->names().count(joint) == 0) {
-      throw std::runtime_error("'" + joint + "' is no joint of this robot that is driven.");
+      throw std::runtime_error("'" + joint + "' is not a joint of this robot that is driven.");
     }
     world.setJointPosition(joint, position);
   };
@@ -233,6 +234,10 @@ void FrankaHWSim::eStopActive(bool active) {
   }
 }
 
+std::string FrankaHWSim::condition() const {
+  return arm_ ? franka_sim::conditionText(arm_id_, arm_->unit().state()) : "";
+}
+
 void FrankaHWSim::worldWasReset() {
   arm_->worldWasReset();
   devices_->worldWasReset();
@@ -255,7 +260,7 @@ bool FrankaHWSim::prepareSwitch(
   for (const auto& controller : start_list) {
     const std::string reason = whyRefused(controller, arm_id_, devices_->names());
     if (!reason.empty()) {
-      ROS_ERROR_NAMED(kLog, "%s", reason.c_str());
+      ROS_ERROR_NAMED(kHardwareLog, "%s", reason.c_str());
       return false;
     }
   }
@@ -263,7 +268,7 @@ bool FrankaHWSim::prepareSwitch(
     return true;
   }
   if (!arm_->connected()) {
-    ROS_ERROR_NAMED(kLog,
+    ROS_ERROR_NAMED(kHardwareLog,
                     "%s: controllers cannot be started while the arm is disconnected: call the "
                     "service franka_control/connect first.",
                     arm_id_.c_str());
@@ -271,7 +276,7 @@ bool FrankaHWSim::prepareSwitch(
   }
   if (arm_->userStopped() || arm_->needsRecovery()) {
     ROS_WARN_NAMED(
-        kLog,
+        kHardwareLog,
         "%s: %s: the controller starts but has no effect before %sfranka_control/"
         "error_recovery is called.",
         arm_id_.c_str(),
@@ -324,7 +329,7 @@ void FrankaHWSim::publishInitialized(bool initialized) {
 void FrankaHWSim::report() {
   const std::uint64_t refused = arm_->refusedCommands();
   if (refused != reported_commands_) {
-    ROS_WARN_NAMED(kLog,
+    ROS_WARN_NAMED(kHardwareLog,
                    "%s: %llu commands were not finite numbers: the running controller computes NaN "
                    "or infinity. "
                    "Such torques are ignored, such motions end.",
@@ -334,13 +339,13 @@ void FrankaHWSim::report() {
   const SimArm::Abort& abort = arm_->lastAbort();
   if (abort.count != reported_aborts_) {
     reported_aborts_ = abort.count;
-    ROS_ERROR_NAMED(kLog,
+    ROS_ERROR_NAMED(kHardwareLog,
                     "%s: the motion was ended by the robot: %s. Its controllers have no effect "
                     "before the action franka_control/error_recovery is called.",
                     arm_id_.c_str(), describe(abort).c_str());
   }
   if (model_->takeSingularityWarning()) {
-    ROS_WARN_NAMED(kLog,
+    ROS_WARN_NAMED(kHardwareLog,
                    "%s: the arm is close to a singularity (singularity_warning_threshold %g).",
                    arm_id_.c_str(), singularity_threshold_);
   }

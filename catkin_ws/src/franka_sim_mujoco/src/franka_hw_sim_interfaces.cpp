@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // FrankaHWSim: the declarations of the URDF, and the handles for them.
 #include <franka_sim_mujoco/franka_hw_sim.h>
+#include <franka_sim_mujoco/log_names.h>
 #include <joint_limits_interface/joint_limits_urdf.h>
 #include <ros/console.h>
 
@@ -13,13 +14,11 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr char kLog[] = "franka_hw_sim";
-
 using transmission_interface::TransmissionInfo;
 
 /// Names with and without the package prefix are both in use.
-bool namesInterface(const std::string& found, const std::string& wanted) {
-  return found == wanted || found == "hardware_interface/" + wanted;
+bool namesInterface(const std::string& found, const std::string& name) {
+  return found == name || found == "hardware_interface/" + name;
 }
 
 }  // namespace
@@ -38,7 +37,7 @@ void FrankaHWSim::addTransmission(const TransmissionInfo& transmission, const ur
   } else if (transmission.type_ == "franka_hw/FrankaModelInterface") {
     addModel(transmission, model);
   } else {
-    ROS_WARN_NAMED(kLog,
+    ROS_WARN_NAMED(kHardwareLog,
                    "%s: the transmission '%s' has the type '%s', which is not simulated: ignored.",
                    arm_id_.c_str(), transmission.name_.c_str(), transmission.type_.c_str());
   }
@@ -65,7 +64,8 @@ void FrankaHWSim::addJoint(const TransmissionInfo& transmission, const urdf::Mod
     } else if (namesInterface(interface, "VelocityJointInterface")) {
       joint->has_velocity = true;
     } else if (!namesInterface(interface, "JointStateInterface")) {
-      ROS_WARN_NAMED(kLog, "%s: the hardware interface '%s' of the joint '%s' is unknown: ignored.",
+      ROS_WARN_NAMED(kHardwareLog,
+                     "%s: the hardware interface '%s' of the joint '%s' is unknown: ignored.",
                      arm_id_.c_str(), interface.c_str(), info.name_.c_str());
     }
   }
@@ -91,10 +91,10 @@ void FrankaHWSim::addState(const TransmissionInfo& transmission, const urdf::Mod
 }
 
 void FrankaHWSim::addModel(const TransmissionInfo& transmission, const urdf::Model& model) {
-  const std::string who =
+  const std::string prefix =
       "the transmission '" + transmission.name_ + "' (franka_hw/FrankaModelInterface) ";
   if (transmission.joints_.size() != 2) {
-    throw std::invalid_argument(who +
+    throw std::invalid_argument(prefix +
                                 "must have two joints, with the roles root and tip, but has " +
                                 std::to_string(transmission.joints_.size()) + ".");
   }
@@ -103,13 +103,13 @@ void FrankaHWSim::addModel(const TransmissionInfo& transmission, const urdf::Mod
       if (joint.role_ == role) {
         const auto found = model.getJoint(joint.name_);
         if (!found) {
-          throw std::invalid_argument(who + "names the joint '" + joint.name_ +
+          throw std::invalid_argument(prefix + "names the joint '" + joint.name_ +
                                       "', which the URDF does not have.");
         }
         return found;
       }
     }
-    throw std::invalid_argument(who + "has no joint with the role '" + role + "'.");
+    throw std::invalid_argument(prefix + "has no joint with the role '" + role + "'.");
   };
   const std::string root = jointOfRole("root")->parent_link_name;
   const std::string tip = jointOfRole("tip")->child_link_name;
@@ -166,16 +166,16 @@ void FrankaHWSim::registerArmJoint(std::size_t joint) {
   ArmCommands& commands = arm_->commands();
   franka::RobotState& state = arm_->state();
   const hardware_interface::JointStateHandle measured = joint_states_.getHandle(names.name);
-  const hardware_interface::JointStateHandle wanted(names.name, &state.q_d[joint],
-                                                    &state.dq_d[joint], &state.tau_J[joint]);
+  const hardware_interface::JointStateHandle desired(names.name, &state.q_d[joint],
+                                                     &state.dq_d[joint], &state.tau_J[joint]);
   if (names.has_effort) {
     efforts_.registerHandle(hardware_interface::JointHandle(measured, &commands.torque[joint]));
   }
   if (names.has_position) {
-    positions_.registerHandle(hardware_interface::JointHandle(wanted, &commands.position[joint]));
+    positions_.registerHandle(hardware_interface::JointHandle(desired, &commands.position[joint]));
   }
   if (names.has_velocity) {
-    velocities_.registerHandle(hardware_interface::JointHandle(wanted, &commands.velocity[joint]));
+    velocities_.registerHandle(hardware_interface::JointHandle(desired, &commands.velocity[joint]));
   }
 }
 
@@ -198,7 +198,7 @@ void FrankaHWSim::registerLimits(const urdf::Model& model) {
         !joint_limits_interface::getJointLimits(described, limits) ||
         !joint_limits_interface::getSoftJointLimits(described, soft_limits)) {
       ROS_WARN_NAMED(
-          kLog,
+          kHardwareLog,
           "%s: the joint '%s' has no <limit> or no <safety_controller> in the URDF: only "
           "the robot itself limits its motion.",
           arm_id_.c_str(), joint.name.c_str());

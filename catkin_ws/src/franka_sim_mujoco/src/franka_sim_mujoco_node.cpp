@@ -11,6 +11,8 @@
 #include <franka_sim_mujoco/camera_publisher.h>
 #include <franka_sim_mujoco/contact_publisher.h>
 #include <franka_sim_mujoco/gazebo_topics.h>
+#include <franka_sim_mujoco/log_names.h>
+#include <franka_sim_mujoco/marker_publisher.h>
 #include <franka_sim_mujoco/param_reader.h>
 #include <franka_sim_mujoco/picture_service.h>
 #include <franka_sim_mujoco/resources.h>
@@ -34,8 +36,8 @@
 namespace {
 
 namespace sim = franka_sim_mujoco;
+using franka_sim_mujoco::kLog;
 
-constexpr char kLog[] = "franka_sim_mujoco";
 constexpr char kUsage[] =
     "usage: rosrun franka_sim_mujoco franka_sim_mujoco_node [NAME:=VALUE]...\n\n"
     "The simulation: a world with robots under ros_control, and the clock of ROS. Parameters: "
@@ -91,6 +93,7 @@ void run(ros::NodeHandle& node) {
   std::optional<sim::SimServices> services(std::in_place, private_node, simulation);
   std::optional<sim::PictureService> pictures(std::in_place, private_node, simulation);
   std::optional<sim::ContactPublisher> contacts(std::in_place, private_node, simulation);
+  std::optional<sim::MarkerPublisher> markers(std::in_place, private_node, simulation);
   std::optional<sim::CameraPublisher> cameras(std::in_place, private_node, simulation);
   std::optional<sim::GazeboTopics> gazebo(std::in_place, private_node, simulation);
   ros::AsyncSpinner spinner(kThreads);
@@ -112,6 +115,7 @@ void run(ros::NodeHandle& node) {
   simulation.stop();
   gazebo.reset();
   cameras.reset();
+  markers.reset();
   contacts.reset();
   pictures.reset();
   services.reset();

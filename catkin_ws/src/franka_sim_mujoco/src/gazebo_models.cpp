@@ -1,10 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/pose_conversions.h>
 #include <franka_sim_mujoco/gazebo_models.h>
 #include <franka_sim_mujoco/sim_messages.h>
 #include <franka_sim_mujoco/simulation.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -13,29 +13,15 @@ namespace franka_sim_mujoco {
 
 namespace {
 
+using franka_sim::array;
+using franka_sim::toIsometry;
+using franka_sim::toPose;
+using franka_sim::vector;
+
 constexpr char kScope[] = "::";
 
 bool isWorld(const std::string& frame) {
   return frame.empty() || frame == "world" || frame == "map" || frame == "/map";
-}
-
-Eigen::Isometry3d toIsometry(const franka_sim::Pose& pose) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.translation() = Eigen::Vector3d::Map(pose.position.data());
-  const auto& q = pose.orientation;
-  result.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).normalized().toRotationMatrix();
-  return result;
-}
-
-std::array<double, 3> toArray(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-
-franka_sim::Pose toPose(const Eigen::Isometry3d& isometry) {
-  const Eigen::Quaterniond turn(isometry.linear());
-  return {toArray(isometry.translation()), {turn.w(), turn.x(), turn.y(), turn.z()}};
-}
-
-Eigen::Vector3d vector(const std::array<double, 3>& values) {
-  return Eigen::Vector3d::Map(values.data());
 }
 
 template <typename Message>
@@ -89,8 +75,8 @@ franka_sim::BodyState GazeboModels::toFrame(const franka_sim::BodyState& in_worl
   const franka_sim::Twist& twist = in_world.twist;
   return {
       toPose(pose.inverse() * toIsometry(in_world.pose)),
-      {toArray(turn * (vector(twist.linear) - vector(base.twist.linear))),
-       toArray(turn * (vector(twist.angular) - vector(base.twist.angular)))},
+      {array(turn * (vector(twist.linear) - vector(base.twist.linear))),
+       array(turn * (vector(twist.angular) - vector(base.twist.angular)))},
   };
 }
 
@@ -102,8 +88,8 @@ franka_sim::BodyState GazeboModels::toWorld(const franka_sim::BodyState& in_fram
   const Eigen::Isometry3d pose = toIsometry(world_.bodyPose(body(frame)));
   return {
       toPose(pose * toIsometry(in_frame.pose)),
-      {toArray(pose.linear() * vector(in_frame.twist.linear)),
-       toArray(pose.linear() * vector(in_frame.twist.angular))},
+      {array(pose.linear() * vector(in_frame.twist.linear)),
+       array(pose.linear() * vector(in_frame.twist.angular))},
   };
 }
 

@@ -18,7 +18,7 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr std::chrono::milliseconds kInterval{10};
+constexpr std::chrono::milliseconds kTopicInterval{10};
 
 /// ModelStates and LinkStates have the same fields.
 template <typename Message>
@@ -65,7 +65,7 @@ GazeboTopics::~GazeboTopics() {
 
 void GazeboTopics::loop() {
   while (!stop_) {
-    std::this_thread::sleep_for(kInterval);
+    std::this_thread::sleep_for(kTopicInterval);
     if (models_.getNumSubscribers() > 0) {
       orWarn("model_states", [this] { publishModels(); });
     }

@@ -115,9 +115,9 @@ void SimServices::offerStates() {
         const franka_sim::Pose pose = fromMessage(request.pose);
         const franka_sim::Twist twist = fromMessage(request.twist);
         // Checked before the pose is set, so that nothing changes on error.
-        franka_sim::sizes::check(twist.linear, franka_sim::sizes::kFastest, "m/s",
+        franka_sim::sizes::check(twist.linear, franka_sim::sizes::kMaxVelocity, "m/s",
                                  "The linear velocity");
-        franka_sim::sizes::check(twist.angular, franka_sim::sizes::kFastest, "rad/s",
+        franka_sim::sizes::check(twist.angular, franka_sim::sizes::kMaxVelocity, "rad/s",
                                  "The angular velocity");
         simulation_.withWorld([&](franka_sim::World& world) {
           world.setBodyPose(request.body, pose);

@@ -18,9 +18,9 @@ constexpr double kClockRate = 1000.0;  ///< [Hz] one per tick
 /// per message, uses a fiftieth of a processor for it.
 constexpr double kFastClockRate = 200.0;
 
-constexpr std::int64_t kLongestRun = 20000000;  ///< [ns]
+constexpr std::int64_t kMaxRunTime = 20000000;  ///< [ns]
 constexpr timespec kShortSleep{0, 1000000};
-/// Fewer sleeps within kLongestRun are contended locks, not waits for the next tick; or ticks are
+/// Fewer sleeps within kMaxRunTime are contended locks, not waits for the next tick; or ticks are
 /// at least 5 ms apart, and a short sleep delays none.
 constexpr std::int64_t kFewSleeps = 4;
 
@@ -48,7 +48,7 @@ std::int64_t threadNanoseconds() noexcept { return nanoseconds(CLOCK_THREAD_CPUT
 
 void ShortSleeps::sleepIfDue() noexcept {
   const std::int64_t now = monotonicNanoseconds();
-  if (now - looked_ns_ < kLongestRun) {
+  if (now - looked_ns_ < kMaxRunTime) {
     return;
   }
   if (sleepsOfThread() - sleeps_ < kFewSleeps) {
@@ -60,10 +60,10 @@ void ShortSleeps::sleepIfDue() noexcept {
 
 franka_sim::fci::Pace paceOf(double real_time_factor) {
   if (!std::isfinite(real_time_factor) || real_time_factor < 0.0 ||
-      (real_time_factor > 0.0 && real_time_factor < kSlowestPace)) {
+      (real_time_factor > 0.0 && real_time_factor < kMinPace)) {
     throw std::runtime_error("The real time factor " + std::to_string(real_time_factor) +
                              " is wrong: it must be 0 (as fast as possible) or at least " +
-                             std::to_string(kSlowestPace) + ".");
+                             std::to_string(kMinPace) + ".");
   }
   franka_sim::fci::Pace pace;
   pace.mode = real_time_factor > 0.0 ? franka_sim::fci::PaceMode::kPatient

@@ -13,7 +13,7 @@ namespace franka_sim_mujoco {
 namespace {
 
 constexpr std::uint32_t kDefaultWidth = 640, kDefaultHeight = 480;
-constexpr std::uint32_t kLargestSide = 4096;
+constexpr std::uint32_t kMaxSide = 4096;
 
 franka_sim::Camera toCamera(const RenderPicture::Request& request) {
   franka_sim::Camera camera;
@@ -30,7 +30,7 @@ franka_sim::Camera toCamera(const RenderPicture::Request& request) {
     }
   }
   if (distance < 1e-6) {
-    throw std::runtime_error("The camera stands at the point it looks at: move one of them.");
+    throw std::runtime_error("The camera is at its target point: move one of them.");
   }
   if (!(camera.field_of_view > 0.0 && camera.field_of_view < 180.0)) {
     throw std::runtime_error("The field of view must lie between 0 and 180 degrees.");
@@ -70,8 +70,8 @@ bool PictureService::render(RenderPicture::Request& request, RenderPicture::Resp
   try {
     const std::uint32_t width = request.width == 0 ? kDefaultWidth : request.width;
     const std::uint32_t height = request.height == 0 ? kDefaultHeight : request.height;
-    if (width > kLargestSide || height > kLargestSide) {
-      throw std::runtime_error("A picture may be at most " + std::to_string(kLargestSide) +
+    if (width > kMaxSide || height > kMaxSide) {
+      throw std::runtime_error("A picture may be at most " + std::to_string(kMaxSide) +
                                " pixels wide and high.");
     }
     const franka_sim::Camera camera = toCamera(request);

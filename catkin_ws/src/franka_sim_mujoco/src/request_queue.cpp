@@ -67,7 +67,7 @@ void RequestQueue::waitForWork(std::chrono::milliseconds timeout) {
   work_arrived_.wait_for(lock, timeout, [this] { return closed_ || !jobs_.empty(); });
 }
 
-void RequestQueue::close() {
+void RequestQueue::close() noexcept {
   std::lock_guard<std::mutex> lock(mutex_);
   closed_ = true;
   for (const auto& job : jobs_) {

@@ -1,6 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/robot/condition_text.h>
 #include <franka_sim_mujoco/joint_state_publisher.h>
+#include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/pace.h>
 #include <franka_sim_mujoco/robot_instance.h>
 #include <franka_sim_mujoco/transform_publisher.h>
@@ -14,8 +16,6 @@
 namespace franka_sim_mujoco {
 
 namespace {
-
-constexpr char kLog[] = "franka_sim_mujoco";
 
 /// The URDF uses the original's name of the hardware; if the package franka_gazebo is not ours (it
 /// steps aside for the original) the same hardware has our own name. Likewise Gazebo's default.
@@ -123,7 +123,7 @@ void RobotInstance::startHardware(const RobotPlan& plan, const RobotHandle& robo
     transforms_ = std::make_unique<TransformPublisher>(node, plan.urdf);
   }
   awaited_controllers_ = plan.awaited_controllers;
-  start_ticks_left_ = awaited_controllers_.empty() ? 0 : kLongestStart;
+  start_ticks_left_ = awaited_controllers_.empty() ? 0 : kMaxStartTicks;
 }
 
 bool RobotInstance::hasAnyOf(const std::vector<std::string>& joints) const {
@@ -183,7 +183,7 @@ void RobotInstance::reviewStart() {
     ROS_WARN_NAMED(kLog,
                    "'%s' has waited %d s of simulated time for its launch file to start %s': time "
                    "does not wait for that any longer.",
-                   name_.c_str(), kLongestStart / 1000, names.c_str());
+                   name_.c_str(), kMaxStartTicks / 1000, names.c_str());
   }
 }
 
@@ -203,6 +203,13 @@ void RobotInstance::requireRest() const {
     throw std::runtime_error("A client moves '" + name_ +
                              "' over the FCI: end its motion before anything is put elsewhere.");
   }
+}
+
+std::string RobotInstance::condition() const {
+  if (served_) {
+    return franka_sim::conditionText(name_, served_->robot().unit().state());
+  }
+  return hardware_ ? hardware_->condition() : "";
 }
 
 void RobotInstance::halt() {

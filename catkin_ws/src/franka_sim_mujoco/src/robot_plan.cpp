@@ -3,6 +3,7 @@
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/robot/realism.h>
 #include <franka_sim_mujoco/arm_parameters.h>
+#include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/param_reader.h>
 #include <franka_sim_mujoco/resources.h>
 #include <franka_sim_mujoco/robot_instance.h>
@@ -22,7 +23,6 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr char kLog[] = "franka_sim_mujoco";
 constexpr double kFirstFciPort = 1337;  // robot, gripper, vacuum gripper
 constexpr double kLastFciPort = 1339;
 
@@ -75,12 +75,12 @@ PluginElement readPluginElement(const std::string& urdf) {
 /// "panda" or "fr3"; the result and its reason are logged.
 std::string chooseRobotType(const ros::NodeHandle& node, const RobotPlan& plan) {
   const std::string parameter = node.resolveName("robot_type");
-  const std::optional<std::string> asked = readString(node, "robot_type");
-  if (asked && !isRobotType(*asked)) {
-    throw std::invalid_argument("The parameter " + parameter + " is '" + *asked +
+  const std::optional<std::string> configured = readString(node, "robot_type");
+  if (configured && !isRobotType(*configured)) {
+    throw std::invalid_argument("The parameter " + parameter + " is '" + *configured +
                                 "'; it must be panda or fr3.");
   }
-  const RobotType type = tellRobotType(asked, plan.urdf, plan.arm_id);
+  const RobotType type = determineRobotType(configured, plan.urdf, plan.arm_id);
   if (!type.warning.empty()) {
     ROS_WARN_NAMED(kLog, "'%s' is simulated as %s, as the parameter %s says, although %s.",
                    plan.description.name.c_str(), type.name.c_str(), parameter.c_str(),
@@ -104,8 +104,8 @@ std::string chooseNamespace(const SpawnOrder& order, const PluginElement& plugin
   if (!order.robot_namespace.empty() && ros::names::validate(own, why) &&
       ros::names::resolve(own) != ros::names::resolve(order.robot_namespace)) {
     ROS_WARN_NAMED(kLog,
-                   "'%s' lives in the namespace %s, as the robotNamespace of its description says, "
-                   "not in %s: its parameters and controllers are looked for there.",
+                   "'%s' uses the namespace %s, which is the robotNamespace of its description, "
+                   "not %s: its parameters and controllers are searched there.",
                    order.name.c_str(), ros::names::resolve(own).c_str(),
                    order.robot_namespace.c_str());
   }
@@ -142,7 +142,7 @@ void readServing(const ros::NodeHandle& node, RobotPlan* plan) {
   if (!(port >= 0.0 && port <= 65535.0) || port != std::floor(port) ||
       (port >= kFirstFciPort && port <= kLastFciPort)) {
     throw std::runtime_error("The parameter " + node.resolveName("control_port") +
-                             " is no port for the control interface: give 0 for none, or 1 to "
+                             " is not a port for the control interface: give 0 for none, or 1 to "
                              "65535 without the robot's own ports 1337 to 1339.");
   }
   plan->control_port = static_cast<std::uint16_t>(port);
@@ -172,7 +172,7 @@ RobotPlan planRobot(const SpawnOrder& order) {
   plan.robot_namespace = chooseNamespace(order, plugin);
   std::string why;
   if (!ros::names::validate(plan.robot_namespace, why)) {
-    throw std::runtime_error("'" + plan.robot_namespace + "' is no valid namespace: " + why);
+    throw std::runtime_error("'" + plan.robot_namespace + "' is not a valid namespace: " + why);
   }
   const ros::NodeHandle node(plan.robot_namespace);
   readServing(node, &plan);
@@ -207,7 +207,7 @@ RobotPlan planRobot(const SpawnOrder& order) {
     franka_sim::applyPhysics(plan.arm_physics, plan.arm_id, plan.description);
     if (!plan.fci_ip.empty()) {
       // As a real robot, it rests with a small distance from its initial positions.
-      franka_sim::comeToRest(franka_sim::kJointStiffness, plan.arm_id, plan.description);
+      franka_sim::applyRestOffset(franka_sim::kJointStiffness, plan.arm_id, plan.description);
     }
   }
   return plan;

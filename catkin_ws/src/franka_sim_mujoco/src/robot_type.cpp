@@ -80,12 +80,12 @@ std::optional<RobotType> detectByLimits(const urdf::Model& urdf, const std::stri
 
 bool isRobotType(const std::string& name) { return name == kPanda || name == kFr3; }
 
-RobotType tellRobotType(const std::optional<std::string>& configured, const urdf::Model& urdf,
-                        const std::string& arm_id) {
+RobotType determineRobotType(const std::optional<std::string>& configured, const urdf::Model& urdf,
+                             const std::string& arm_id) {
   const std::optional<RobotType> detected = detectByLimits(urdf, arm_id);
   if (configured) {
     const bool other = detected && detected->name != *configured;
-    return {*configured, "it was asked for",
+    return {*configured, "it was requested",
             other ? "it looks like " + detected->name + ": " + detected->why : ""};
   }
   if (detected) {

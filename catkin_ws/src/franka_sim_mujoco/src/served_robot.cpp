@@ -69,7 +69,7 @@ ServedRobot::ServedRobot(const RobotPlan& plan, const RobotHandle& robot,
   robot_.onRefusal(warn);
   if (plan.locked) {
     robot_.whole().start(franka_sim::SafetyRules::kDesk);
-    robot_.serve(true);  // closes its ports before anyone can find them
+    robot_.serve(true);  // closes its ports before a client can connect
   }
   if (plan.control_port != 0) {
     openControlInterface(plan, *robot.world, access);
@@ -94,7 +94,7 @@ void ServedRobot::addTo(franka_sim::fci::Host& host) {
   }
 }
 
-void ServedRobot::removeFrom(franka_sim::fci::Host& host) {
+void ServedRobot::removeFrom(franka_sim::fci::Host& host) noexcept {
   host.remove(robot_);
   if (lines_) {
     host.remove(*lines_);

@@ -30,7 +30,7 @@ bool isFinite(const franka_core::RobotCommand& command) noexcept {
 }
 
 /// An arm at full speed comes to rest within half a second.
-constexpr int kLongestStop = 2000;  // [ticks]
+constexpr int kMaxStopTime = 2000;  // [ticks]
 
 MotionGeneratorMode generatorOf(ControlMode mode) noexcept {
   if (contains(mode, ControlMode::JointPosition)) {
@@ -182,7 +182,7 @@ void SimArm::tryToStart() noexcept {
                                 : options_.internal_controller;
   if (unit_.request(request) != franka_sim::Status::kMotionStarted) {
     switch_ = Switch::kOngoing;
-    if (++ticks_waited_ > kLongestStop) {
+    if (++ticks_waited_ > kMaxStopTime) {
       refuse(Refusal::kNotAtRest);
     }
     return;

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/physics/bare_steps.h>
+#include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/resources.h>
 #include <franka_sim_mujoco/simulation.h>
 #include <ros/console.h>
@@ -15,13 +16,22 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr char kLog[] = "franka_sim_mujoco";
 constexpr std::uint32_t kTickNanoseconds = 1000000;
-constexpr std::chrono::milliseconds kServedNap{1};  ///< if clients wait
-constexpr std::chrono::milliseconds kStandStillNap{20};
+constexpr std::chrono::milliseconds kServedIdleSleep{1};  ///< if clients wait
+constexpr std::chrono::milliseconds kIdleSleep{20};
 /// Compiling a world with several robots takes seconds on a slow machine.
 constexpr std::chrono::milliseconds kSpawnTimeout{60000};
-constexpr double kMostClockRate = 1000.0;  ///< [Hz] (decision 22)
+constexpr double kMaxClockRate = 1000.0;  ///< [Hz] (decision 22)
+
+/// The time for reading a thread's clock, which is a tenth of a tick [us].
+double microsecondsOfAReading() noexcept {
+  constexpr int kReadings = 1000;
+  const std::int64_t start = threadNanoseconds();
+  for (int i = 1; i < kReadings; ++i) {
+    threadNanoseconds();
+  }
+  return 1e-3 * static_cast<double>(threadNanoseconds() - start) / kReadings;
+}
 
 }  // namespace
 
@@ -34,11 +44,11 @@ Simulation::Simulation(const SimulationOptions& options, ros::NodeHandle& node)
       real_time_factor_(options.real_time_factor),
       clock_rate_(options.clock_rate),
       paused_(options.paused) {
-  if (!std::isfinite(clock_rate_) || clock_rate_ < 0.0 || clock_rate_ > kMostClockRate) {
+  if (!std::isfinite(clock_rate_) || clock_rate_ < 0.0 || clock_rate_ > kMaxClockRate) {
     throw std::runtime_error("The clock rate " + std::to_string(clock_rate_) +
                              " Hz is wrong: it must be 0 (as fits the real time factor), or above "
                              "it and at most " +
-                             std::to_string(static_cast<int>(kMostClockRate)) + " Hz.");
+                             std::to_string(static_cast<int>(kMaxClockRate)) + " Hz.");
   }
   applyPace();
   const std::string unsupported = world_.unsupported();
@@ -96,12 +106,13 @@ void Simulation::loop() {
 
 void Simulation::standStill() {
   clock_.standStill(time());
-  requests_.waitForWork(host_.empty() ? kStandStillNap : kServedNap);
+  requests_.waitForWork(host_.empty() ? kIdleSleep : kServedIdleSleep);
   host_.standStill();
 }
 
 void Simulation::advance() {
   const ros::Time now = time();
+  world_.prepareBeside();
   for (const auto& robot : robots_) {
     robot->tick(now, timing_ ? &times_ : nullptr);
   }
@@ -146,6 +157,7 @@ void Simulation::applyPace() {
   const bool held = starting_ && (real_time_factor_ == 0.0 || real_time_factor_ > 1.0);
   const double factor = held ? 1.0 : real_time_factor_;
   host_.setPace(paceOf(factor));
+  world_.setPreparesBeside(factor == 0.0);
   clock_.setRate(clock_rate_ > 0.0 ? clock_rate_ : clockRateOf(factor));
 }
 
@@ -401,8 +413,8 @@ void Simulation::setJoints(const std::vector<std::string>& names,
 std::uint64_t Simulation::takeSnapshot(const std::string& name) {
   std::uint64_t hash = 0;
   requests_.run([&] {
-    if (snapshots_.count(name) == 0 && snapshots_.size() >= kMostSnapshots) {
-      throw std::runtime_error("There are " + std::to_string(kMostSnapshots) +
+    if (snapshots_.count(name) == 0 && snapshots_.size() >= kMaxSnapshots) {
+      throw std::runtime_error("There are " + std::to_string(kMaxSnapshots) +
                                " snapshots already: take this one under the name of an older one.");
     }
     snapshots_[name] = world_.snapshot();
@@ -431,24 +443,43 @@ void Simulation::withWorld(const std::function<void(franka_sim::World&)>& work) 
   requests_.run([&] { work(world_); });
 }
 
+double Simulation::timeTicks(std::uint32_t ticks) {
+  const std::int64_t start = threadNanoseconds();
+  for (std::uint32_t i = 0; i < ticks; ++i) {
+    host_.tickAtOnce();
+  }
+  return 1e-3 * static_cast<double>(threadNanoseconds() - start) / ticks;
+}
+
+std::vector<std::string> Simulation::conditions() const {
+  std::vector<std::string> lines;
+  for (const auto& robot : robots_) {
+    const std::string line = robot->condition();
+    if (!line.empty()) {
+      lines.push_back(line);
+    }
+  }
+  return lines;
+}
+
 Simulation::Benchmark Simulation::benchmark(std::uint32_t ticks) {
   if (ticks == 0) {
     throw std::runtime_error("A benchmark needs at least one tick.");
   }
   Benchmark result;
   requests_.run([&] {
+    result.tick = timeTicks(ticks);
     times_ = TickTimes();
     timing_ = true;
-    const std::int64_t start = threadNanoseconds();
-    for (std::uint32_t i = 0; i < ticks; ++i) {
-      host_.tickAtOnce();
-    }
+    timeTicks(ticks);
     timing_ = false;
-    const double scale = 1e-3 / ticks;
-    result.tick = scale * static_cast<double>(threadNanoseconds() - start);
-    result.read = scale * static_cast<double>(times_.read);
-    result.update = scale * static_cast<double>(times_.update);
-    result.write = scale * static_cast<double>(times_.write);
+    const double clock = microsecondsOfAReading() * static_cast<double>(robots_.size());
+    const auto part = [&](std::int64_t sum) {
+      return std::max(0.0, 1e-3 * static_cast<double>(sum) / ticks - clock);
+    };
+    result.read = part(times_.read);
+    result.update = part(times_.update);
+    result.write = part(times_.write);
     result.physics = result.tick - result.read - result.update - result.write;
     result.bare = franka_sim::bareTickMicroseconds(world_, ticks);
     host_.restartClock();

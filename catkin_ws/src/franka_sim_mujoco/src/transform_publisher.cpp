@@ -17,7 +17,7 @@ KDL::Tree treeOf(const urdf::Model& urdf) {
   KDL::Tree tree;
   if (!kdl_parser::treeFromUrdfModel(urdf, tree)) {
     throw std::runtime_error("The links of the robot description '" + urdf.getName() +
-                             "' are no tree: their transforms cannot be published.");
+                             "' do not form a tree: their transforms cannot be published.");
   }
   return tree;
 }

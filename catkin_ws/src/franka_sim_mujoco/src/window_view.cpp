@@ -1,17 +1,19 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/physics/window.h>
+#include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/simulation.h>
 #include <franka_sim_mujoco/window_view.h>
 #include <ros/console.h>
 
 #include <chrono>
 #include <exception>
+#include <string>
+#include <vector>
 
 namespace franka_sim_mujoco {
 namespace {
 
-constexpr char kLog[] = "franka_sim_mujoco";
 constexpr std::chrono::milliseconds kFrame{33};
 
 }  // namespace
@@ -28,12 +30,17 @@ void WindowView::loop() {
   try {
     franka_sim::Window window("franka_sim_mujoco");
     bool open = true;
+    franka_sim::PushByMouse push;
     while (open && !stop_) {
       const auto next = std::chrono::steady_clock::now() + kFrame;
       franka_sim::Scene scene;
-      simulation_.withWorld(
-          [&](franka_sim::World& world) { scene = franka_sim::captureScene(world); });
-      open = window.draw(scene);
+      std::vector<std::string> lines;
+      simulation_.withWorld([&](franka_sim::World& world) {
+        push.act(world, window.push());
+        scene = franka_sim::captureScene(world);
+        lines = simulation_.conditions();
+      });
+      open = window.draw(scene, lines);
       std::this_thread::sleep_until(next);
     }
   } catch (const std::exception& error) {

@@ -8,13 +8,13 @@
 #include <franka_sim_mujoco/command_shaper.h>
 #include <franka_sim_mujoco/sim_arm.h>
 #include <gtest/gtest.h>
+#include <transform_sweep.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "robot/arm_fixture.h"
-#include "robot/transform_sweep.h"
 
 namespace franka_sim_mujoco {
 namespace {
@@ -95,8 +95,7 @@ TEST(CommandShaper, PoseHandlesAcceptTheSamePosesAsTheRobot) {
         shaping.cutoff_frequency = cutoff;
         const std::array<double, 16> pose =
             PoseControlledArm(parameters, shaping).arm.commands().pose;
-        for (const franka_sim::test::PerturbedMatrix& perturbed :
-             franka_sim::test::perturbations(pose)) {
+        for (const franka_test::PerturbedMatrix& perturbed : franka_test::perturbations(pose)) {
           PoseControlledArm controlled(parameters, shaping);
           ASSERT_EQ(SimArm::Switch::kDone, controlled.arm.switchResult());
           controlled.arm.commands().pose = perturbed.matrix;
@@ -114,6 +113,31 @@ TEST(CommandShaper, PoseHandlesAcceptTheSamePosesAsTheRobot) {
       }
     }
   }
+}
+
+// libfranka's filters throw then.
+TEST(CommandShaper, PassesCommandsUnshapedIfTheStateIsNotFinite) {
+  using franka_hw::ControlMode;
+  franka_core::RobotState state{};
+  state.q_d[0] = state.dq_d[1] = state.O_T_EE_c[12] = state.O_dP_EE_c[2] = state.tau_J_d[3] = NAN;
+  state.message_id = 11;
+  ShapingOptions options;
+  options.torques = true;
+  ArmCommands desired;
+  desired.position.fill(0.1);
+  desired.velocity.fill(0.2);
+  desired.pose = franka_core::kIdentityTransform;
+  desired.twist.fill(0.3);
+  desired.torque.fill(0.4);
+  const auto shaped = [&](ControlMode mode) {
+    return shapeCommand(options, mode, desired, state, limitsOf(5));
+  };
+  EXPECT_EQ(11U, shaped(ControlMode::JointPosition).message_id);
+  EXPECT_EQ(desired.position, shaped(ControlMode::JointPosition).q_c);
+  EXPECT_EQ(desired.velocity, shaped(ControlMode::JointVelocity).dq_c);
+  EXPECT_EQ(desired.pose, shaped(ControlMode::CartesianPose).O_T_EE_c);
+  EXPECT_EQ(desired.twist, shaped(ControlMode::CartesianVelocity).O_dP_EE_c);
+  EXPECT_EQ(desired.torque, shaped(ControlMode::JointTorque).tau_J_d);
 }
 
 /// The robot itself checks the shaped commands of a controller that jumps.

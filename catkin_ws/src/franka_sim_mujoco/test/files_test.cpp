@@ -18,16 +18,17 @@
 #include <vector>
 
 #include "sentences.h"
+#include "temporary_folder.h"
 
 namespace franka_sim_mujoco {
 namespace {
 
 TEST(WorldFile, FindsWorldsByTheirNames) {
   namespace fs = std::filesystem;
-  const fs::path folder = fs::path(testing::TempDir()) / "franka_world_file_test";
-  fs::create_directories(folder / "elsewhere");
+  const franka_test::TemporaryFolder own;
+  const fs::path& folder = own.path();
   for (const char* name : {"stone.xml", "elsewhere/beside.xml", "elsewhere/beside.sdf"}) {
-    std::ofstream(folder / name) << "<mujoco/>";
+    own.write(name, "<mujoco/>");
   }
   const std::vector<std::string> folders{folder.string()};
   const std::string stone = (folder / "stone.xml").string();
@@ -43,61 +44,58 @@ TEST(WorldFile, FindsWorldsByTheirNames) {
             findWorldFile((folder / "elsewhere/beside.world").string(), folders));
   const std::string text = sentence([&] { findWorldFile("/nowhere/moon.sdf", folders); });
   EXPECT_TRUE(contains(text, "/nowhere/moon.sdf") && contains(text, folder.string())) << text;
-  fs::remove_all(folder);
 }
 
 /// The only test in this program that searches packages: they are searched once.
 TEST(Resources, AreFoundInFoldersThatPackagesExport) {
   namespace fs = std::filesystem;
-  const fs::path package = fs::path(testing::TempDir()) / "franka_resources_test" / "pebbles";
-  fs::create_directories(package / "my_models" / "pebble");
-  fs::create_directories(package / "my_worlds");
-  std::ofstream(package / "package.xml")
-      << "<package "
-         "format='2'><name>pebbles</name><version>1.0.0</version><description>d</description>"
-         "<maintainer email='a@b.org'>a</maintainer><license>none</license>"
-         "<exec_depend>gazebo_ros</exec_depend><export>"
-         "<gazebo_ros gazebo_model_path='${prefix}/my_models'/>"
-         "<gazebo_ros gazebo_media_path='${prefix}/my_worlds'/>"
-         "<gazebo_ros plugin_path='${prefix}/lib'/></export></package>";
-  const fs::path model = package / "my_models" / "pebble" / "model.sdf";
-  std::ofstream(model)
-      << "<sdf version='1.6'><model name='pebble'><link name='link'><collision name='c'><geometry>"
-         "<sphere><radius>0.02</radius></sphere></geometry></collision></link></model></sdf>";
-  std::ofstream(package / "my_models" / "pebble" / "model.config")
-      << "<model><name>pebble</name><version>1.0</version><sdf "
-         "version='1.6'>model.sdf</sdf></model>";
-  const fs::path world = package / "my_worlds" / "beach.sdf";
-  std::ofstream(world) << "<sdf version='1.6'><world name='beach'>"
-                          "<include><uri>model://pebble</uri><pose>0 0 1 0 0 0</pose></include>"
-                          "<include><uri>model://stone</uri><pose>1 0 1 0 0 0</pose></include>"
-                          "</world></sdf>";
+  const franka_test::TemporaryFolder folder;
+  const fs::path package = folder.path() / "pebbles";
+  folder.write("pebbles/package.xml",
+               "<package format='2'><name>pebbles</name><version>1.0.0</version>"
+               "<description>d</description><maintainer email='a@b.org'>a</maintainer>"
+               "<license>none</license><exec_depend>gazebo_ros</exec_depend><export>"
+               "<gazebo_ros gazebo_model_path='${prefix}/my_models'/>"
+               "<gazebo_ros gazebo_media_path='${prefix}/my_worlds'/>"
+               "<gazebo_ros plugin_path='${prefix}/lib'/></export></package>");
+  const std::string model = folder.write(
+      "pebbles/my_models/pebble/model.sdf",
+      "<sdf version='1.6'><model name='pebble'><link name='link'><collision name='c'><geometry>"
+      "<sphere><radius>0.02</radius></sphere></geometry></collision></link></model></sdf>");
+  folder.write("pebbles/my_models/pebble/model.config",
+               "<model><name>pebble</name><version>1.0</version>"
+               "<sdf version='1.6'>model.sdf</sdf></model>");
+  const std::string world =
+      folder.write("pebbles/my_worlds/beach.sdf",
+                   "<sdf version='1.6'><world name='beach'>"
+                   "<include><uri>model://pebble</uri><pose>0 0 1 0 0 0</pose></include>"
+                   "<include><uri>model://stone</uri><pose>1 0 1 0 0 0</pose></include>"
+                   "</world></sdf>");
   const char* before = std::getenv("ROS_PACKAGE_PATH");
   ASSERT_NE(before, nullptr);
   setenv("ROS_PACKAGE_PATH", (package.string() + ":" + before).c_str(), 1);
 
-  EXPECT_EQ(resolveUri("model://pebble/model.sdf"), model.string());
+  EXPECT_EQ(resolveUri("model://pebble/model.sdf"), model);
   EXPECT_TRUE(fs::is_regular_file(resolveUri("model://stone/model.sdf")));
   EXPECT_EQ(resolveUri("model://no_such_thing/model.sdf"), "");
   EXPECT_EQ(resolveUri("package://pebbles/package.xml"), (package / "package.xml").string());
   const auto plugins = gazeboPluginFolders();
   EXPECT_EQ(std::count(plugins.begin(), plugins.end(), (package / "lib").string()), 1);
-  EXPECT_EQ(findWorldFile("beach.sdf", gazeboResourceFolders()), world.string());
+  EXPECT_EQ(findWorldFile("beach.sdf", gazeboResourceFolders()), world);
 
-  franka_sim::World beach(world.string(), resolveUri);
+  franka_sim::World beach(world, resolveUri);
   EXPECT_EQ(beach.bodyPose("pebble").position[2], 1.0);
   EXPECT_EQ(beach.bodyPose("stone").position[0], 1.0);
-  fs::remove_all(package.parent_path());
 }
 
 class PhysicsFile : public testing::Test {
  protected:
-  void TearDown() override { std::remove(path_.c_str()); }
   franka_sim::RobotPhysics read(const std::string& text, const std::string& realism = "ideal") {
-    std::ofstream(path_) << text;
-    return franka_sim::readRobotPhysics(path_, "panda", franka_sim::readRealism(realism, "ideal"));
+    return franka_sim::readRobotPhysics(folder_.write(kFile, text), "panda",
+                                        franka_sim::readRealism(realism, "ideal"));
   }
-  std::string path_{testing::TempDir() + "franka_physics_file_test.yaml"};
+  static constexpr char kFile[] = "physics.yaml";
+  franka_test::TemporaryFolder folder_;
 };
 
 TEST_F(PhysicsFile, TakesTheRobotsSectionAndItsParts) {
@@ -132,7 +130,7 @@ TEST_F(PhysicsFile, ReportsErrorsWithTheirCause) {
       contains(complaint("panda: {bandwidth: {tau_ext_hat_filtered: [0, 1, 1, 1, 1, 1, 1]}}",
                          "bandwidth=on"),
                "must be positive"));
-  EXPECT_TRUE(contains(complaint("panda: ["), path_));
+  EXPECT_TRUE(contains(complaint("panda: ["), folder_ / kFile));
   EXPECT_TRUE(contains(sentence([] { franka_sim::readRobotPhysics("/nowhere.yaml", "panda", {}); }),
                        "/nowhere.yaml"));
 }

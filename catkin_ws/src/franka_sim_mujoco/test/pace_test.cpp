@@ -21,11 +21,11 @@ TEST(Pace, RefusesInvalidFactors) {
     EXPECT_TRUE(contains(sentence([&] { paceOf(factor); }), "is wrong: it must be 0")) << factor;
   }
   EXPECT_EQ(franka_sim::fci::PaceMode::kFreeRunning, paceOf(0.0).mode);
-  EXPECT_EQ(franka_sim::fci::PaceMode::kPatient, paceOf(kSlowestPace).mode);
+  EXPECT_EQ(franka_sim::fci::PaceMode::kPatient, paceOf(kMinPace).mode);
 }
 
 TEST(Pace, PublishesTheClockLessOftenBeyondRealTime) {
-  EXPECT_EQ(1000.0, clockRateOf(kSlowestPace));
+  EXPECT_EQ(1000.0, clockRateOf(kMinPace));
   EXPECT_EQ(1000.0, clockRateOf(1.0));
   for (const double factor : {0.0, 1.01, 30.0}) {
     EXPECT_GE(clockRateOf(factor), 100.0) << factor;

@@ -239,6 +239,21 @@ class ParametersTest(unittest.TestCase):
         log.unregister()
         self.assertTrue(self.delete("right").success)
 
+    def test_a_robot_that_begins_within_another_one_is_reported(self):
+        messages, log = self.listen_to_log()
+        rospy.set_param("/first/arm_id", "panda")
+        rospy.set_param("/within/arm_id", "right")
+        self.assertTrue(self.spawn("panda", "/first").success)
+        answer = self.spawn("right", "/within", rospy.get_param("/fr3_description"))
+        self.assertTrue(answer.success, answer.error)
+        warning = self.expect_warning(messages, "The robot 'right' begins within other bodies")
+        self.assertIn("right_link1 and panda_link1", warning)
+        self.assertIn("Give it another place (x, y, z)", warning)
+        self.assertFalse([m.msg for m in messages if "The robot 'panda' begins" in m.msg])
+        log.unregister()
+        self.assertTrue(self.delete("right").success)
+        self.assertTrue(self.delete("panda").success)
+
     def test_the_namespace_of_the_description_is_used(self):
         # The manual's own snippet of the plugin.
         messages, log = self.listen_to_log()
@@ -250,7 +265,7 @@ class ParametersTest(unittest.TestCase):
         self.assertTrue(answer.success, answer.error)
         service("/own_name/controller_manager/list_controllers", ListControllers)
         self.assertFalse([topic for topic, _ in rospy.get_published_topics() if topic.startswith("/ordered")])
-        self.expect_warning(messages, "lives in the namespace /own_name")
+        self.expect_warning(messages, "uses the namespace /own_name")
         log.unregister()
         self.assertTrue(self.delete("panda").success)
 

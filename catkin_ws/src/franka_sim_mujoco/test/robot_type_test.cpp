@@ -62,50 +62,51 @@ std::string carried(const std::string& arm_id) {
          arm_id + "_link0'/></joint>";
 }
 
-RobotType tell(const std::string& name, const std::string& parts,
-               const std::optional<std::string>& asked = {}, const std::string& arm_id = "arm") {
+RobotType detect(const std::string& name, const std::string& parts,
+                 const std::optional<std::string>& configured = {},
+                 const std::string& arm_id = "arm") {
   urdf::Model urdf;
   EXPECT_TRUE(urdf.initString("<robot name='" + name + "'>" + parts + "</robot>"));
-  return tellRobotType(asked, urdf, arm_id);
+  return determineRobotType(configured, urdf, arm_id);
 }
 
 TEST(RobotType, IsDetectedByTheJointsNotByTheName) {
   for (const Limits& fr3 :
        {kFr3Urdf, kFr3Ros2Urdf, slowed(kFr3Urdf), narrowed(kFr3Urdf), narrowed(kFr3Ros2Urdf)}) {
-    EXPECT_EQ("fr3", tell("my_machine", joints("arm", fr3)).name);
-    EXPECT_EQ("fr3", tell("panda", joints("arm", fr3)).name);
+    EXPECT_EQ("fr3", detect("my_machine", joints("arm", fr3)).name);
+    EXPECT_EQ("fr3", detect("panda", joints("arm", fr3)).name);
   }
   for (const Limits& panda : {kPandaUrdf, slowed(kPandaUrdf), narrowed(kPandaUrdf)}) {
-    EXPECT_EQ("panda", tell("my_machine", joints("arm", panda)).name);
-    EXPECT_EQ("panda", tell("fr3", joints("arm", panda)).name);
+    EXPECT_EQ("panda", detect("my_machine", joints("arm", panda)).name);
+    EXPECT_EQ("panda", detect("fr3", joints("arm", panda)).name);
   }
   EXPECT_TRUE(
-      contains(tell("a", joints("arm", kFr3Urdf)).why, "positions that the URDF allows arm"));
-  EXPECT_TRUE(contains(tell("a", joints("arm", narrowed(kFr3Urdf))).why, "velocities"));
+      contains(detect("a", joints("arm", kFr3Urdf)).why, "positions that the URDF allows arm"));
+  EXPECT_TRUE(contains(detect("a", joints("arm", narrowed(kFr3Urdf))).why, "velocities"));
 }
 
 TEST(RobotType, IsDetectedForEachOfSeveralArms) {
   const std::string both = "<link name='base'/>" + joints("left", kFr3Urdf) + carried("left") +
                            joints("right", kPandaUrdf) + carried("right");
-  EXPECT_EQ("fr3", tell("two_arms", both, {}, "left").name);
-  EXPECT_EQ("panda", tell("two_arms", both, {}, "right").name);
+  EXPECT_EQ("fr3", detect("two_arms", both, {}, "left").name);
+  EXPECT_EQ("panda", detect("two_arms", both, {}, "right").name);
 }
 
 TEST(RobotType, FollowsTheNameIfTheJointsAreAmbiguous) {
   for (const std::string& parts :
        {joints("arm", slowed(narrowed(kFr3Urdf))), joints("other", kFr3Urdf)}) {
-    EXPECT_EQ("fr3", tell("fr3", parts).name);
-    EXPECT_EQ("panda", tell("my_machine", parts).name);
-    EXPECT_TRUE(contains(tell("my_machine", parts).why, "'my_machine'"));
-    EXPECT_EQ("", tell("my_machine", parts, "fr3").warning);
+    EXPECT_EQ("fr3", detect("fr3", parts).name);
+    EXPECT_EQ("panda", detect("my_machine", parts).name);
+    EXPECT_TRUE(contains(detect("my_machine", parts).why, "'my_machine'"));
+    EXPECT_EQ("", detect("my_machine", parts, "fr3").warning);
   }
 }
 
 TEST(RobotType, ParameterOverridesTheJointsAndWarns) {
-  const RobotType agreed = tell("my_machine", joints("arm", kFr3Urdf), "fr3");
+  const RobotType agreed = detect("my_machine", joints("arm", kFr3Urdf), "fr3");
   EXPECT_EQ("fr3", agreed.name);
   EXPECT_EQ("", agreed.warning);
-  const RobotType contradicted = tell("fr3", joints("arm", kFr3Urdf), "panda");
+  const RobotType contradicted = detect("fr3", joints("arm", kFr3Urdf), "panda");
   EXPECT_EQ("panda", contradicted.name);
   EXPECT_TRUE(contains(contradicted.warning, "looks like fr3: the positions"));
   EXPECT_TRUE(isRobotType("panda") && isRobotType("fr3"));

@@ -51,7 +51,7 @@ std::optional<urdf::Model> describedBy(const ros::NodeHandle& nh, const Paramete
   for (const std::string& joint : parameters.joint_names) {
     if (!description.getJoint(joint)) {
       ROS_WARN_STREAM("The parameter '" << nh.resolveName("joint_names") << "' holds '" << joint
-                                        << "', which is no joint of '" << name
+                                        << "', which is not a joint of '" << name
                                         << "': give both the same arm_id.");
       return std::nullopt;
     }

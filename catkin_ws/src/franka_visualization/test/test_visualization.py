@@ -6,7 +6,6 @@ import os
 import re
 import subprocess
 import time
-from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -14,37 +13,16 @@ import yaml
 from fci_session import simulated
 from franka_sim_mujoco.session import Session
 from PIL import Image
+from screen import virtual_screen, with_rviz
 
 ADDRESS = "127.0.33.1"
 # Start pose of the simulated robot (the ready pose), and of its hand.
 READY = [0.0, -0.785398, 0.0, -2.356194, 0.0, 1.570796, 0.785398]
 
 
-@contextmanager
-def process(*command, **options):
-    running = subprocess.Popen(command, **options)
-    try:
-        yield running
-    finally:
-        running.terminate()
-        try:
-            running.wait(20)
-        finally:
-            running.kill()
-
-
 @pytest.fixture(scope="module")
 def screen():
-    """A virtual screen with software OpenGL; its number is X's own choice."""
-    read, write = os.pipe()
-    quiet = {"stdout": subprocess.DEVNULL, "stderr": subprocess.DEVNULL}
-    command = ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x960x24"]
-    with pytest.MonkeyPatch.context() as patch, process(*command, pass_fds=[write], **quiet):
-        os.close(write)
-        with os.fdopen(read) as answer:
-            patch.setenv("DISPLAY", f":{answer.readline().strip()}")
-        patch.setenv("LIBGL_ALWAYS_SOFTWARE", "1")
-        patch.setenv("QT_X11_NO_MITSHM", "1")
+    with virtual_screen():
         yield
 
 
@@ -78,6 +56,12 @@ def joint_states(session) -> dict:
 
 @pytest.mark.parametrize("name", ["panda", "fr3"] if os.environ.get("FRANKA_TEST_LONG") else ["panda"])
 def test_joint_states_hold_arm_and_hand(screen, tmp_path, name):
+    with_rviz(lambda: see_joint_states(name, tmp_path), tmp_path / "launch.log")
+    log = (tmp_path / "launch.log").read_text(errors="replace")
+    assert not re.findall(r"^.*\[ ?(?:WARN|ERROR|FATAL)\].*$", log, re.M)
+
+
+def see_joint_states(name, tmp_path):
     rviz = name == "panda"
     robot = simulated(name, "realtime", address=ADDRESS)
     with robot, launch(tmp_path / "launch.log", name, f"rviz:={str(rviz).lower()}") as session:
@@ -96,8 +80,6 @@ def test_joint_states_hold_arm_and_hand(screen, tmp_path, name):
                 assert time.monotonic() < deadline, f"rviz shows nothing:\n{session.tail(40)}"
                 time.sleep(0.5)
         session.check()
-    log = (tmp_path / "launch.log").read_text(errors="replace")
-    assert not re.findall(r"^.*\[ ?(?:WARN|ERROR|FATAL)\].*$", log, re.M)
 
 
 @pytest.mark.parametrize(

@@ -88,38 +88,38 @@ TEST(AbortDiagnosis, NamesTheJointTheValueAndTheLimit) {
   const std::array<double, 7> step{{0, 0, 0.003, 0, 0, 0.001, 0}};
   std::string text = only(diagnoseAbort(jointLog(13, step), 5));
   expectIn(text, "joint_motion_generator_velocity_limits_violation: joint 3");
-  expectIn(text, "a velocity of 3 rad/s, and 2.175 are allowed (at 102 ms)");
+  expectIn(text, "a velocity of 3 rad/s; the limit is 2.175 (at 102 ms)");
   text = only(diagnoseAbort(jointLog(14, step), 5));
   expectIn(text, "joint_motion_generator_velocity_discontinuity: joint 3");
-  expectIn(text, "an acceleration of 3000 rad/s^2, and 10 are allowed");
+  expectIn(text, "an acceleration of 3000 rad/s^2; the limit is 10");
   text = only(diagnoseAbort(jointLog(15, step), 5));
-  expectIn(text, "a jerk of 3e+06 rad/s^3, and 5000 are allowed");
+  expectIn(text, "a jerk of 3e+06 rad/s^3; the limit is 5000");
 }
 
 TEST(AbortDiagnosis, UsesTheLimitsOfTheRobot) {
   const std::array<double, 7> step{{0, 0.003, 0, 0, 0, 0, 0}};
-  expectIn(only(diagnoseAbort(jointLog(14, step), 5)), "and 7.5 are allowed");
-  expectIn(only(diagnoseAbort(jointLog(14, step), 10)), "and 10 are allowed");
+  expectIn(only(diagnoseAbort(jointLog(14, step), 5)), "the limit is 7.5");
+  expectIn(only(diagnoseAbort(jointLog(14, step), 10)), "the limit is 10");
   // An FR3's velocity limit depends on the joint's position.
   const double limit = upperVelocityLimit(kFr3PositionVelocityLimits, 1, 0.2);
   const std::string text = only(diagnoseAbort(jointLog(13, step), 7));
   expectIn(text, "joint 2 was commanded a velocity of 3 rad/s");
   char allowed[32];
-  std::snprintf(allowed, sizeof(allowed), "and %.4g are", limit);
+  std::snprintf(allowed, sizeof(allowed), "the limit is %.4g", limit);
   expectIn(text, allowed);
 }
 
 TEST(AbortDiagnosis, PositionsOutsideTheRange) {
   auto log = jointLog(12, {{0, 0, 0, 2.0, 0, 0, 0}});
   expectIn(only(diagnoseAbort(log, 5)),
-           "joint 4 was to go to 0.5 rad, and its range is -3.072 to -0.0698 rad");
+           "joint 4 was commanded to 0.5 rad, and its range is -3.072 to -0.0698 rad");
   log.back().state.reflex_reason = {};
   log.back().state.reflex_reason[0] = true;
   log.back().state.q[5] = 4.0;
   expectIn(only(diagnoseAbort(log, 5)), "joint 6 stood at 4 rad");
   // Newer systems use this flag for commands too.
   log.back().state.q[5] = 1.6;
-  expectIn(only(diagnoseAbort(log, 10)), "joint 4 was to go to 0.5 rad");
+  expectIn(only(diagnoseAbort(log, 10)), "joint 4 was commanded to 0.5 rad");
   expectIn(only(diagnoseAbort(followingLog(0), 10)),
            "joint 4 would have followed the Cartesian command to -0.06781 rad");
 }
@@ -127,10 +127,10 @@ TEST(AbortDiagnosis, PositionsOutsideTheRange) {
 TEST(AbortDiagnosis, UnreachableTargets) {
   // Joint 1 of an FR3 ends at 2.9007 rad; its velocity limit is 0 from 2.8644 rad on.
   const auto log = jointLog(0, {{2.79, 0, 0, 0, 0, 0, 0}});
-  expectIn(
-      only(diagnoseAbort(log, 10)),
-      "joint 1 was to go to 2.89 rad, and its velocity limit, which shrinks towards the ends of "
-      "its range, is 0 outside of -2.864 to 2.864 rad");
+  expectIn(only(diagnoseAbort(log, 10)),
+           "joint 1 was commanded to 2.89 rad, and its velocity limit, which shrinks towards the "
+           "ends of "
+           "its range, is 0 outside of -2.864 to 2.864 rad");
 }
 
 TEST(AbortDiagnosis, PosesThatAreNotTransforms) {
@@ -143,7 +143,7 @@ TEST(AbortDiagnosis, TorqueRates) {
   auto log = jointLog(32, {});
   log.back().command.tau_J_d[6] = -1.5;
   expectIn(only(diagnoseAbort(log, 5)),
-           "joint 7 was commanded a change of torque of -1500 Nm/s, and 1000 are allowed");
+           "joint 7 was commanded a change of torque of -1500 Nm/s; the limit is 1000");
 }
 
 TEST(AbortDiagnosis, JumpsOfPoses) {
@@ -154,35 +154,34 @@ TEST(AbortDiagnosis, JumpsOfPoses) {
   }
   log.back().command.O_T_EE_c[12] = 0.004;  // 4 m/s
   expectIn(only(diagnoseAbort(log, 5)),
-           "the translation was commanded a velocity of 4 m/s, and 2 are allowed (at 102 ms)");
+           "the translation was commanded a velocity of 4 m/s; the limit is 2 (at 102 ms)");
   // Rotated by 5 mrad: 5 rad/s, 5000 rad/s^2.
   log.back().command.O_T_EE_c = pose(0.005, 0.0);
   expectIn(only(diagnoseAbort(log, 5)),
-           "the rotation was commanded a velocity of 5 rad/s, and 2.5 are allowed");
+           "the rotation was commanded a velocity of 5 rad/s; the limit is 2.5");
   log.back().state.reflex_reason = {};
   log.back().state.reflex_reason[19] = true;
-  expectIn(only(diagnoseAbort(log, 5)), "an acceleration of 5000 rad/s^2, and 25 are allowed");
+  expectIn(only(diagnoseAbort(log, 5)), "an acceleration of 5000 rad/s^2; the limit is 25");
 }
 
 TEST(AbortDiagnosis, JointsThatFollowACartesianCommand) {
   // Continued with 1000 rad/s^3: 13 rad/s^2, 2.173 + 0.013 rad/s, -0.07 + 0.002186 rad.
   const std::string text = only(diagnoseAbort(followingLog(28), 5));
   expectIn(text,
-           "joint 4 would have followed the Cartesian command with a velocity of 2.186 rad/s, and "
-           "2.175 are allowed (at 103 ms).");
+           "joint 4 would have followed the Cartesian command with a velocity of 2.186 rad/s; the "
+           "limit is 2.175 (at 103 ms).");
   expectIn(text, "singular");
   expectIn(only(diagnoseAbort(followingLog(29), 5)),
-           "joint 4 would have followed the Cartesian command with an acceleration of 13 rad/s^2, "
-           "and 12.5 are allowed (at 103 ms)");
+           "joint 4 would have followed the Cartesian command with an acceleration of 13 rad/s^2; "
+           "the limit is 12.5 (at 103 ms)");
   expectIn(only(diagnoseAbort(followingLog(27), 5)),
            "joint 4 would have followed the Cartesian command to -0.06781 rad, and its range is "
            "-3.072 to -0.0698 rad");
   auto log = followingLog(30);
   log[2].state.ddq_d[3] = 18.5;
-  expectIn(
-      only(diagnoseAbort(log, 5)),
-      "joint 4 would have followed the Cartesian command with a jerk of 7500 rad/s^3, and 6250 "
-      "are allowed (at 102 ms)");
+  expectIn(only(diagnoseAbort(log, 5)),
+           "joint 4 would have followed the Cartesian command with a jerk of 7500 rad/s^3; the "
+           "limit is 6250 (at 102 ms)");
   // Over three milliseconds, with two states lost.
   log[2].state.message_id = 104;
   expectIn(only(diagnoseAbort(log, 5)), "a jerk of 2500 rad/s^3");
@@ -196,7 +195,7 @@ TEST(AbortDiagnosis, NoVelocityIsAllowedAtTheEndOfAnFr3sJoint) {
   }
   log.back().command.q_c[3] += 0.0005;
   expectIn(only(diagnoseAbort(log, 10)),
-           "joint 4 was commanded a velocity of 0.5 rad/s, and 0 are allowed (at 102 ms)");
+           "joint 4 was commanded a velocity of 0.5 rad/s; the limit is 0 (at 102 ms)");
 }
 
 TEST(AbortDiagnosis, ElbowVelocities) {
@@ -204,21 +203,21 @@ TEST(AbortDiagnosis, ElbowVelocities) {
   for (AbortRecord& record : log) {
     record.state.delbow_c[0] = 1.0;
   }
-  const auto said = [&log](double q3, unsigned version) {
+  const auto message = [&log](double q3, unsigned version) {
     log.back().command.elbow_c[0] = q3;
     return only(diagnoseAbort(log, version));
   };
-  expectIn(said(0.3025, 5),
-           "the elbow (joint 3) was commanded a velocity of 2.5 rad/s, and 2.175 are allowed (at "
+  expectIn(message(0.3025, 5),
+           "the elbow (joint 3) was commanded a velocity of 2.5 rad/s; the limit is 2.175 (at "
            "102 ms)");
   // The lowest derivative that is too high, in the robot's order.
-  expectIn(said(0.3025, 10), "an acceleration of 1500 rad/s^2, and 10 are allowed");
-  expectIn(said(0.30102, 5), "an acceleration of 20 rad/s^2, and 10 are allowed");
-  expectIn(said(0.301006, 5), "a jerk of 6000 rad/s^3, and 5000 are allowed");
-  expectIn(said(3.0, 5),
-           "joint 3 was to go as elbow to 3 rad, and its range is -2.897 to 2.897 rad");
+  expectIn(message(0.3025, 10), "an acceleration of 1500 rad/s^2; the limit is 10");
+  expectIn(message(0.30102, 5), "an acceleration of 20 rad/s^2; the limit is 10");
+  expectIn(message(0.301006, 5), "a jerk of 6000 rad/s^3; the limit is 5000");
+  expectIn(message(3.0, 5),
+           "joint 3 was commanded, as the elbow, to 3 rad, and its range is -2.897 to 2.897 rad");
   log.back().command.valid_elbow = false;
-  expectIn(said(0.0, 5), "no command of the log has an elbow");
+  expectIn(message(0.0, 5), "no command of the log has an elbow");
 }
 
 TEST(AbortDiagnosis, ElbowSignsAndStarts) {
@@ -232,7 +231,7 @@ TEST(AbortDiagnosis, ElbowSignsAndStarts) {
   auto log = cartesianLog(22);
   log.back().command.elbow_c[0] = 0.9;
   expectIn(only(diagnoseAbort(log, 5)),
-           "the first command put the elbow (joint 3) at 0.9 rad while elbow_c was 0.3 rad");
+           "the first command had the elbow (joint 3) at 0.9 rad while elbow_c was 0.3 rad");
 }
 
 TEST(AbortDiagnosis, RotatedStartPoses) {
@@ -246,7 +245,7 @@ TEST(AbortDiagnosis, MeasuredValuesIncludeTheLastState) {
   auto log = jointLog(3, {});
   log.back().state.dq[6] = -2.8;
   expectIn(only(diagnoseAbort(log, 5)),
-           "joint 7 moved at -2.8 rad/s, and 2.61 are allowed (at 103 ms)");
+           "joint 7 moved at -2.8 rad/s; the limit is 2.61 (at 103 ms)");
 }
 
 TEST(AbortDiagnosis, CollisionsNameTheirForces) {

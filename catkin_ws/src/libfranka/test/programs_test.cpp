@@ -76,7 +76,7 @@ TEST(NewestPrograms, ApplyVelocityLimitsThatDependOnThePosition) {
   EXPECT_EQ(franka_core::RobotMode::kIdle, fake.state().robot_mode);
 }
 
-TEST(NewestPrograms, DetectThatAnArmIsNoMobileBase) {
+TEST(NewestPrograms, DetectThatAnArmIsNotAMobileBase) {
   FakeRobot fake(10);
   EXPECT_EQ(1, runNewest("mobile_base", fake));
 }

@@ -20,12 +20,9 @@ using franka_core::ArmFrame;
 using franka_core::ArmModel;
 
 TEST(RealTime, GuardDetectsAnAllocation) {
-  if (!rt_guard::kActive) {
-    GTEST_SKIP() << "a sanitizer owns malloc";
-  }
   rt_guard::Scope scope;
   const auto allocated = std::make_unique<volatile int>(1);
-  EXPECT_EQ(1u, scope.allocations());
+  EXPECT_EQ(rt_guard::kActive ? 1u : 0u, scope.allocations());  // a sanitizer owns malloc
 }
 
 TEST(RealTime, ArmModelNeitherAllocatesNorLocks) {

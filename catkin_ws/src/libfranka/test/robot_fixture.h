@@ -19,22 +19,35 @@ using franka_core::fci::Status;
 
 constexpr std::array<std::uint16_t, 8> kVersions{3, 4, 5, 6, 7, 8, 9, 10};
 
-/// Sets timeouts for a robot that answers within a millisecond or never; restores them at the end.
-class ShortTimeouts {
+/// Sets timeouts, and restores those before at its end.
+class ScopedTimeouts {
  public:
-  ShortTimeouts() : before_(franka::timeouts()) {
+  explicit ScopedTimeouts(const franka::Timeouts& timeouts) : before_(franka::timeouts()) {
+    franka::setTimeouts(timeouts);
+  }
+  ~ScopedTimeouts() { franka::setTimeouts(before_); }
+  ScopedTimeouts(const ScopedTimeouts&) = delete;
+  ScopedTimeouts& operator=(const ScopedTimeouts&) = delete;
+
+ private:
+  franka::Timeouts before_;
+};
+
+/// Timeouts for a robot that answers within a millisecond or never.
+class ShortTimeouts : public ScopedTimeouts {
+ public:
+  ShortTimeouts() : ScopedTimeouts(timeouts()) {}
+
+ private:
+  static franka::Timeouts timeouts() {
     franka::Timeouts timeouts;
     timeouts.connect = std::chrono::milliseconds(2000);
     timeouts.state = std::chrono::milliseconds(150);
     timeouts.command = std::chrono::milliseconds(200);
     timeouts.long_command = std::chrono::milliseconds(250);
     timeouts.silence = std::chrono::milliseconds(150);
-    franka::setTimeouts(timeouts);
+    return timeouts;
   }
-  ~ShortTimeouts() { franka::setTimeouts(before_); }
-
- private:
-  franka::Timeouts before_;
 };
 
 inline std::unique_ptr<franka::Robot> connect(const FakeRobot& robot, std::size_t log_size = 50) {

@@ -103,9 +103,6 @@ TEST_P(RealTime, ActiveControlNeitherAllocatesNorLocks) {
 
 // Shows that the count works.
 TEST(RealTimeWindow, DetectsAllocationsOfACallback) {
-  if (!rt_guard::kActive) {
-    GTEST_SKIP() << "a sanitizer owns malloc";
-  }
   FakeRobot fake(5);
   const auto robot = connect(fake);
   int cycles = 0;
@@ -118,7 +115,7 @@ TEST(RealTimeWindow, DetectsAllocationsOfACallback) {
     const franka::Torques torques({0, 0, 0, 0, 0, 0, 0});
     return ++cycles == 10 ? franka::MotionFinished(torques) : torques;
   });
-  EXPECT_EQ(10u, allocations);
+  EXPECT_EQ(rt_guard::kActive ? 10u : 0u, allocations);  // a sanitizer owns malloc
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RealTime, ::testing::ValuesIn(kVersions), versionName);

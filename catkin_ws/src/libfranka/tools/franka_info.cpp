@@ -52,7 +52,7 @@ const char* modeName(franka::RobotMode mode) {
   return franka_core::fci::modeName(static_cast<franka_core::RobotMode>(mode));
 }
 
-/// What the user must do before this robot can be controlled; empty: nothing.
+/// The action that the user must take before this robot can be controlled; empty: none.
 std::string obstacle(const franka::RobotState& state) {
   switch (state.robot_mode) {
     case franka::RobotMode::kIdle:

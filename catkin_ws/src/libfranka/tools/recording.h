@@ -6,7 +6,7 @@
 
 namespace franka_info {
 
-/// What to record, and where.
+/// Options of a recording.
 struct RecordingOptions {
   std::string address, file;
   double seconds{30.0};

@@ -4,7 +4,7 @@
 
     franka_desk --robot 127.0.0.1
 
-Programs that log in to a robot before they use the FCI, and browsers, find what they find at a real one
+For programs that log in to a robot before they use the FCI, and for browsers, it behaves like a real one
 (docs/desk.md). It needs aiohttp and cryptography: the extra `pyfranka[desk]`, or Debian's packages. Desk
 talks to the robot over its control interface only (docs/franka_sim.md).
 """
@@ -34,7 +34,7 @@ _MODULES = {
 
 
 def __getattr__(name: str):
-    """Imports what is used: the program's --help does without aiohttp."""
+    """Imports a name when it is used: the program's --help does not need aiohttp."""
     if name in _MODULES:
         return getattr(importlib.import_module(f"pyfranka.desk.{_MODULES[name]}"), name)
     raise AttributeError(f"module 'pyfranka.desk' has no attribute '{name}'")

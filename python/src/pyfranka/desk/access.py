@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Whether a request may do what it asks for: its login, its control token, and where it comes from."""
+"""Whether a request is permitted: checks its login, its control token and its origin."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ ROLES = {Login.SAFETY: {"Admin", "SafetyOperator"}, Login.ADMIN: {"Admin"}}
 
 
 def check_origin(request: web.Request, changes: bool) -> None:
-    """Refuses what a page of another origin makes a browser send; clients that are no browser send neither
+    """Refuses requests that a page of another origin makes a browser send; other clients send neither
     header. changes: whether the request may change something, or opens a WebSocket."""
     if not changes and request.method in SAFE_METHODS:
         return
@@ -38,8 +38,8 @@ def check_origin(request: web.Request, changes: bool) -> None:
 
 
 async def user_of(request: web.Request, desk: Desk) -> User | None:
-    """Who sends the request: by a login (cookie or header), or by name and password. None without either.
-    Raises DeskError (401) for a wrong name or password."""
+    """The user that sends the request: by a login (cookie or header), or by name and password. None without
+    either. Raises DeskError (401) for a wrong name or password."""
     header = request.headers.get("Authorization", "")
     if header.startswith("Basic "):
         return await _user_of_basic(request, desk, header.removeprefix("Basic "))
@@ -52,7 +52,7 @@ async def user_of(request: web.Request, desk: Desk) -> User | None:
 
 
 async def check_password(request: web.Request, desk: Desk, user: typing.Callable[[], User | None]) -> User:
-    """The user that a comparison of passwords gives. An address that has sent many wrong ones waits before
+    """Compares a password and returns its user. An address that has sent many wrong passwords waits before
     each further comparison. Raises DeskError (401)."""
     address, throttle = address_of(request), desk.gate.wrong_logins
     waits = throttle.delay(address) > 0.0
@@ -103,12 +103,12 @@ def check_token(call: Call, rule: Token) -> None:
 
 
 def not_in_control() -> DeskError:
-    """The token is not that of the one who has control."""
+    """The token does not hold control."""
     return DeskError(423, "Locked", "This token does not have control of the robot. Request control first.")
 
 
 def form_tokens(call: Call) -> list[str]:
-    """What the field `token` of a form may mean: clients send the token in base64."""
+    """The possible tokens in the field `token` of a form: clients send the token in base64."""
     word = call.form().get("token", "")
     if not word:
         return []

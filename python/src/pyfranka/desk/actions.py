@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What both interfaces let the robot do."""
+"""Actions of the robot for both interfaces."""
 
 from __future__ import annotations
 
@@ -61,8 +61,8 @@ async def self_test(desk: Desk, wait: bool) -> None:
 
 
 async def move_to_pack_pose(desk: Desk) -> None:
-    """Returns when the robot is there, or refuses it. An FCI that is always on pauses, unless a client moves
-    the robot."""
+    """Returns when the robot has reached the pose; raises Refused. An FCI that is always on pauses, unless a
+    client moves the robot."""
     if desk.profile.tokens:
         await desk.robot.send("move pack")
         return

@@ -13,15 +13,15 @@ from pyfranka.desk.robot import Refused
 
 
 class DeskError(Exception):
-    """An answer that is an error. code: a word that programs compare; message: a sentence for people;
-    details: further words."""
+    """An answer that is an error. code: a word that programs compare; message: a message for the user;
+    details: further codes."""
 
     def __init__(self, status: int, code: str, message: str, details: typing.Sequence[str] = ()):
         super().__init__(message)
         self.status, self.code, self.message, self.details = status, code, message, list(details)
 
     def answer(self, v1: bool) -> web.Response:
-        """In the form of one of the interfaces; what only the older one has comes first."""
+        """In the form of one of the interfaces; members of the older one come first."""
         body: dict[str, typing.Any] = {"code": self.code, "message": self.message, "details": self.details}
         if not v1:
             body = {"error": self.code, "reason": (self.details or [self.code])[0], **body}
@@ -29,23 +29,23 @@ class DeskError(Exception):
 
 
 def bad_request(message: str) -> DeskError:
-    """The request has no meaning."""
+    """The request is invalid."""
     return DeskError(400, "BadRequest", message)
 
 
 def unavailable(message: str) -> DeskError:
-    """The robot is not there, or not yet."""
+    """The robot is not available, or not yet."""
     return DeskError(503, "ServiceUnavailable", message)
 
 
-# Refusals that only time removes: clients ask again.
-LATER = {"SelfTestRunning", "NotReady"}
+# Refusals that end after some time: clients try again.
+TEMPORARY = {"SelfTestRunning", "NotReady"}
 
 
 def refusal(refused: Refused) -> DeskError:
     """A refusal by the robot's rules."""
     details = [refused.code] if refused.code else []
-    status = 503 if refused.code in LATER else 424
+    status = 503 if refused.code in TEMPORARY else 424
     return DeskError(status, "ActionUnavailable", refused.sentence, details)
 
 

@@ -16,8 +16,8 @@ from cryptography.hazmat.primitives import hashes, serialization
 from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
-ROBOT_NAME = "robot.franka.de"  # which clients give as the server's name
-DAYS, LEFT = 825, 30  # [days] of validity, and before whose end it is replaced (chosen here)
+ROBOT_NAME = "robot.franka.de"  # clients send it as the server's name
+DAYS, LEFT = 825, 30  # [days] of validity; a certificate with fewer days left is replaced (chosen here)
 
 
 def tls_context(address: str, folder: Path | None = None) -> ssl.SSLContext:
@@ -34,13 +34,13 @@ def tls_context(address: str, folder: Path | None = None) -> ssl.SSLContext:
 
 
 def cache_folder() -> Path:
-    """Where certificates are kept."""
+    """The folder of the certificates."""
     base = os.environ.get("XDG_CACHE_HOME") or str(Path.home() / ".cache")
     return Path(base) / "franka_desk"
 
 
 def make_pem(address: str) -> bytes:
-    """A new key and its certificate, for the address and the name that clients ask for."""
+    """A new key and its certificate, for the address and the server's name that clients send."""
     key = ec.generate_private_key(ec.SECP256R1())
     now = datetime.datetime.now(datetime.UTC)
     name = x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, ROBOT_NAME)])
@@ -60,7 +60,7 @@ def make_pem(address: str) -> bytes:
         .add_extension(x509.BasicConstraints(ca=True, path_length=0), critical=True)
         .add_extension(_key_usage(), critical=True)
         .add_extension(usage, critical=False)
-        # Strict clients (Python 3.13) want both.
+        # Strict clients (Python 3.13) require both.
         .add_extension(identifier, critical=False)
         .add_extension(
             x509.AuthorityKeyIdentifier.from_issuer_subject_key_identifier(identifier), critical=False
@@ -96,7 +96,7 @@ def _is_valid(path: Path) -> bool:
 
 def _write(path: Path, pem: bytes) -> None:
     path.parent.mkdir(mode=0o700, parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent)  # which only this user may read
+    handle, name = tempfile.mkstemp(dir=path.parent)  # readable by this user only
     with os.fdopen(handle, "wb") as file:
         file.write(pem)
     os.replace(name, path)
@@ -112,4 +112,7 @@ def _context_of(pem: bytes) -> ssl.SSLContext:
 def _context(path: Path) -> ssl.SSLContext:
     context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
     context.load_cert_chain(path)
+    # A client with one thread that reads and one that writes (Python's websockets, so panda-python) can lose
+    # the answer to its first request while it reads tickets: 6 of 2400 times, and never without tickets.
+    context.num_tickets = 0
     return context

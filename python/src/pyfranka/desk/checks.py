@@ -9,13 +9,13 @@ import typing
 
 from pyfranka.desk.answers import bad_request
 
-LONGEST_TEXT = 200  # [characters] (chosen here)
+MAX_TEXT_LENGTH = 200  # [characters] (chosen here)
 
 
 def text(value: typing.Any, name: str) -> str:
     """A text that is not empty."""
-    if not isinstance(value, str) or not value.strip() or len(value) > LONGEST_TEXT:
-        raise bad_request(f"The field {name} is a text of 1 to {LONGEST_TEXT} characters.")
+    if not isinstance(value, str) or not value.strip() or len(value) > MAX_TEXT_LENGTH:
+        raise bad_request(f"The field {name} must be a text of 1 to {MAX_TEXT_LENGTH} characters.")
     return value
 
 
@@ -23,17 +23,17 @@ def number(value: typing.Any, name: str, limit: float = math.inf) -> float:
     """A number whose magnitude is at most the limit."""
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not abs(value) <= limit:
         raise bad_request(
-            f"The field {name} is a number" + (f" up to {limit:g}." if math.isfinite(limit) else ".")
+            f"The field {name} must be a number" + (f" up to {limit:g}." if math.isfinite(limit) else ".")
         )
     if not math.isfinite(result := float(value)):
-        raise bad_request(f"The field {name} is a finite number.")
+        raise bad_request(f"The field {name} must be a finite number.")
     return result
 
 
 def numbers(value: typing.Any, count: int, name: str, limit: float = math.inf) -> list[float]:
     """A list of so many numbers."""
     if not isinstance(value, list) or len(value) != count:
-        raise bad_request(f"The field {name} is a list of {count} numbers.")
+        raise bad_request(f"The field {name} must be a list of {count} numbers.")
     return [number(each, name, limit) for each in value]
 
 
@@ -42,12 +42,12 @@ def members(
 ) -> list[float]:
     """An object's members of these names, all of them numbers."""
     if not isinstance(value, dict) or not set(names) <= set(value):
-        raise bad_request(f"The field {name} is an object with {', '.join(names)}.")
+        raise bad_request(f"The field {name} must be an object with {', '.join(names)}.")
     return [number(value[each], f"{name}.{each}", limit) for each in names]
 
 
 def known(value: dict[str, typing.Any], names: typing.Iterable[str], name: str) -> None:
-    """Whether it has no other members."""
+    """Raises DeskError (400) if the object has other members."""
     others = sorted(set(value) - set(names))
     if others:
         raise bad_request(f"The field {name} has no '{others[0][:50]}'.")

@@ -25,7 +25,7 @@ FIRST_REPORT = 3.0  # [s] to wait for the robots before Desk listens (chosen her
 NICE = 5  # robots come first (chosen here)
 
 
-class NoPlace(Exception):
+class CannotListen(Exception):
     """Desk cannot listen; the text is a sentence."""
 
 
@@ -42,9 +42,9 @@ def main(arguments: Sequence[str] | None = None) -> int:
     if generated:
         print(f"franka_desk: user {settings.user}, password {settings.password}", flush=True)
     logging.basicConfig(format="franka_desk: %(message)s", level=logging.WARNING)
-    # It writes a traceback for each request that is no HTTP; the client gets an answer anyway.
+    # It writes a traceback for each request that is not HTTP; the client gets an answer anyway.
     logging.getLogger("aiohttp.server").setLevel(logging.CRITICAL)
-    _come_last()
+    _lower_priority()
     try:
         return asyncio.run(_run(robots, listen, settings, words.child))
     except ModuleNotFoundError as error:
@@ -53,13 +53,13 @@ def main(arguments: Sequence[str] | None = None) -> int:
             "python3-cryptography, or pyfranka[desk] by pip.",
             file=sys.stderr,
         )
-    except NoPlace as error:
+    except CannotListen as error:
         print(f"franka_desk: {error}", file=sys.stderr)
     return 1
 
 
 # A program that has controlled a robot has real-time priority, which the programs that it starts inherit.
-def _come_last() -> None:
+def _lower_priority() -> None:
     with contextlib.suppress(OSError):
         os.sched_setscheduler(0, os.SCHED_OTHER, os.sched_param(0))
         os.nice(NICE)
@@ -110,7 +110,7 @@ def _place(word: str, port: int) -> tuple[str, int]:
     if not colon or (":" in address and not address.startswith("[")):  # an address of IPv6
         return word.strip("[]"), port
     if not number.isdecimal() or not int(number) < 65536 or not address:
-        raise ValueError(f"'{word}' is no ADDRESS:PORT.")
+        raise ValueError(f"'{word}' is not an ADDRESS:PORT.")
     return address.strip("[]"), int(number)
 
 
@@ -156,7 +156,7 @@ async def _open(app, places: list[tuple[str, int]]):
         except OSError as error:
             if (address, port) == places[-1] or error.errno not in (errno.EACCES, errno.EPERM):
                 why = os.strerror(error.errno) if error.errno else str(error)
-                raise NoPlace(
+                raise CannotListen(
                     f"Desk cannot listen at {address}, port {port}: {why}. Choose another place with "
                     "--listen ADDRESS:PORT."
                 ) from None

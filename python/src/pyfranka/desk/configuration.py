@@ -19,11 +19,12 @@ Json = dict[str, typing.Any]
 END_EFFECTORS = ("None", "FrankaHand", "CobotPump", "GenericCan", "Other")
 ROLES = ("Admin", "SafetyOperator", "Operator")
 END_EFFECTOR, NETWORK, USERS = "endEffectorConfiguration", "networkConfiguration", "userConfiguration"
-MOST_USERS = 50  # (chosen here)
+MAX_USERS = 50  # (chosen here)
 
 
 class Configuration:
-    """Kept while the program runs. The network's part is kept only: the address is the command line's."""
+    """Kept while the program runs. The part about the network is only stored: the command line sets the real
+    address."""
 
     def __init__(self, desk: Desk):
         self._desk = desk
@@ -74,24 +75,24 @@ class Configuration:
     # A password that is not given stays.
     def _users(self, value: typing.Any) -> list[User]:
         entries = value.get("users") if isinstance(value, dict) else None
-        if not isinstance(entries, list) or not 0 < len(entries) <= MOST_USERS:
-            raise bad_request(f"The field users is a list of 1 to {MOST_USERS} users.")
+        if not isinstance(entries, list) or not 0 < len(entries) <= MAX_USERS:
+            raise bad_request(f"The field users must be a list of 1 to {MAX_USERS} users.")
         users = [self._user(entry) for entry in entries]
         if len({user.name for user in users}) < len(users):
             raise bad_request("Two users have the same name.")
         if not any(user.role == "Admin" for user in users):
-            raise bad_request("One user at least has the role Admin.")
+            raise bad_request("One user at least must have the role Admin.")
         return users
 
     def _user(self, entry: typing.Any) -> User:
         if not isinstance(entry, dict):
-            raise bad_request("A user is an object with name, password and role.")
+            raise bad_request("A user must be an object with name, password and role.")
         name = checks.text(entry.get("name"), "name")
         if ":" in name or not name.isprintable():
-            raise bad_request("A user's name has printable characters without a colon.")
+            raise bad_request("A user's name must have printable characters without a colon.")
         role = entry.get("role")
         if role not in ROLES:
-            raise bad_request(f"The field role is one of {', '.join(ROLES)}.")
+            raise bad_request(f"The field role must be one of {', '.join(ROLES)}.")
         known = self._desk.users.get(name)
         if known is not None and entry.get("password") is None:
             return User(name, known.digest, role)
@@ -120,12 +121,12 @@ def _end_effector(value: typing.Any) -> tuple[Json, Load]:
 
 def _network(value: typing.Any, present: Json) -> Json:
     if not isinstance(value, dict):
-        raise bad_request("The field networkConfiguration is an object.")
+        raise bad_request("The field networkConfiguration must be an object.")
     checks.known(value, present, "networkConfiguration")
     for part in value.values():
         if not isinstance(part, dict):
-            raise bad_request("The parts of networkConfiguration are objects.")
+            raise bad_request("The parts of networkConfiguration must be objects.")
     shop_floor = value.get("shopFloor", present["shopFloor"])
     if shop_floor.get("type") not in ("Static", "Dhcp"):
-        raise bad_request("The field shopFloor.type is Static or Dhcp.")
+        raise bad_request("The field shopFloor.type must be Static or Dhcp.")
     return {**present, **value}

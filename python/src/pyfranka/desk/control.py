@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Single point of control in the older interface: requests, take-over, release, and the FCI's switch."""
+"""Single point of control in the older interface: requests, take-over, release, and activation of the FCI."""
 
 from __future__ import annotations
 
@@ -13,8 +13,8 @@ PATH = "/admin/api/control-token"
 
 
 async def request_control(call: Call):
-    """Granted at once while nobody has control, pending otherwise. With `force` a press of the circle button
-    at the robot grants it."""
+    """Granted at once if no user has control, else pending. With `force`, a press of the circle button at the
+    robot grants it."""
     owner = call.object({}).get("requestedBy", call.user.name if call.user else "")
     checks.text(owner, "requestedBy")
     force = call.request.query.get("force", "false").lower() not in ("false", "0")
@@ -31,7 +31,7 @@ async def cancel_request(call: Call):
 
 
 async def release_control(call: Call):
-    """Ends control, or withdraws the own request. It switches the FCI off."""
+    """Ends control, or withdraws the pending request of this token. Switches the FCI off."""
     if not call.desk.tokens.release(_token(call)):
         raise unknown_token()
     await call.desk.settle()
@@ -51,13 +51,13 @@ async def deactivate_fci(call: Call):
 
 
 async def safety(call: Call):
-    """How long a forced take-over waits for the circle button [s]."""
+    """Time limit for the circle button in a forced take-over [s]."""
     time = call.desk.options.force_timeout
     return {"tokenForceTimeout": int(time) if time.is_integer() else time}
 
 
 def unknown_token() -> DeskError:
-    """Nobody has this token, or not any more."""
+    """The token is unknown or expired."""
     return DeskError(404, "ControlTokenUnknown", "This control token is not known. Request control again.")
 
 

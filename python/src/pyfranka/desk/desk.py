@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Desk of one robot: its users' logins, who has control, and what follows the robot's state."""
+"""Desk of one robot: logins of its users, control, and reactions to the robot's state."""
 
 from __future__ import annotations
 
@@ -29,7 +29,8 @@ RESTART = 2.0  # [s] that a restart of the software takes (chosen here)
 
 
 class Desk:
-    """robot: its control interface. users: of all robots of this process. tokens: who has control."""
+    """robot: its control interface. users: of all robots of this process. tokens: control and requests for
+    it."""
 
     def __init__(self, robot: Robot, settings: Settings, users: Users, gate: Gate):
         self.robot, self.settings, self.users, self.gate = robot, settings, users, gate
@@ -86,11 +87,11 @@ class Desk:
     # ---- changes -----------------------------------------------------------------------------------------
 
     def on_report(self, listener: Callable[[Report | None, Report], None]) -> None:
-        """Calls the listener with the report before and the new one."""
+        """Calls the listener with the previous report and the new one."""
         self._on_report.append(listener)
 
     def changed(self) -> None:
-        """Wakes all watchers: a report has come, or control has changed."""
+        """Wakes all watchers: a report has arrived, or control has changed."""
         for event in self._watchers:
             event.set()
 
@@ -123,11 +124,11 @@ class Desk:
             self._sockets.discard(socket)
 
     async def close_sockets(self) -> None:
-        """Tells all of them that the robot goes down."""
+        """Closes all of them with the code for a robot that goes down."""
         closing = [socket.close(code=WSCloseCode.GOING_AWAY) for socket in self._sockets]
         await asyncio.gather(*closing, return_exceptions=True)
 
-    # Control first, then what is told to clients: who sees the circle button pressed has control already.
+    # Control first, then notifications: a client that sees the button has control already.
     def _follow(self) -> None:
         before, now = self._last, self.robot.report
         self._last = now
@@ -139,21 +140,21 @@ class Desk:
             for listener in self._on_report:
                 listener(before, now)
             if changes := status.changed_buttons(before, now):
-                for tell in list(self._on_buttons):
-                    tell(changes)
+                for callback in list(self._on_buttons):
+                    callback(changes)
         self.changed()
 
     # ---- work beside requests ----------------------------------------------------------------------------
 
     def begin(self, work: Coroutine) -> asyncio.Task:
-        """Runs it beside the requests; the robot's refusals are ignored."""
+        """Runs it in parallel to the requests; refusals of the robot are ignored."""
         task = asyncio.get_running_loop().create_task(_quietly(work))
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
         return task
 
     async def settle(self) -> None:
-        """Waits until a loss of control has had its effect."""
+        """Waits until the effects of a loss of control have ended."""
         if self._switching_off is not None:
             await self._switching_off
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What is at the robot's flange: profiles of the FR3, settings of the Panda."""
+"""End effectors: profiles of the FR3, settings of the Panda."""
 
 from __future__ import annotations
 
@@ -24,8 +24,8 @@ PLACES = (0, 1, 2, 1, 3, 4, 2, 4, 5)  # of these in a matrix of nine
 XYZ, ANGLES = ("x", "y", "z"), ("roll", "pitch", "yaw")
 IDENTITY = (1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0)
 # Limits of a profile: mass [kg], lengths [m], inertia [kg m^2].
-HEAVIEST, LONGEST, LARGEST_INERTIA = 3.0, 0.3, 1.0
-LONGEST_LIST = 100  # profiles (chosen here)
+MAX_MASS, MAX_DISTANCE, MAX_INERTIA = 3.0, 0.3, 1.0
+MAX_PROFILES = 100  # profiles (chosen here)
 NOTHING: Json = {
     "inertial": {
         "mass": 0.0,
@@ -38,7 +38,8 @@ NOTHING: Json = {
 
 @dataclass(frozen=True)
 class Load:
-    """Mass [kg], centre of mass [m] and inertia [kg m^2], 9, at the flange; pose of the tool, 16."""
+    """Mass [kg], centre of mass [m] and inertia [kg m^2] (9 numbers) at the flange; pose of the tool (16
+    numbers)."""
 
     mass: float = 0.0
     center: typing.Sequence[float] = (0.0, 0.0, 0.0)
@@ -84,9 +85,9 @@ class EndEffectors:
 
     def add(self, value: Json) -> str:
         """A new profile. @returns its id."""
-        if len(self._known()) >= LONGEST_LIST:
+        if len(self._known()) >= MAX_PROFILES:
             raise DeskError(
-                409, "Conflict", f"There are {LONGEST_LIST} profiles already. Delete one of them."
+                409, "Conflict", f"There are {MAX_PROFILES} profiles already. Delete one of them."
             )
         profile = _profile(f"ee-profile-{self._next}", value)
         self._next += 1
@@ -94,7 +95,7 @@ class EndEffectors:
         return profile.id
 
     async def change(self, id: str, value: Json) -> None:
-        """Replaces one; if it is active, the robot assumes its values at once."""
+        """Replaces one; if it is active, its values are set in the robot at once."""
         self._editable(id)
         profile = _profile(id, value)
         if id == self._active:
@@ -114,13 +115,13 @@ class EndEffectors:
         return id == self._active
 
     async def activate(self, id: str) -> None:
-        """Makes the robot assume its values."""
+        """Sets its values in the robot."""
         profile = self._find(id)
         await self.desk.robot.send(profile.load.line())
         self._active = id
 
     async def set_load(self, load: Load) -> None:
-        """Makes the robot assume these values, which are no profile's."""
+        """Sets values in the robot that belong to no profile."""
         await self.desk.robot.send(load.line())
 
     def _find(self, id: str) -> Profile:
@@ -162,9 +163,9 @@ class EndEffectors:
 def load_of_lists(value: Json) -> Load:
     """From a Panda's settings: lists."""
     load = Load(
-        checks.number(value.get("mass"), "mass", HEAVIEST),
-        checks.numbers(value.get("centerOfMass"), 3, "centerOfMass", LONGEST),
-        checks.numbers(value.get("inertia"), 9, "inertia", LARGEST_INERTIA),
+        checks.number(value.get("mass"), "mass", MAX_MASS),
+        checks.numbers(value.get("centerOfMass"), 3, "centerOfMass", MAX_DISTANCE),
+        checks.numbers(value.get("inertia"), 9, "inertia", MAX_INERTIA),
         checks.numbers(value.get("transformation"), 16, "transformation"),
     )
     _check(load)
@@ -175,12 +176,12 @@ def load_of_objects(inertial: typing.Any, tcp: typing.Any) -> Load:
     """From objects with named members."""
     if not isinstance(inertial, dict) or not isinstance(tcp, dict):
         raise bad_request("An end effector needs the objects for its mass and for its tool.")
-    inertia = checks.members(inertial.get("inertia"), INERTIA, "inertia", LARGEST_INERTIA)
-    translation = checks.members(tcp.get("translation"), XYZ, "translation", LONGEST)
+    inertia = checks.members(inertial.get("inertia"), INERTIA, "inertia", MAX_INERTIA)
+    translation = checks.members(tcp.get("translation"), XYZ, "translation", MAX_DISTANCE)
     rotation = checks.members(tcp.get("rotation"), ANGLES, "rotation", math.pi + 1e-6)
     load = Load(
-        checks.number(inertial.get("mass"), "mass", HEAVIEST),
-        checks.members(inertial.get("centerOfMass"), XYZ, "centerOfMass", LONGEST),
+        checks.number(inertial.get("mass"), "mass", MAX_MASS),
+        checks.members(inertial.get("centerOfMass"), XYZ, "centerOfMass", MAX_DISTANCE),
         [inertia[place] for place in PLACES],
         pose_of(translation, rotation),
     )
@@ -214,7 +215,7 @@ def _profile(id: str, value: Json) -> Profile:
     name = checks.text(value.get("name"), "name")
     device = value.get("deviceId", GENERIC)
     if device not in (GENERIC, GRIPPER):
-        raise bad_request(f"The field deviceId is {GENERIC} or {GRIPPER}.")
+        raise bad_request(f"The field deviceId must be {GENERIC} or {GRIPPER}.")
     model = value.get("modelUri")
     if model is not None and model != "":
         model = checks.text(model, "modelUri")

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Switches the FCI on by itself: where it is always on, and where it was requested before its time."""
+"""Switches the FCI on automatically: if it is always on, and if it was requested too early."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ class FciKeeper:
 
     @contextlib.contextmanager
     def paused(self):
-        """Keeps an FCI that is always on from coming back."""
+        """While it is active, an FCI that is always on is not switched on."""
         self._pauses += 1
         try:
             yield
@@ -45,7 +45,7 @@ class FciKeeper:
             self._next_attempt = time.monotonic() + ATTEMPT
             self._desk.begin(self._desk.robot.send("fci on"))
 
-    # Without tokens it is always on.
+    # A robot without tokens has an FCI that is always on.
     def _is_desired(self) -> bool:
         return self.desired or not self._desk.profile.tokens
 

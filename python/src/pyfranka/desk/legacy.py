@@ -27,8 +27,8 @@ PILOT_MODES = {"one": "desk", "desk": "desk", "robot": "robot"}
 
 
 async def login(call: Call):
-    """Answers with the bare token. It is no cookie: clients make one of it themselves, and two would be one
-    too many."""
+    """Answers with the bare token. Not as a cookie, because clients create the cookie themselves, and two
+    of one name would conflict."""
     body = call.object()
     name, digest = body.get("login"), body.get("password")
     if not isinstance(name, str) or not isinstance(digest, str):
@@ -39,7 +39,7 @@ async def login(call: Call):
 
 
 async def logout(call: Call):
-    """Ends the session; control stays where it is."""
+    """Ends the session; control does not change."""
     request = call.request
     for token in (request.cookies.get(COOKIE, ""), request.headers.get("Authorization", "")):
         if token:
@@ -47,7 +47,7 @@ async def logout(call: Call):
 
 
 async def login_page(call: Call):
-    """Leads people to Desk's page."""
+    """Redirects browsers to Desk's page."""
     refresh = '<meta http-equiv="refresh" content="0; url=/">'
     text = f'<!DOCTYPE html><title>Desk</title>{refresh}<p><a href="/">Desk</a></p>'
     return web.Response(text=text, content_type="text/html")
@@ -67,7 +67,7 @@ async def unlock(call: Call):
 
 
 async def lock(call: Call):
-    """Closes the brakes. It needs no control: it is safe."""
+    """Closes the brakes. It needs no control, because it is safe."""
     await actions.lock(call.desk)
 
 
@@ -92,10 +92,10 @@ async def programming_mode(call: Call):
 
 
 async def guiding_mode(call: Call):
-    """Which directions are free."""
+    """Sets the free directions of guiding."""
     mode = _mode(call)
     if mode not in GUIDING_MODES:
-        raise bad_request(f"The field mode is one of {', '.join(GUIDING_MODES)}.")
+        raise bad_request(f"The field mode must be one of {', '.join(GUIDING_MODES)}.")
     line = f"guiding_mode {mode}"
     if mode == "user":
         line += "".join(" on" if free else " off" for free in call.desk.report.guiding.axes)
@@ -103,10 +103,10 @@ async def guiding_mode(call: Call):
 
 
 async def pilot_mode(call: Call):
-    """What the Pilot's arrow keys are for."""
+    """Sets the target of the Pilot's arrow keys."""
     mode = _mode(call)
     if mode not in PILOT_MODES:
-        raise bad_request(f"The field mode is one of {', '.join(PILOT_MODES)}.")
+        raise bad_request(f"The field mode must be one of {', '.join(PILOT_MODES)}.")
     await call.desk.robot.send(f"navigation {PILOT_MODES[mode]}")
 
 
@@ -114,7 +114,7 @@ async def pilot_mode(call: Call):
 
 
 async def homing(call: Call):
-    """Finds the range of the hand; returns at the end."""
+    """Homes the hand; returns when it has ended."""
     await call.desk.robot.send("hand homing")
 
 
@@ -124,7 +124,7 @@ async def start_task(call: Call):
 
 
 async def stop_task(call: Call):
-    """None runs."""
+    """There is no task to stop."""
 
 
 async def reset_errors(call: Call):
@@ -134,7 +134,7 @@ async def reset_errors(call: Call):
 
 
 async def fold(call: Call):
-    """Moves to the pose for transport; returns at the end."""
+    """Moves to the pose for transport; returns when it has ended."""
     await actions.move_to_pack_pose(call.desk)
 
 
@@ -150,10 +150,10 @@ async def position_errors(call: Call):
 
 
 async def reset_position_error(call: Call):
-    """Takes a joint's present position as right."""
+    """Accepts a joint's present position as correct."""
     word = call.words[0]
     if word not in map(str, range(JOINTS)):
-        raise bad_request(f"A joint's number is 0 to {JOINTS - 1}.")
+        raise bad_request(f"A joint's number must be 0 to {JOINTS - 1}.")
     if call.desk.report.joint_position_error[int(word)]:
         await call.desk.robot.send(f"inject jointPositionErrorDemand {int(word) + 1} off")
 
@@ -183,12 +183,12 @@ def version_of(call: Call) -> str:
 
 
 async def nameplate(call: Call):
-    """Who the robot is."""
+    """Identification of the robot."""
     return {"serialNumber": call.desk.options.serial_number, "armId": call.desk.report.arm_id}
 
 
 async def features(call: Call):
-    """What is installed."""
+    """The installed features."""
     return {"fci": True}
 
 
@@ -197,12 +197,12 @@ async def acknowledge(call: Call):
     word = call.request.query.get("error_id", "")
     name = ERROR_IDS.get(word.lower())
     if name is None:
-        raise bad_request(f"The field error_id is one of {', '.join(ERROR_IDS.values())}.")
+        raise bad_request(f"The field error_id must be one of {', '.join(ERROR_IDS.values())}.")
     await actions.acknowledge(call.desk, name)
 
 
 async def self_test(call: Call):
-    """Starts the test; its end is seen in the states."""
+    """Starts the test; the states show its end."""
     await actions.self_test(call.desk, wait=False)
     return {"code": "SuccessResponse"}
 
@@ -219,44 +219,44 @@ async def select(call: Call):
     """A Panda's device."""
     name = call.json()
     if name not in (GENERIC, GRIPPER, PUMP):
-        raise bad_request(f"The end effector is {GENERIC}, {GRIPPER} or {PUMP}.")
+        raise bad_request(f"The end effector must be {GENERIC}, {GRIPPER} or {PUMP}.")
     call.desk.end_effectors.selection = name
 
 
 async def end_effector(call: Call):
-    """What a Panda assumes at its flange."""
+    """The end effector that a Panda assumes."""
     return lists_of(call.desk)
 
 
 async def set_end_effector(call: Call):
-    """What a Panda assumes at its flange, from now on."""
+    """Sets the end effector that a Panda assumes."""
     await call.desk.end_effectors.set_load(load_of_lists(call.object()))
 
 
 async def profiles(call: Call):
-    """All of an FR3."""
+    """All profiles of an FR3."""
     return call.desk.end_effectors.list()
 
 
 async def active_profile(call: Call):
-    """The one that an FR3 assumes."""
+    """The active profile of an FR3."""
     return call.desk.end_effectors.active()
 
 
 async def add_profile(call: Call):
-    """A new one, which is not active."""
+    """Adds a profile, which is not active."""
     return {"id": call.desk.end_effectors.add(call.object())}
 
 
 async def change_profile(call: Call):
-    """The active one is changed only by who has control."""
+    """Only the holder can change the active profile."""
     if call.desk.end_effectors.is_active(call.words[0]):
         check_token(call, Token.HEADER_LOCKED)
     await call.desk.end_effectors.change(call.words[0], call.object())
 
 
 async def delete_profile(call: Call):
-    """One that is not active."""
+    """Deletes a profile that is not active."""
     call.desk.end_effectors.delete(call.words[0])
 
 

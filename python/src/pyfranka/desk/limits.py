@@ -16,7 +16,7 @@ from pyfranka.desk.answers import DeskError
 from pyfranka.desk.settings import Limits
 
 LOGIN_RATE = 1.0  # [1/s] of an address that has sent too many wrong passwords (chosen here)
-LONGEST_MEMORY = 4096  # addresses (chosen here)
+MAX_ADDRESSES = 4096  # addresses (chosen here)
 
 
 @dataclass
@@ -27,7 +27,7 @@ class _Bucket:
 
 
 class Throttle:
-    """Lets each address do something so often a second; what comes too early waits for its turn."""
+    """Limits the rate of something for each address; early uses wait for their turn."""
 
     def __init__(self, rate: float, burst: float, waiting: int):
         self._rate, self._burst, self._waiting = rate, burst, waiting
@@ -40,14 +40,14 @@ class Throttle:
         return max(0.0, -bucket.tokens / self._rate)
 
     def delay(self, address: str) -> float:
-        """How long a use would have to wait [s], without counting it."""
+        """The time that a use would have to wait [s], without counting it."""
         return max(0.0, (1.0 - self._bucket(address).tokens) / self._rate)
 
     async def wait(self, address: str, delay: float) -> None:
-        """Waits so long. Raises DeskError (429) if too many of that address wait already."""
+        """Waits for that time. Raises DeskError (429) if too many of that address wait already."""
         bucket = self._bucket(address)
         if bucket.waiting >= self._waiting:
-            bucket.tokens += 1.0  # it is not done
+            bucket.tokens += 1.0  # this use is not executed
             raise DeskError(
                 429, "TooManyRequests", f"Too many requests of {address} wait already. Send fewer at a time."
             )
@@ -63,13 +63,13 @@ class Throttle:
         bucket.tokens = min(self._burst, bucket.tokens + (now - bucket.time) * self._rate)
         bucket.time = now
         self._buckets.move_to_end(address)
-        while len(self._buckets) > LONGEST_MEMORY:
+        while len(self._buckets) > MAX_ADDRESSES:
             self._buckets.popitem(last=False)
         return bucket
 
 
 class Counted:
-    """A number of things at a time, for each address and in all."""
+    """Limits the number of simultaneous things, for each address and in total."""
 
     def __init__(self, limit: int, limit_of_address: int, what: str):
         self._limit, self._limit_of_address, self._what = limit, limit_of_address, what

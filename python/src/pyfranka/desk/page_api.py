@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The page for people, and the small interface that it uses: /page/..."""
+"""The web page, and the small interface that it uses: /page/..."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ TYPES = {
 MESH_FOLDERS = {"panda": "visual", "fr3": "visual/fr3"}
 MESH_PARTS = [*(f"link{i}" for i in range(8)), "hand", "finger"]
 IMPORT_MAP = re.compile(r'<script type="importmap">(.*?)</script>', re.DOTALL)
-LONGEST_NAME = 200
+MAX_NAME_LENGTH = 200
 
 
 def add_page(app: web.Application) -> None:
@@ -90,7 +90,7 @@ class PageApi:
         return file_answer(path)
 
     async def robot_mesh(self, request: web.Request) -> web.StreamResponse:
-        """A mesh of the robots, as ./franka install or pyfranka-meshes has put it there."""
+        """A mesh of the robots, as ./franka install or pyfranka-meshes has installed it."""
         await self._user(request)
         path = self.meshes.get((request.match_info["type"], request.match_info["part"]))
         if path is None:
@@ -124,14 +124,14 @@ class PageApi:
         return answer
 
     async def session(self, request: web.Request) -> web.Response:
-        """Who is logged in; null without a login."""
+        """The user that is logged in; null without a login."""
         user = await access.user_of(request, own_desk(request))
         return json_answer({"user": user.name if user else None})
 
-    # ---- what the page shows -----------------------------------------------------------------------------
+    # ---- data for the page -------------------------------------------------------------------------------
 
     async def robots(self, request: web.Request) -> web.Response:
-        """The user, the robots, and which meshes are there for them."""
+        """The user, the robots, and the meshes that are installed for them."""
         user = await self._user(request)
         robots = [self._listed(number, desk) for number, desk in enumerate(self.app[DESKS])]
         return json_answer({"user": user.name, "robots": robots, "meshes": self._mesh_names()})
@@ -161,7 +161,7 @@ class PageApi:
         """A mesh of the world, in binary."""
         await self._user(request)
         number, name = self._number(request.query.get("robot", "0")), request.query.get("name", "")
-        content = await self.stream.mesh(number, name[:LONGEST_NAME])
+        content = await self.stream.mesh(number, name[:MAX_NAME_LENGTH])
         if content is None:
             raise DeskError(404, "NotFound", "The world has no such mesh.")
         return web.Response(body=content, content_type="application/octet-stream")
@@ -180,10 +180,10 @@ class PageApi:
                 await self.stream.serve(Page(socket, desk, token))
         return socket
 
-    # ---- what the page does ------------------------------------------------------------------------------
+    # ---- commands of the page ----------------------------------------------------------------------------
 
     async def command(self, request: web.Request) -> web.Response:
-        """Sends a line to a robot: one of page_lines.LINES; or `reboot`, which is no line."""
+        """Sends a line to a robot: one of page_lines.LINES; or `reboot`, which is not a line."""
         body, desk = await self._checked(request)
         if body.get("action") == "reboot":
             _check_control(request, desk)
@@ -195,12 +195,12 @@ class PageApi:
         try:
             value = await desk.robot.send(text, urgent=line.urgent)
         except Refused as refused:
-            # No error of the page: browsers would write one to their console.
+            # Not an HTTP error, which browsers would write to their console.
             return json_answer({"refused": {"code": refused.code, "message": refused.sentence}})
         return json_answer({"value": value})
 
     async def control(self, request: web.Request) -> web.Response:
-        """Changes who controls a robot."""
+        """Requests, releases, grants or denies control of a robot."""
         body, desk = await self._checked(request)
         user, token = await self._user(request), token_of(request)
         what = body.get("what")
@@ -215,7 +215,7 @@ class PageApi:
                 raise access.not_in_control()
             (desk.tokens.accept if what == "accept" else desk.tokens.deny)()
         else:
-            raise bad_request("'what' is take, force, release, withdraw, accept or deny.")
+            raise bad_request("'what' must be take, force, release, withdraw, accept or deny.")
         return json_answer({**answer, "control": control_of(desk)})
 
     # ---- checks ------------------------------------------------------------------------------------------
@@ -260,14 +260,14 @@ async def body_of(request: web.Request) -> dict:
     except TimeoutError:
         raise DeskError(408, "RequestTimeout", "The body has not come in time.") from None
     except (ValueError, RecursionError):
-        raise bad_request("The body is no valid JSON.") from None
+        raise bad_request("The body is not valid JSON.") from None
     if not isinstance(body, dict):
-        raise bad_request("The body is no JSON object, such as {}.")
+        raise bad_request("The body is not a JSON object, such as {}.")
     return body
 
 
 def file_answer(path: Path) -> web.FileResponse:
-    """A file; browsers keep it and ask whether it has changed."""
+    """A file, which browsers cache and revalidate."""
     if not path.is_file():
         raise unavailable(f"The file {path.name} is no longer there.")
     headers = {"Content-Type": TYPES[path.suffix], "Cache-Control": "no-cache"}

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Which lines of the control interface the page may send, and who may send them."""
+"""The lines of the control interface that the page may send, and the permissions they need."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 from pyfranka.desk.answers import bad_request
 
-LONGEST_PUSH = 1000  # [ms] (chosen here: a page that goes away does not push on)
-STRONGEST_PUSH = 200.0  # [N] of each component (chosen here)
+MAX_PUSH_TIME = 1000  # [ms] (chosen here: a push ends soon after its page has closed)
+MAX_PUSH_FORCE = 200.0  # [N] of each component (chosen here)
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
 BODY = re.compile(r"[^\s\x00-\x1f\x7f]{1,200}")
 
@@ -22,8 +22,8 @@ class Line:
     """A line in the words of docs/franka_sim.md: fixed words, alternatives (on|off), and words of the kinds
     below in capitals, which may be repeated (NUMBER*7).
 
-    control: only the user who has control may send it. What stands for a person beside the robot needs none:
-    stops, buttons, pushes, faults. urgent: other lines do not delay it.
+    control: only the user who has control may send it. Inputs of the operator need none: stops, buttons,
+    pushes, faults. urgent: other lines do not delay it.
     """
 
     pattern: str
@@ -86,7 +86,7 @@ def line_of(action: object, words: object) -> tuple[Line, str]:
     if not isinstance(action, str) or not isinstance(words, list):
         raise bad_request("A command needs the text 'action' and the list 'words'.")
     if not all(isinstance(word, str) for word in words):
-        raise bad_request("The words of a command are texts.")
+        raise bad_request("The words of a command must be texts.")
     for line in LINES:
         matched = line.match([action, *words])
         if matched is not None:
@@ -111,11 +111,11 @@ def _number(word: str) -> str | None:
 
 def _force(word: str) -> str | None:
     number = _number(word)
-    return number if number is not None and abs(float(number)) <= STRONGEST_PUSH else None
+    return number if number is not None and abs(float(number)) <= MAX_PUSH_FORCE else None
 
 
 def _milliseconds(word: str) -> str | None:
-    return word if word.isascii() and word.isdigit() and 1 <= int(word[:6]) <= LONGEST_PUSH else None
+    return word if word.isascii() and word.isdigit() and 1 <= int(word[:6]) <= MAX_PUSH_TIME else None
 
 
 KINDS = {

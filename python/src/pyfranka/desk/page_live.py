@@ -19,12 +19,12 @@ from pyfranka.desk.desk import Desk
 from pyfranka.desk.robot import Connection, Refused, RobotGone
 
 PERIOD = 0.05  # [s] between two frames (chosen here: motions look smooth)
-PAUSE = 1.0  # [s] before a scene that was refused is asked for again (chosen here)
+PAUSE = 1.0  # [s] before a scene that was refused is requested again (chosen here)
 LINE_LIMIT = 10.0  # [s] for an answer (chosen here: a busy machine)
-CHECK_PERIOD = 1.0  # [s] between two looks at the logins (chosen here)
+CHECK_PERIOD = 1.0  # [s] between two checks of the logins (chosen here)
 LOGIN_ENDED = 4401  # close code: this login is no longer valid
 GOING_AWAY = 1001
-LARGEST_MESH = 64 << 20  # [bytes] (chosen here)
+MAX_MESH_SIZE = 64 << 20  # [bytes] (chosen here)
 
 
 @dataclass
@@ -67,7 +67,7 @@ class Live:
         self._checked = 0.0
 
     async def serve(self, page: Page) -> None:
-        """Sends frames to a page until it goes away."""
+        """Sends frames to a page until it closes."""
         self._pages.add(page)
         if self._task is None or self._task.done():
             self._task = asyncio.get_running_loop().create_task(self._run())
@@ -85,7 +85,7 @@ class Live:
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
-        self._forget_worlds(list(self.worlds.values()))
+        self._drop_worlds(list(self.worlds.values()))
 
     async def world_of(self, number: int) -> World:
         """The world of a robot. Raises Refused or RobotGone."""
@@ -126,16 +126,16 @@ class Live:
         report = self.desks[number].robot.report
         return report.arm_id if report else ""
 
-    def _forget_worlds(self, worlds: list[World]) -> None:
+    def _drop_worlds(self, worlds: list[World]) -> None:
         for world in worlds:
             for number in world.robots:
                 self.worlds.pop(number, None)
             if world.connection is not None:
                 world.connection.close()
 
-    def _forget_lost(self) -> None:
+    def _drop_lost_worlds(self) -> None:
         lost = [world for number, world in self.worlds.items() if self.desks[number].robot.report is None]
-        self._forget_worlds(lost)
+        self._drop_worlds(lost)
 
     # ---- frames ------------------------------------------------------------------------------------------
 
@@ -144,15 +144,15 @@ class Live:
         due = loop.time()
         while self._pages:
             await self._check_logins()
-            self._forget_lost()
+            self._drop_lost_worlds()
             if self._finding is None or self._finding.done():
                 self._finding = loop.create_task(self._find_worlds())
             self._send(await self._frame())
             due = max(due + PERIOD, loop.time())
             await asyncio.sleep(due - loop.time())
-        self._forget_worlds(list(self.worlds.values()))
+        self._drop_worlds(list(self.worlds.values()))
 
-    # Beside the frames: the robot may need seconds to describe its world.
+    # In parallel to the frames, because the robot may need seconds to describe its world.
     async def _find_worlds(self) -> None:
         for number, desk in enumerate(self.desks):
             if desk.robot.report is not None and number not in self.worlds:
@@ -184,8 +184,8 @@ class Live:
                 world.connection.close()
             world.connection = None
             return "null"
-        if text.count("[") - 1 != world.bodies:  # objects have come or gone
-            self._forget_worlds([world])
+        if text.count("[") - 1 != world.bodies:  # objects were added or removed
+            self._drop_worlds([world])
         return text
 
     # A page that reads too slowly misses frames.
@@ -217,7 +217,7 @@ def _robot_text(desk: Desk) -> str:
 
 
 def control_of(desk: Desk) -> dict:
-    """Who controls a robot, for the page; without secrets."""
+    """The user who controls a robot, for the page; without secrets."""
     if desk.robot.report is not None and not desk.profile.tokens:
         return {"tokens": False, "owner": None, "id": None, "request": None}
     active, pending = desk.tokens.active, desk.tokens.pending
@@ -238,7 +238,7 @@ async def _read_mesh(connection: Connection, name: str) -> bytes:
             parts.append(struct.pack("<II", chunk["vertices"], chunk["faces"]))
         parts.append(base64.b64decode(chunk["data"]))
         size += len(parts[-1])
-        if size > LARGEST_MESH:
-            raise RobotGone(f"The mesh '{name}' has more than {LARGEST_MESH >> 20} MB.")
+        if size > MAX_MESH_SIZE:
+            raise RobotGone(f"The mesh '{name}' has more than {MAX_MESH_SIZE >> 20} MB.")
         offset = chunk["next"]
     return b"".join(parts)

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Reboot and shutdown: Desk is gone while the robot is off."""
+"""Reboot and shutdown: Desk is unreachable while the robot is off."""
 
 from __future__ import annotations
 
@@ -17,13 +17,14 @@ if typing.TYPE_CHECKING:
     from pyfranka.desk.desk import Desk
     from pyfranka.desk.server import Site
 
-BRIEFLY = 0.3  # [s] in which Desk still answers (chosen here)
+LAST_ANSWERS = 0.3  # [s] for which Desk still answers (chosen here)
 PAUSE = 0.5  # [s] between two attempts to switch the robot on, or to listen (chosen here)
 log = logging.getLogger("franka_desk")
 
 
 class Power:
-    """down: whether the robot is off or boots. site: where its Desk listens; it closes meanwhile."""
+    """down: whether the robot is off or boots. site: the web server of its Desk, which is closed while the
+    robot is off."""
 
     def __init__(self, desk: Desk):
         self.down = False
@@ -38,11 +39,11 @@ class Power:
             raise unavailable("The robot is off or boots.")
 
     def reboot(self) -> None:
-        """Takes the robot away and brings it back."""
+        """Switches the robot off and on again."""
         self._begin(self._reboot())
 
     def shut_down(self) -> None:
-        """Takes the robot away; the control interface's line `power on` brings it back."""
+        """Switches the robot off; the line `power on` of the control interface switches it on."""
         self._begin(self._shut_down())
 
     def _begin(self, work: typing.Coroutine) -> None:
@@ -52,38 +53,38 @@ class Power:
             work.close()
 
     async def _reboot(self) -> None:
-        await asyncio.sleep(BRIEFLY)
+        await asyncio.sleep(LAST_ANSWERS)
         begin = time.monotonic()
-        await self._go_down()
+        await self._take_down()
         await self._send("power off")
         duration = self._desk.options.boot_time or self._desk.profile.boot
         await asyncio.sleep(max(0.0, begin + duration - time.monotonic()))
         await self._send("power on")
-        await self._come_back()
+        await self._bring_up()
 
     async def _shut_down(self) -> None:
-        await asyncio.sleep(BRIEFLY)
-        await self._go_down()
+        await asyncio.sleep(LAST_ANSWERS)
+        await self._take_down()
         await self._send("power off")
-        await self._wait_and_come_back()
+        await self._wait_and_bring_up()
 
-    # Someone has switched it off at the control interface.
+    # Switched off at the control interface.
     def _follow(self, before: Report | None, now: Report) -> None:
         if not now.power and (self._task is None or self._task.done()):
             self._begin(self._was_switched_off())
 
     async def _was_switched_off(self) -> None:
-        await self._go_down()
-        await self._wait_and_come_back()
+        await self._take_down()
+        await self._wait_and_bring_up()
 
-    async def _wait_and_come_back(self) -> None:
+    async def _wait_and_bring_up(self) -> None:
         with self._desk.watch() as event:
             while self._desk.robot.report is None or not self._desk.robot.report.power:
                 event.clear()
                 await event.wait()
-        await self._come_back()
+        await self._bring_up()
 
-    async def _go_down(self) -> None:
+    async def _take_down(self) -> None:
         self.down = True
         self._desk.sessions.clear()
         self._desk.tokens.clear()
@@ -92,7 +93,7 @@ class Power:
         if self.site is not None:
             await self.site.close()
 
-    async def _come_back(self) -> None:
+    async def _bring_up(self) -> None:
         self.down = False
         while self.site is not None:
             try:
@@ -108,6 +109,6 @@ class Power:
                 await self._desk.robot.send(line, urgent=True)
                 return
             except Refused:
-                return  # it is so already
+                return  # already in that state
             except RobotGone:
                 await asyncio.sleep(PAUSE)

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The generations of Desk: which robot's software has which interface."""
+"""The generations of Desk: the interfaces of each version of the robot's software."""
 
 from __future__ import annotations
 
@@ -14,8 +14,8 @@ class Profile:
     """One generation.
 
     fr3: paths and states of an FR3, otherwise of a Panda. tokens: one user has control and holds its token.
-    v1: the newer interface (/api) is there too. version: what `system-version` says. boot: time that a reboot
-    takes [s].
+    v1: the newer interface (/api) exists too. version: the answer of `system-version`. boot: time that a
+    reboot takes [s].
     """
 
     name: str
@@ -35,7 +35,7 @@ PROFILES = {
         Profile("fr3-v1", fr3=True, tokens=True, v1=True, version="5.10.0", boot=40.0),
     )
 }
-# The newest protocol of the FCI that the older generation of each type speaks.
+# The newest FCI protocol of the older generation of each type.
 OLD_PANDA, EARLY_FR3 = 4, 7
 
 

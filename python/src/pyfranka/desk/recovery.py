@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What stands between the robot and work after an error, and how it is confirmed (newer interface)."""
+"""What must be recovered after an error, and its confirmation (newer interface)."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ SAFE_INPUTS = {
     "safeInputErrorX4": "x4",
     "guidingEnablingDevice": "guidingEnableButton",
 }
-# The robot demands a person with the enabling device (X4) for these.
+# These need the operator with the enabling device (X4).
 LIMITS, POSITIONS = "jointLimitViolation", "jointPositionErrorDemand"
 TYPES = (
     "SafetyError",
@@ -37,7 +37,7 @@ TYPES = (
 
 
 def recovery(report: Report) -> Json | None:
-    """What has to be recovered first."""
+    """The first recovery that is needed; None if there is none."""
     found = report.recoverable
     if errors := [name for name in SAFETY_ERRORS if name in found]:
         return {"type": "SafetyError", "safetyErrors": errors}
@@ -55,11 +55,11 @@ def recovery(report: Report) -> Json | None:
 
 
 async def confirm(desk: Desk, value: Json) -> None:
-    """Acknowledges the errors of a type; without one, what has to be recovered first."""
+    """Acknowledges the errors of a type; without a type, those of the first needed recovery."""
     present = recovery(desk.report) or {}
     kind = value.get("type", present.get("type", ""))
     if kind != "" and kind not in TYPES:
-        raise bad_request(f"The field type is one of {', '.join(TYPES)}.")
+        raise bad_request(f"The field type must be one of {', '.join(TYPES)}.")
     names = [name for name in _names(kind) if name in _present(desk.report)]
     if not names:
         raise DeskError(

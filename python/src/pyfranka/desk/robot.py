@@ -1,6 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A client of one robot's control interface for asyncio: its report twenty times a second, and lines."""
+"""A client of one robot's control interface for asyncio: fetches its report 20 times per second, and sends
+lines."""
 
 from __future__ import annotations
 
@@ -14,11 +15,11 @@ from pyfranka.robot_report import Report, report_of
 
 PORT = 1340
 PERIOD = 0.05  # [s] between two reports (chosen here: a press of a button lasts longer)
-PAUSE = 0.5  # [s] before the next attempt to reach a robot that is gone (chosen here)
+PAUSE = 0.5  # [s] before the next attempt to reach a lost robot (chosen here)
 REPORT_LIMIT = 5.0  # [s] for the answer to one report (chosen here: a busy machine)
 LINE_LIMIT = 120.0  # [s] for any other line (chosen here: the longest motion)
 CONNECT_LIMIT = 5.0  # [s] (chosen here)
-LONGEST_ANSWER = 8 << 20  # [bytes] (chosen here: a world of many shapes)
+MAX_ANSWER_LENGTH = 8 << 20  # [bytes] (chosen here: a world of many shapes)
 # Lines at a time; the control interface accepts eight clients.
 LINES, URGENT_LINES = 3, 2
 
@@ -27,7 +28,7 @@ log = logging.getLogger("franka_desk")
 
 
 class Refused(Exception):
-    """The robot has refused a line. code: of pyfranka.refusals, or empty; sentence: the robot's own."""
+    """The robot has refused a line. code: of pyfranka.refusals, or empty; sentence: the robot's message."""
 
     def __init__(self, code: str, sentence: str):
         super().__init__(sentence)
@@ -41,10 +42,10 @@ class RobotGone(Exception):
 class Robot:
     """One robot's control interface. Everything runs in one event loop.
 
-    report: the newest report, or None before the first one and while the robot is gone; text: the same in
-    JSON; problem: why there is none. number: of the newest report, counted from one. start() begins to ask
-    for reports; requests of Desk's clients are answered from the newest one, so that they never reach the
-    robot (decision 55).
+    report: the newest report, or None before the first one and while the robot is lost; text: the same in
+    JSON; problem: why there is none. number: of the newest report, counted from one. start() begins to fetch
+    reports; requests of Desk's clients are answered from the newest one, so that they never reach the robot
+    (decision 55).
     """
 
     def __init__(self, address: str, port: int = PORT, period: float = PERIOD):
@@ -66,15 +67,15 @@ class Robot:
 
     @property
     def place(self) -> str:
-        """Where it is, for messages."""
+        """Its address and port, for messages."""
         return f"{self.address}, port {self.port}"
 
     def listen(self, listener: Callable[[], None]) -> None:
-        """Calls the listener after each report, and when the robot is gone, in the order of these calls."""
+        """Calls the listener after each report, and when the robot is lost, in the order of these calls."""
         self._listeners.append(listener)
 
     async def start(self, limit: float = 0.0) -> None:
-        """Begins to ask for reports; waits up to that many seconds for the first one."""
+        """Begins to fetch reports; waits up to that many seconds for the first one."""
         self._poller = asyncio.get_running_loop().create_task(self._poll())
         if limit:
             with contextlib.suppress(asyncio.TimeoutError):
@@ -82,17 +83,18 @@ class Robot:
                     await self._first.wait()
 
     async def stop(self) -> None:
-        """Ends what runs."""
+        """Cancels all running tasks."""
         tasks = [*self._running, *([self._poller] if self._poller else [])]
         for task in tasks:
             task.cancel()
         await asyncio.gather(*tasks, return_exceptions=True)
 
     async def send(self, line: str, urgent: bool = False) -> str:
-        """Sends a line; returns what follows `ok`. The report is then one of after its effect.
+        """Sends a line; returns the text after `ok`. The report is then newer than the effect of the line.
 
         A line that equals the last one, which is not answered yet, is not sent again. urgent: does not wait
-        for other lines. A caller that is cancelled leaves the line to its end. Raises Refused or RobotGone.
+        for other lines. If the caller is cancelled, the line still runs to its end. Raises Refused or
+        RobotGone.
         """
         if "\n" in line or "\r" in line:
             raise ValueError("A line has no line break.")
@@ -116,7 +118,7 @@ class Robot:
     def _ended(self, task: asyncio.Task[str]) -> None:
         self._running.discard(task)
         if not task.cancelled():
-            task.exception()  # which nobody may have waited for
+            task.exception()  # no caller may await it
 
     async def _send(self, line: str, urgent: bool) -> str:
         async with self._urgent if urgent else self._lines:
@@ -164,18 +166,18 @@ class Robot:
         self.number += 1
         self.problem = ""
         self._first.set()
-        self._tell()
+        self._notify()
 
     def _lose(self, problem: str) -> None:
         if self.report is not None or self.problem != problem:
             self.report, self.text, self.problem = None, "", problem
-            self._tell()
+            self._notify()
 
-    def _tell(self) -> None:
+    def _notify(self) -> None:
         for listener in self._listeners:
             try:
                 listener()
-            except Exception:  # of one listener; reports go on for the others
+            except Exception:  # of one listener; the others still get reports
                 log.exception("A listener of the robot at %s has failed.", self.place)
 
 
@@ -198,7 +200,7 @@ class Connection:
         place = self._address, self._port
         try:
             async with asyncio.timeout(CONNECT_LIMIT):
-                self._reader, self._writer = await asyncio.open_connection(*place, limit=LONGEST_ANSWER)
+                self._reader, self._writer = await asyncio.open_connection(*place, limit=MAX_ANSWER_LENGTH)
         except TimeoutError:
             raise RobotGone(f"The robot at {self._place} does not answer.") from None
         except OSError as error:
@@ -212,8 +214,8 @@ class Connection:
         self._writer.close()
 
     async def ask(self, line: str, limit: float) -> str:
-        """What follows `ok` in the answer to a line, which must come within that time [s]. Raises Refused or
-        RobotGone; after the latter the connection is of no use."""
+        """Sends a line; returns the text after `ok` in its answer, which must arrive within that time [s].
+        Raises Refused or RobotGone; after the latter the connection cannot be used."""
         try:
             self._writer.write(line.encode() + b"\n")
             await self._writer.drain()
@@ -239,5 +241,5 @@ def _value(answer: str, place: str) -> str:
     if word == "ok":
         return rest
     if word != "error:":
-        raise RobotGone(f"What answers at {place} is no control interface of franka_sim: '{answer[:80]}'.")
+        raise RobotGone(f"What answers at {place} is not a control interface of franka_sim: '{answer[:80]}'.")
     raise Refused(*split_refusal(rest))

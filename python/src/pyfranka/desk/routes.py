@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What a path means: its handler, who may use it, and on which robots it exists."""
+"""Handler, permissions and robots of each path."""
 
 from __future__ import annotations
 
@@ -22,26 +22,26 @@ if typing.TYPE_CHECKING:
 
 
 class Login(enum.Enum):
-    """Who may use it."""
+    """Users that may use a path."""
 
-    NONE = "everyone"
-    USER = "every user"
+    NONE = "all clients"
+    USER = "any user"
     SAFETY = "users of the roles SafetyOperator and Admin"
     ADMIN = "users of the role Admin"
 
 
 class Token(enum.Enum):
-    """Whether it needs control."""
+    """Whether a path needs control."""
 
     NONE = "no"
     HEADER = "the active token in the header X-Control-Token"
     HEADER_OR_FORM = "the same, or in the form's field token"
-    HEADER_LOCKED = "as HEADER; none is answered as a wrong one"
+    HEADER_LOCKED = "as HEADER; a missing token is answered like a wrong one"
 
 
 @dataclass
 class Call:
-    """One request, checked: who it is from and what it carries. words: the variable parts of its path."""
+    """One checked request with its user and its body. words: the variable parts of its path."""
 
     desk: Desk
     request: web.Request
@@ -59,13 +59,13 @@ class Call:
         try:
             return json.loads(self.body, parse_constant=_no_constant)
         except (ValueError, RecursionError):
-            raise bad_request("The body is no valid JSON.") from None
+            raise bad_request("The body is not valid JSON.") from None
 
     def object(self, default: typing.Any = None) -> dict[str, typing.Any]:
         """The body as a JSON object. Raises DeskError (400)."""
         value = self.json(default)
         if not isinstance(value, dict):
-            raise bad_request("The body is no JSON object, such as {}.")
+            raise bad_request("The body is not a JSON object, such as {}.")
         return value
 
     def form(self) -> dict[str, str]:
@@ -73,7 +73,7 @@ class Call:
         try:
             pairs = urllib.parse.parse_qsl(self.body.decode(), keep_blank_values=True, max_num_fields=100)
         except ValueError:
-            raise bad_request("The body is no valid form.") from None
+            raise bad_request("The body is not a valid form.") from None
         return dict(pairs)
 
 
@@ -97,12 +97,12 @@ def on_panda(profile: Profile) -> bool:
 
 
 def with_tokens(profile: Profile) -> bool:
-    """Where one user has control."""
+    """On robots with control tokens."""
     return profile.tokens
 
 
 def with_v1(profile: Profile) -> bool:
-    """Where the newer interface is."""
+    """On robots with the newer interface."""
     return profile.v1
 
 
@@ -122,7 +122,7 @@ class Route:
 
 @dataclass
 class Routes:
-    """All routes, to be found by method and path."""
+    """All routes, found by method and path."""
 
     routes: Iterable[Route]
     _fixed: dict[str, list[Route]] = field(default_factory=dict)

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The web application: finds what a request means, checks it, and answers."""
+"""The web application: finds the route of a request, checks it, and answers."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ from pyfranka.desk.routes import Call, Route, Routes
 from pyfranka.desk.sessions import Users
 from pyfranka.desk.settings import Settings
 
-# Newer aiohttp wants keys of a type of their own.
+# Newer versions of aiohttp require keys of their own type.
 _key = getattr(web, "AppKey", lambda name, kind: name)
 DESKS = _key("desks", list)  # of all robots
 DESK = _key("desk", Desk)  # of the robot at whose address the application listens
@@ -69,7 +69,7 @@ class Site:
         self._listening: asyncio.AbstractServer | None = None
 
     async def open(self) -> None:
-        """Listens. Raises OSError if it may not."""
+        """Listens. Raises OSError if it cannot."""
         if self._runner is None:
             self._runner = web.AppRunner(self._app, access_log=None, lingering_time=LINGER)
             await self._runner.setup()
@@ -92,7 +92,7 @@ class Site:
             await self._runner.server.shutdown(0.1)
 
     async def cleanup(self) -> None:
-        """Ends it for ever."""
+        """Closes it permanently."""
         await self.close()
         if self._runner is not None:
             await self._runner.cleanup()
@@ -100,7 +100,7 @@ class Site:
 
 @web.middleware
 async def _finish(request: web.Request, handler) -> web.StreamResponse:
-    """Limits and errors of every request, those of pages too."""
+    """Applies the limits and converts errors, for every request, also those of pages."""
     newer = _path_of(request).startswith("/api/")
     try:
         await request.app[GATE].enter(request)
@@ -121,7 +121,7 @@ async def _finish(request: web.Request, handler) -> web.StreamResponse:
         raise
     except Exception:
         log.exception("%s %s", request.method, _path_of(request))
-        answer = DeskError(500, "InternalError", "Desk has made a mistake; its log says more.").answer(newer)
+        answer = DeskError(500, "InternalError", "Internal error; see the log of Desk.").answer(newer)
     if not answer.prepared:
         answer.headers.setdefault("Server", "franka_desk")
         answer.headers.setdefault("Cache-Control", "no-store")
@@ -157,9 +157,9 @@ async def _answer(route: Route, call: Call) -> web.StreamResponse:
     access.check_token(call, route.token)
     if route.socket:
         return await _run(route, call)
-    # A client that goes away does not leave an action half done.
+    # An action completes if its client disconnects.
     work = asyncio.get_running_loop().create_task(_run(route, call))
-    work.add_done_callback(_was_seen)
+    work.add_done_callback(_read_error)
     return await asyncio.shield(work)
 
 
@@ -172,8 +172,8 @@ async def _run(route: Route, call: Call) -> web.StreamResponse:
     return json_answer(value)
 
 
-# A client that has gone does not learn of an error, and asyncio need not report it.
-def _was_seen(work: asyncio.Task) -> None:
+# Without its client an error has no receiver; reading it keeps asyncio from logging it.
+def _read_error(work: asyncio.Task) -> None:
     if not work.cancelled():
         work.exception()
 
@@ -224,7 +224,7 @@ def _not_found(path: str, desk: Desk) -> web.Response:
 
 
 def own_desk(request: web.Request) -> Desk:
-    """The Desk that a request of a page means: by /robots/N, or the one of this address."""
+    """The Desk of a request of a page: by /robots/N, or that of this address."""
     return _desk_and_path(request)[0]
 
 

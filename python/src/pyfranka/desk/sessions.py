@@ -26,13 +26,13 @@ class User:
 
 
 def digest_of(name: str, password: str) -> str:
-    """What clients send in place of a password: the numbers of a SHA-256 digest, in base64."""
+    """The digest that clients send instead of a password: the numbers of a SHA-256 digest, in base64."""
     digest = hashlib.sha256(f"{password}#{name}@franka".encode()).digest()
     return base64.b64encode(",".join(map(str, digest)).encode()).decode()
 
 
 class Users:
-    """Who may log in."""
+    """The users that may log in."""
 
     def __init__(self, name: str, password: str):
         self._users = {name: User(name, digest_of(name, password))}
@@ -88,7 +88,8 @@ class Sessions:
             self._names.popitem(last=False)
 
     def name(self, token: str) -> str | None:
-        """Whose login it is. Takes the same time for every wrong token: tokens are found by their digest."""
+        """The name of the user with this login; None if there is none. Takes the same time for every wrong
+        token: tokens are found by their digest."""
         return self._names.get(_key(token))
 
     def close(self, token: str) -> None:

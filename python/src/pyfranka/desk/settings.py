@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Settings of Desk: who may log in, what the sources disagree about, and limits."""
+"""Settings of Desk: users, options where sources disagree, and limits."""
 
 from __future__ import annotations
 
@@ -14,11 +14,11 @@ USER = "franka"
 
 @dataclass(frozen=True)
 class Options:
-    """Where robots or descriptions of them differ (docs/desk.md). On the command line the names have hyphens:
-    --option release-status=204."""
+    """Options for details in which robots or their descriptions differ (docs/desk.md). On the command line
+    the names have hyphens: --option release-status=204."""
 
     release_status: int = 200  # of DELETE control-token: 200 or 204
-    no_acknowledge_status: int = 424  # of an acknowledgement that nothing needs: 424 or 404
+    no_acknowledge_status: int = 424  # of an acknowledgement without a matching error: 424 or 404
     token_id: bool = True  # v1 answers have tokenId (5.3.1 had none)
     recovery_type_on_top: bool = False  # GET /api/safety/recovery also has the type at its top level
     time_to_td2_in_system: bool = False  # GET /api/system has safety.timeToTd2
@@ -41,27 +41,27 @@ class Options:
             key = name.strip().replace("-", "_")
             if not equals or key not in kinds:
                 names = ", ".join(each.name.replace("_", "-") for each in dataclasses.fields(cls))
-                raise ValueError(f"'{word}' is no option NAME=VALUE of Desk. Names: {names}.")
+                raise ValueError(f"'{word}' is not an option NAME=VALUE of Desk. Names: {names}.")
             values[key] = _value(kinds[key], name, value.strip())
         options = cls(**values)
         options.check()
         return options
 
     def check(self) -> None:
-        """Raises ValueError with a sentence for values that have no meaning."""
+        """Raises ValueError with a sentence for invalid values."""
         if self.release_status not in (200, 204):
-            raise ValueError(f"release-status is 200 or 204, not {self.release_status}.")
+            raise ValueError(f"release-status must be 200 or 204, not {self.release_status}.")
         if self.no_acknowledge_status not in (404, 424):
-            raise ValueError(f"no-acknowledge-status is 404 or 424, not {self.no_acknowledge_status}.")
+            raise ValueError(f"no-acknowledge-status must be 404 or 424, not {self.no_acknowledge_status}.")
         if not 0.0 < self.force_timeout <= 3600.0:
-            raise ValueError(f"force-timeout is a time up to 3600 s, not {self.force_timeout:g}.")
+            raise ValueError(f"force-timeout must be a time up to 3600 s, not {self.force_timeout:g}.")
         if not 0.0 <= self.boot_time <= 3600.0:
-            raise ValueError(f"boot-time is a time up to 3600 s, not {self.boot_time:g}.")
+            raise ValueError(f"boot-time must be a time up to 3600 s, not {self.boot_time:g}.")
 
 
 @dataclass(frozen=True)
 class Limits:
-    """What one program may ask of Desk (chosen here; docs/desk.md)."""
+    """Limits for one program (chosen here; docs/desk.md)."""
 
     body: int = 1 << 16  # [bytes]
     body_time: float = 10.0  # [s] for a whole body
@@ -90,7 +90,7 @@ class Settings:
         if not self.password:
             raise ValueError("Desk needs a password.")
         if not self.user or len(self.user) > 100 or not self.user.isprintable() or ":" in self.user:
-            raise ValueError("A user's name has 1 to 100 printable characters without a colon.")
+            raise ValueError("A user's name must have 1 to 100 printable characters without a colon.")
         self.options.check()
 
 
@@ -99,7 +99,7 @@ def _value(kind: type, name: str, word: str) -> typing.Any:
         switches = {"on": True, "true": True, "yes": True, "1": True}
         switches |= {"off": False, "false": False, "no": False, "0": False}
         if word.lower() not in switches:
-            raise ValueError(f"{name} is on or off, not '{word}'.")
+            raise ValueError(f"{name} must be on or off, not '{word}'.")
         return switches[word.lower()]
     if kind is str:
         return word
@@ -108,5 +108,5 @@ def _value(kind: type, name: str, word: str) -> typing.Any:
     except ValueError:
         number = math.nan
     if not math.isfinite(number):
-        raise ValueError(f"{name} is a number, not '{word}'.")
+        raise ValueError(f"{name} must be a number, not '{word}'.")
     return number

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""WebSockets. Each one's path also answers a plain GET, with what it would send first."""
+"""WebSockets. The path of each also answers a plain GET, with the first message of the WebSocket."""
 
 from __future__ import annotations
 
@@ -21,16 +21,16 @@ from pyfranka.desk.routes import Call, Login, Route, Where, everywhere, on_fr3, 
 if typing.TYPE_CHECKING:
     from pyfranka.desk.desk import Desk
 
-PING = 30.0  # [s] between two pings, which find clients that are gone (chosen here)
-LONGEST_MESSAGE = 4096  # [bytes] of a client, which has nothing to send (chosen here)
+PING = 30.0  # [s] between two pings, which detect lost clients (chosen here)
+MAX_MESSAGE_LENGTH = 4096  # [bytes] from a client, which need not send anything (chosen here)
 WRITE_LIMIT = 10.0  # [s] for a client to take a message (chosen here)
 UNREAD_EVENTS = 1000  # of a client that does not read (chosen here)
-VOLATILE = {"sequenceNumber", "timeToTd2"}  # members that alone are no change
+VOLATILE = {"sequenceNumber", "timeToTd2"}  # members that alone are not a change
 
 
 @dataclass(frozen=True)
 class Topic:
-    """What a WebSocket sends: snapshots, with a period [s] or on changes and once a second."""
+    """The messages of a WebSocket: snapshots, with a period [s], or on changes and once a second."""
 
     path: str
     snapshot: Callable[[Desk], typing.Any]
@@ -96,7 +96,7 @@ async def navigation_events(call: Call):
 
 async def server_sent_events(call: Call):
     """The state of the newer interface as an event stream."""
-    from pyfranka.desk.v1 import system  # which has the route of this handler
+    from pyfranka.desk.v1 import system  # not at the top: v1 imports this module
 
     response = web.StreamResponse(headers={"Content-Type": "text/event-stream", "Cache-Control": "no-store"})
     topic = Topic("", lambda desk: {"system": system(desk), "controlToken": status.control_token(desk)})
@@ -133,7 +133,7 @@ def _is_upgrade(request: web.Request) -> bool:
 
 async def _serve(call: Call, work: Callable[[Callable], typing.Awaitable[None]]) -> web.WebSocketResponse:
     """Runs the work, which sends, until the client closes."""
-    socket = web.WebSocketResponse(heartbeat=PING, max_msg_size=LONGEST_MESSAGE, compress=False)
+    socket = web.WebSocketResponse(heartbeat=PING, max_msg_size=MAX_MESSAGE_LENGTH, compress=False)
     with call.desk.gate.sockets.one(address_of(call.request)):
         await socket.prepare(call.request)
 
@@ -141,7 +141,7 @@ async def _serve(call: Call, work: Callable[[Callable], typing.Awaitable[None]])
             async with asyncio.timeout(WRITE_LIMIT):
                 await socket.send_str(json.dumps(value))
 
-        sender = asyncio.get_running_loop().create_task(_until_gone(work(send)))
+        sender = asyncio.get_running_loop().create_task(_until_disconnected(work(send)))
         with call.desk.open_socket(socket):
             try:
                 await _read(socket, sender)
@@ -151,7 +151,7 @@ async def _serve(call: Call, work: Callable[[Callable], typing.Awaitable[None]])
     return socket
 
 
-# Reading answers pings and sees the end.
+# Reading answers pings and detects the end.
 async def _read(socket: web.WebSocketResponse, sender: asyncio.Task) -> None:
     sender.add_done_callback(lambda _: asyncio.get_running_loop().create_task(socket.close()))
     async for message in socket:
@@ -159,18 +159,18 @@ async def _read(socket: web.WebSocketResponse, sender: asyncio.Task) -> None:
             return
 
 
-async def _until_gone(work: typing.Awaitable[None]) -> None:
+async def _until_disconnected(work: typing.Awaitable[None]) -> None:
     with contextlib.suppress(ConnectionError, asyncio.TimeoutError, RuntimeError):
         await work
 
 
 async def _send_snapshots(
-    desk: Desk, topic: Topic, send: Callable, goes_on: Callable[[], bool] = lambda: True
+    desk: Desk, topic: Topic, send: Callable, keep_sending: Callable[[], bool] = lambda: True
 ) -> None:
     loop = asyncio.get_running_loop()
-    last, due = None, 0.0
+    last, due = None, loop.time()
     with desk.watch() as event:
-        while goes_on():
+        while keep_sending():
             if desk.robot.report is not None:
                 value = topic.snapshot(desk)
                 key = _without_volatile(value) if topic.on_change else None

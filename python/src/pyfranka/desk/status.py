@@ -67,12 +67,12 @@ def switch(flag: bool) -> str:
 
 
 def needs_recovery(report: Report) -> bool:
-    """Whether someone has to acknowledge an error or to recover a joint."""
+    """Whether an error must be acknowledged or a joint must be recovered."""
     return bool(report.recoverable) or needs_joint_recovery(report)
 
 
 def needs_joint_recovery(report: Report) -> bool:
-    """Whether a person at the robot has to move a joint back."""
+    """Whether a joint needs the operator: it must be moved back by hand."""
     return any(report.joint_limit_violation) or any(report.joint_position_error)
 
 
@@ -136,7 +136,7 @@ def robot_errors(report: Report) -> dict[str, bool]:
 
 
 def control_token(desk: Desk) -> Json:
-    """Who has control, and who has asked for it."""
+    """The holder, and a pending request."""
     active, pending = desk.tokens.active, desk.tokens.pending
     return {
         "activeToken": active and {"id": active.id, "ownedBy": active.owner},
@@ -224,7 +224,7 @@ def execution(desk: Desk) -> Json:
 
 
 def end_effector(report: Report) -> Json:
-    """What the robot assumes at its flange, as lists."""
+    """The end effector that the robot assumes, as lists."""
     tool = report.end_effector
     return {
         "mass": tool.mass,

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Single point of control: who may act on the robot. One store for both interfaces."""
+"""Single point of control: one user at a time may act on the robot. One store for both interfaces."""
 
 from __future__ import annotations
 
@@ -28,10 +28,10 @@ class Request:
 
 
 class Tokens:
-    """active: who has control, or None. pending: who has asked for it; a newer request replaces it.
+    """active: the request of the holder, or None. pending: the pending request; a newer one replaces it.
 
-    on_change: called after each change. on_loss: called when one who had control has lost or released it.
-    force_time: in which a forced request must be confirmed at the robot [s].
+    on_change: called after each change. on_loss: called when the holder has lost or released control.
+    force_time: time limit for the confirmation of a forced request at the robot [s].
     """
 
     def __init__(self, force_time: float, on_change: Callable[[], None], on_loss: Callable[[], None]):
@@ -39,12 +39,12 @@ class Tokens:
         self.pending: Request | None = None
         self.force_time = force_time
         self._on_change, self._on_loss = on_change, on_loss
-        # Ids of another run are not those of this one: clients keep tokens with their ids.
+        # The first id is random, so that ids of another run differ: clients keep tokens with their ids.
         self._next = 1 + secrets.randbelow(1 << 30)
         self._timer: asyncio.TimerHandle | None = None
 
     def request(self, owner: str, force: bool = False) -> Request:
-        """Asks for control; granted at once while nobody has it."""
+        """Requests control; granted at once if no user has control."""
         request = Request(self._next, secrets.token_urlsafe(24), owner, force)
         self._next += 1
         if self.active is None:
@@ -52,12 +52,12 @@ class Tokens:
         else:
             self._set_pending(request, "replaced")
             if force:
-                self._timer = asyncio.get_running_loop().call_later(self.force_time, self._lapse, request)
+                self._timer = asyncio.get_running_loop().call_later(self.force_time, self._expire, request)
         self._on_change()
         return request
 
     def is_active(self, token: str) -> bool:
-        """Whether it is the token of the one who has control."""
+        """Whether it is the token of the holder."""
         return self.active is not None and _equal(self.active.token, token)
 
     def is_pending(self, token: str) -> bool:
@@ -82,13 +82,13 @@ class Tokens:
             self._on_change()
 
     def time_left(self) -> float:
-        """Time in which the forced request can still be confirmed [s]; 0 without one."""
+        """Remaining time for confirming the forced request [s]; 0 without one."""
         if self._timer is None:
             return 0.0
         return max(0.0, self._timer.when() - asyncio.get_running_loop().time())
 
     def confirm_at_robot(self) -> None:
-        """Someone has pressed the circle button: grants a forced request."""
+        """Confirms a forced request at the robot: the circle button was pressed."""
         if self.pending is not None and self.pending.force:
             self.accept()
 
@@ -105,17 +105,17 @@ class Tokens:
             self._on_change()
 
     def clear(self) -> None:
-        """Forgets everything, as a reboot does."""
+        """Clears all requests, as a reboot does."""
         self._set_pending(None, "withdrawn")
         self.active = None
         self._on_change()
 
-    def _lapse(self, request: Request) -> None:
+    def _expire(self, request: Request) -> None:
         if self.pending is request:
             self._set_pending(None, "denied")
             self._on_change()
 
-    # The pending request follows.
+    # Grants the pending request.
     def _lose_active(self) -> None:
         lost, self.active = self.active, None
         request, self.pending = self.pending, None

@@ -13,11 +13,11 @@ from pyfranka.desk.recovery import confirm, recovery
 from pyfranka.desk.routes import Call, Login, Route, Token, with_v1
 from pyfranka.desk.tokens import Request
 
-# Clients close their side after the time that they have given: an answer comes earlier, if that is long.
-LONG, EARLIER = 5.0, 0.5  # [s]
-LOOK = 0.1  # [s] between two looks whether a waiting client is still there (chosen here)
+# Clients close their side after the timeout that they send; if it is long, the answer comes before that.
+LONG_TIMEOUT, EARLY_ANSWER = 5.0, 0.5  # [s]
+CHECK_PERIOD = 0.1  # [s] between two checks whether a waiting client is still connected (chosen here)
 PACK_POSE = "MoveToPackPose"
-OVERDUE = "td2Timeout"  # the error that says so
+OVERDUE = "td2Timeout"  # the error of overdue self-tests
 
 
 def system(desk) -> status.Json:
@@ -53,7 +53,7 @@ async def operating_mode(call: Call):
 async def change_operating_mode(call: Call):
     desired = call.object().get("desiredOperatingMode")
     if desired != "Execution":
-        raise bad_request("The field desiredOperatingMode is Execution; Programming is set in Desk.")
+        raise bad_request("The field desiredOperatingMode must be Execution; Programming is set in Desk.")
     await call.desk.robot.send("operating_mode execution")
 
 
@@ -69,12 +69,12 @@ async def control_token(call: Call):
 
 
 async def take_control(call: Call):
-    """Waits while someone has control."""
+    """Waits while another user has control."""
     body = call.object()
     owner = checks.text(body.get("owner"), "owner")
     timeout = body.get("timeout")
     if timeout is not None and not checks.number(timeout, "timeout") > 0.0:
-        raise bad_request("The field timeout is a positive number of seconds.")
+        raise bad_request("The field timeout must be a positive number of seconds.")
     request = call.desk.tokens.request(owner)
     try:
         await _wait_for_control(call, request, timeout)
@@ -96,11 +96,15 @@ async def release_control(call: Call):
 
 async def _wait_for_control(call: Call, request: Request, timeout: float | None) -> None:
     loop = asyncio.get_running_loop()
-    end = None if timeout is None else loop.time() + timeout - (EARLIER if timeout >= LONG else 0.0)
+    end = (
+        None
+        if timeout is None
+        else loop.time() + timeout - (EARLY_ANSWER if timeout >= LONG_TIMEOUT else 0.0)
+    )
     while not request.answer.done():
         if call.request.transport is None:
             raise DeskError(424, "Withdrawn", "The client has gone.")
-        left = LOOK if end is None else min(LOOK, end - loop.time())
+        left = CHECK_PERIOD if end is None else min(CHECK_PERIOD, end - loop.time())
         if left <= 0.0:
             break
         await asyncio.wait([request.answer], timeout=left)
@@ -152,7 +156,7 @@ async def warnings(call: Call):
 
 async def start_motion(call: Call):
     if call.object().get("type") != PACK_POSE:
-        raise bad_request(f"The field type is {PACK_POSE}.")
+        raise bad_request(f"The field type must be {PACK_POSE}.")
     await actions.move_to_pack_pose(call.desk)
 
 
@@ -182,7 +186,7 @@ async def self_tests(call: Call):
 
 
 async def execute_self_tests(call: Call):
-    """Clients of this interface do not acknowledge that the tests are overdue."""
+    """Also acknowledges overdue tests: clients of this interface do not."""
     if OVERDUE in call.desk.report.recoverable:
         await actions.acknowledge(call.desk, OVERDUE)
     await actions.self_test(call.desk, wait=True)
@@ -225,7 +229,7 @@ async def initial_configuration(call: Call):
 
 
 async def nothing(call: Call):
-    """What the simulated robot does not have."""
+    """For parts that the simulated robot does not have."""
     return json_answer({})
 
 

@@ -14,16 +14,17 @@ from gymnasium import spaces
 from gymnasium.error import ClosedEnvironmentError, ResetNeeded
 
 from pyfranka.sim import KINDS, Simulation
+from pyfranka.sim.arguments import items, numbers, seed_of, text, whole
 
 from .actions import CONTROLS
-from .episode import LONGEST_OPENING, OPENING, Episode, layout_of, size_of_action
+from .episode import MAX_OPENING_TICKS, OPENING, Episode, layout_of, size_of_action
 from .randomization import Randomization, Setting
 from .tasks import TASKS, Task
 
 __all__ = ["Environment", "Options"]
 
-LONGEST_ACTION = 50  # ticks; a longer step repeats its action, so that targets move evenly
-LARGEST_PICTURE = 4096  # [pixel]
+MAX_ACTION_TICKS = 50  # ticks; a longer step repeats its action, so that targets move evenly
+MAX_PICTURE_SIDE = 4096  # [pixel]
 OBSERVATIONS = ("state", "state+pictures")
 REWARDS = ("sparse", "dense")
 REFLEXES = ("recover", "terminate")
@@ -31,7 +32,7 @@ REFLEXES = ("recover", "terminate")
 
 def chosen(name: str, value: Any, known: Sequence[str]) -> Any:
     """The value, if it is one of those that are known; raises ValueError."""
-    if value not in known:
+    if not isinstance(value, str) or value not in known:
         raise ValueError(f"{name} is one of {', '.join(known)}, not {value!r}.")
     return value
 
@@ -62,13 +63,16 @@ class Options:
         chosen("on_reflex", self.on_reflex, REFLEXES)
         if self.render_mode is not None:
             chosen("render_mode", self.render_mode, ("rgb_array",))
-        if not (1.0 <= self.frequency <= 1000.0 and abs(1000.0 / self.frequency % 1.0) < 1e-9):
+        (frequency,) = numbers(self.frequency, "frequency", 1)
+        if not (1.0 <= frequency <= 1000.0 and abs(1000.0 / frequency % 1.0) < 1e-9):
             raise ValueError(
                 f"frequency is 1 to 1000 Hz, with a whole number of milliseconds, not {self.frequency}."
             )
-        width, height = self.size
-        if not all(1 <= side <= LARGEST_PICTURE for side in (width, height)):
-            raise ValueError(f"size is width and height, 1 to {LARGEST_PICTURE} pixels, not {self.size}.")
+        text(self.camera, "camera")
+        text(self.realism, "realism")
+        sides = items(self.size, "size", "width and height")
+        if len(sides) != 2 or not all(1 <= whole(side, "size") <= MAX_PICTURE_SIDE for side in sides):
+            raise ValueError(f"size is width and height, 1 to {MAX_PICTURE_SIDE} pixels, not {self.size}.")
 
     @property
     def kind(self) -> type[Task]:
@@ -82,7 +86,7 @@ class Options:
 
     def parts(self) -> list[int]:
         """The ticks for which a step's action is applied, one after the other; one part at 20 Hz or more."""
-        count = -(-self.ticks // LONGEST_ACTION)
+        count = -(-self.ticks // MAX_ACTION_TICKS)
         edges = numpy.linspace(0, self.ticks, count + 1).round().astype(int)
         return numpy.diff(edges).tolist()
 
@@ -93,7 +97,7 @@ class Options:
         return spaces.Box(-1.0, 1.0, (size_of_action(self.kind, self.control),), numpy.float32)
 
     def layout(self) -> dict[str, slice]:
-        """Where each part of the vector "observation" stands."""
+        """The position of each part in the vector "observation"."""
         return layout_of(self.kind, self.setting().names())
 
     def observation_space(self) -> spaces.Dict:
@@ -120,35 +124,69 @@ class Options:
             return float(self.kind.dense(achieved, desired, info["reach"]))
         return 0.0 if info["is_success"] else -1.0
 
+    def check_camera(self, sim: Simulation) -> None:
+        """Raises ValueError if the world does not have the camera."""
+        if self.camera and self.camera not in sim.cameras():
+            known = ", ".join(sim.cameras()) or "none"
+            raise ValueError(f"There is no camera '{self.camera}'; there are: {known}.")
+
     def picture(self, sim: Simulation) -> numpy.ndarray:
-        """What the camera sees, height x width x 3."""
+        """The camera's picture, height x width x 3."""
         return sim.render(self.camera, *self.size).rgb
 
 
 def checked_action(action: Any, shape: tuple[int, ...], unit: str) -> numpy.ndarray:
-    """As finite numbers in [-1, 1]; raises ValueError. What is beyond is clipped, as policies with noise
-    expect."""
+    """As numbers of this shape; raises ValueError. Applying them refuses those that are not finite, and clips
+    what is beyond [-1, 1], as policies with noise expect."""
     try:
         values = numpy.asarray(action, dtype=float)
     except (TypeError, ValueError):
         raise ValueError("An action is an array of numbers.") from None
     if values.shape != shape:
         raise ValueError(f"An action has the shape {shape} here ({unit}), not {values.shape}.")
-    if not numpy.isfinite(values).all():
-        raise ValueError("An action must be finite numbers.")
-    return numpy.minimum(numpy.maximum(values, -1.0), 1.0)
+    return values
+
+
+def checked_goals(goals: Any, size: int) -> numpy.ndarray:
+    """As numbers, ... x size; raises ValueError."""
+    try:
+        values = numpy.asarray(goals, dtype=float)
+    except (TypeError, ValueError):
+        raise ValueError("A goal is an array of numbers.") from None
+    if values.shape[-1:] != (size,):
+        raise ValueError(f"A goal has {size} numbers here, not the shape {values.shape}.")
+    return values
+
+
+def reach_of(info: Any) -> numpy.ndarray:
+    """The distances in infos of steps; raises ValueError."""
+    try:
+        return numpy.asarray(info["reach"] if isinstance(info, Mapping) else [one["reach"] for one in info])
+    except (TypeError, KeyError):
+        raise ValueError(
+            "The dense reward needs the info of a step, with 'reach', or a sequence of such."
+        ) from None
 
 
 def make_ready(episodes: Sequence[Episode], step) -> None:
     """Lets the hands of new episodes open. step: steps their simulations."""
-    for _ in range(LONGEST_OPENING // OPENING):
+    for _ in range(MAX_OPENING_TICKS // OPENING):
         if not any(episode.opening for episode in episodes):
             break
         step(OPENING)
     else:
-        raise RuntimeError(f"A hand did not open within {LONGEST_OPENING} ms.")
+        raise RuntimeError(f"A hand did not open within {MAX_OPENING_TICKS} ms.")
     for episode in episodes:
         episode.keep()
+
+
+def new_episode(options: Options, randomization: Randomization, random: numpy.random.Generator) -> Episode:
+    """In a simulation of its own, in which everything that is randomized is drawn."""
+    sim = randomization.make(options.setting(), random)
+    options.check_camera(sim)
+    episode = Episode(options.kind(), sim, options.control)
+    make_ready([episode], sim.step)
+    return episode
 
 
 class Environment(gymnasium.Env):
@@ -160,7 +198,7 @@ class Environment(gymnasium.Env):
     recover (the arm is recovered, its actions have no effect meanwhile), terminate. camera: name; empty: a
     view of the whole world. size: width and height of pictures.
 
-    Raises ValueError or RuntimeError with a sentence. One thread.
+    Raises ValueError or RuntimeError with a sentence. Called by one thread.
     """
 
     metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
@@ -190,14 +228,10 @@ class Environment(gymnasium.Env):
         return self.episode.sim
 
     def _renew(self, random: numpy.random.Generator) -> None:
-        sim = self._randomization.make(self.options.setting(), random)
-        if self.options.camera and self.options.camera not in sim.cameras():
-            known = ", ".join(sim.cameras()) or "none"
-            raise ValueError(f"There is no camera '{self.options.camera}'; there are: {known}.")
+        episode = new_episode(self.options, self._randomization, random)
         if self._episode:
             self._episode.sim.close()
-        self._episode = Episode(self.options.kind(), sim, self.options.control)
-        make_ready([self._episode], sim.step)
+        self._episode = episode
 
     def _require_open(self) -> None:
         if self._closed:
@@ -205,12 +239,14 @@ class Environment(gymnasium.Env):
 
     def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None):
         """Begins an episode. options: q (joints of all robots [rad]), object (x, y, z [m] and, optionally,
-        w, x, y, z), goal (x, y, z [m]), in place of what is drawn."""
+        w, x, y, z), goal (x, y, z [m]), in place of what is drawn. Raises ValueError, TypeError or
+        RuntimeError for a seed or options that cannot be used; nothing has changed then."""
         self._require_open()
-        super().reset(seed=seed)
+        checked = self._episode.checked(options)
+        super().reset(seed=None if seed is None else seed_of(seed))
         if self._randomization:
             self._renew(self.np_random)
-        self._episode.reset(self.np_random, options or {})
+        self._episode.reset(self.np_random, checked)
         self._begun = True
         observation = self._observe(0.0)
         return observation, self._episode.report(observation)
@@ -224,12 +260,10 @@ class Environment(gymnasium.Env):
         for ticks in self._parts:
             episode.apply(values, 1e-3 * ticks)
             episode.sim.step(ticks)
-        seconds = 1e-3 * self.options.ticks
-        stopped = episode.recover(seconds)
-        observation = self._observe(seconds)
+        observation = self._observe(1e-3 * self.options.ticks)
         info = episode.report(observation)
         reward = self.options.reward_of(observation["achieved_goal"], episode.desired, info)
-        terminated = info["is_success"] or (stopped and self.options.on_reflex == "terminate")
+        terminated = info["is_success"] or (self.options.on_reflex == "terminate" and episode.stopped)
         return observation, reward, terminated, episode.stuck, info
 
     def _observe(self, seconds: float) -> dict[str, numpy.ndarray]:
@@ -240,10 +274,11 @@ class Environment(gymnasium.Env):
 
     def compute_reward(self, achieved_goal: numpy.ndarray, desired_goal: numpy.ndarray, info: Any):
         """The reward of goals, ... x size, and of the infos that belong to them: one, or a sequence. For
-        replay with other goals (HER)."""
-        achieved, desired = numpy.asarray(achieved_goal), numpy.asarray(desired_goal)
-        reach = info["reach"] if isinstance(info, Mapping) else [one["reach"] for one in info]
-        rewards = self.options.rewards(achieved, desired, numpy.asarray(reach))
+        replay with other goals (HER). The sparse reward needs no info. Raises ValueError."""
+        size = self.observation_space["desired_goal"].shape[0]
+        achieved, desired = (checked_goals(goals, size) for goals in (achieved_goal, desired_goal))
+        reach = reach_of(info) if self.options.reward == "dense" else 0.0
+        rewards = self.options.rewards(achieved, desired, reach)
         return float(rewards) if achieved.ndim == 1 else rewards
 
     def render(self):

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""One task in one Simulation: what an action does to it, what is observed, and what is reported of it."""
+"""One task in one Simulation: its actions, observations and reports."""
 
 from __future__ import annotations
 
@@ -8,19 +8,19 @@ from collections.abc import Mapping
 from typing import Any
 
 import numpy
-from scipy.spatial.transform import Rotation
+from _pyfranka import _sim
 
-from pyfranka import RobotMode
-from pyfranka.sim import RequestRefused, Robot, Simulation
+from pyfranka.sim import Robot, Simulation
+from pyfranka.sim.arguments import mapping, numbers
+from pyfranka.sim.simulation import NO_TURN
 
-from .actions import CONTROLS, HandControl
+from .actions import CONTROLS
 from .tasks import Task
 
-__all__ = ["Episode", "layout_of", "size_of_action"]
+__all__ = ["Episode", "View", "layout_of", "size_of_action"]
 
-OPENING = 100  # ticks between two looks at hands that open (chosen here)
-LONGEST_OPENING = 5000  # ticks; the slowest hand needs 2000
-LONGEST_RECOVERY = 1.0  # [s]; one that succeeds takes less than half of it
+OPENING = 100  # ticks between two checks of hands that open (chosen here)
+MAX_OPENING_TICKS = 5000  # ticks; the slowest hand needs 2000
 START_SPREAD = 0.02  # of the joints at the start of an episode [rad] (chosen here)
 LOOSE_TORQUE, LOOSE_FORCE = 100.0, 300.0  # [Nm], [N]: beyond what a task needs (chosen here)
 ARM_FIELDS = (("q", 7), ("dq", 7), ("position", 3), ("rotation", 6))
@@ -28,12 +28,12 @@ BODY_FIELDS = (("position", 3), ("quaternion", 4), ("velocity", 3))
 
 
 def size_of_action(task: type[Task], control: str) -> int:
-    """How many numbers an action has: those of an arm and its hand, robot by robot."""
+    """Number of values of an action: those of an arm and its hand, robot by robot."""
     return len(task.bases) * (CONTROLS[control].size + task.uses_hand)
 
 
 def layout_of(task: type[Task], robots: list[str]) -> dict[str, slice]:
-    """Where each part of the vector "observation" stands."""
+    """The position of each part in the vector "observation"."""
     fields = [(f"{robot}.{name}", size) for robot in robots for name, size in _arm_fields(task)]
     fields += [(f"{task.body}.{name}", size) for name, size in BODY_FIELDS if task.body]
     layout, begin = {}, 0
@@ -54,16 +54,12 @@ class Episode:
         """sim: of the task's world and robots, just made; step it while hands are opening, then keep()."""
         self.task, self.sim = task, sim
         self.robots: list[Robot] = list(sim.values())
-        self._bases = [_base_of(robot) for robot in self.robots]
-        workspace = numpy.array(task.workspace)
-        self._arms = [CONTROLS[control](r, base, workspace) for r, base in zip(self.robots, self._bases)]
-        self._hands = [HandControl(robot) for robot in self.robots] if task.uses_hand else []
-        self._share = CONTROLS[control].size + task.uses_hand
-        self._layout = layout_of(type(task), list(sim))
-        self._size = max(part.stop for part in self._layout.values())
-        self.reflexes: int = 0  # of this episode
-        self._stopped: set[str] = set()
-        self._waited = 0.0  # [s] in a reflex
+        self.native = _sim.Episode(
+            sim._native, control, task.body, task.uses_hand, numpy.array(task.workspace)
+        )
+        layout = layout_of(type(task), list(sim))
+        self.view = View(type(task), layout)
+        self.row = numpy.zeros(self.native.size)  # of the last observation
         self._openings = [robot.gripper.move(robot.gripper.max_width, 0.1) for robot in self._opening()]
         for robot in self.robots:
             robot.set_collision_behavior(*[[LOOSE_TORQUE] * 7] * 2, *[[LOOSE_FORCE] * 6] * 2)
@@ -81,9 +77,9 @@ class Episode:
         """Keeps the present state, hands open, as the one that each episode begins with."""
         self._beginning = self.sim.snapshot()
 
-    def reset(self, random: numpy.random.Generator, options: Mapping[str, Any]) -> None:
-        """Begins an episode. All that is random is drawn here, always in the same order."""
-        chosen = self._checked(options)
+    def reset(self, random: numpy.random.Generator, chosen: Mapping[str, numpy.ndarray]) -> None:
+        """Begins an episode. chosen: options that were checked. All that is random is drawn here, always in
+        the same order."""
         poses = [q + random.uniform(-START_SPREAD, START_SPREAD, 7) for q in self._start]
         place = self.task.draw_body(random) if self.task.body else numpy.zeros(0)
         if "object" in chosen:
@@ -95,28 +91,24 @@ class Episode:
         if self.task.body:
             self.sim.place_body(self.task.body, place[:3], place[3:])
         self.desired = numpy.array([*chosen.get("goal", goal), *self.task.flags])
-        self.reflexes, self._stopped, self._waited = 0, set(), 0.0
-        for part in (*self._arms, *self._hands):
-            part.restart()
-        self._before = place[:3]
+        self.native.restart()
 
-    def _checked(self, options: Mapping[str, Any]) -> dict[str, numpy.ndarray]:
-        """The options of reset() as arrays; raises ValueError, and nothing has changed."""
+    def checked(self, options: Mapping[str, Any] | None) -> dict[str, numpy.ndarray]:
+        """The options of an environment's reset() as arrays; raises ValueError or RuntimeError, and nothing
+        has changed."""
         sizes = {"q": (7 * len(self.robots),), "goal": (3,)}
         if self.task.body:
             sizes["object"] = (3, 7)
         chosen = {}
-        for name, value in options.items():
+        for name, value in mapping(options, "options", "values by their names").items():
             if name not in sizes:
                 raise ValueError(f"reset() has the options {', '.join(sizes)} in this task, not '{name}'.")
-            values = numpy.asarray(value, dtype=float).ravel()
-            if values.size not in sizes[name] or not numpy.isfinite(values).all():
-                count = " or ".join(map(str, sizes[name]))
-                raise ValueError(f"The option {name} needs {count} finite numbers.")
-            chosen[name] = values
-        if chosen.get("object", numpy.zeros(3)).size == 7:
-            if abs(numpy.linalg.norm(chosen["object"][3:]) - 1.0) > 1e-3:
-                raise ValueError("The quaternion of the option object must have the length 1.")
+            chosen[name] = numbers(value, f"The option {name}", *sizes[name])
+        if "object" in chosen:
+            place = chosen["object"]
+            self.sim._native.check_body_pose(
+                self.task.body, place[:3], place[3:] if place.size == 7 else NO_TURN
+            )
         if "q" in chosen:
             chosen["q"] = chosen["q"].reshape(-1, 7)
             for robot, q in zip(self.robots, chosen["q"]):
@@ -125,68 +117,61 @@ class Episode:
 
     def apply(self, action: numpy.ndarray, seconds: float) -> None:
         """An action of finite numbers in [-1, 1], for so long; then the simulation is stepped."""
-        for i, arm in enumerate(self._arms):
-            part = action[i * self._share : (i + 1) * self._share]
-            arm.apply(part[: arm.size], seconds)
-            if self._hands:
-                self._hands[i].apply(part[-1])
+        self.native.apply(action, seconds)
 
-    def recover(self, seconds: float) -> bool:
-        """Starts the recovery of robots that a reflex has stopped; whether there are any. seconds: since the
-        last call."""
-        stopped = {robot.name for robot in self.robots if robot.state.robot_mode == RobotMode.Reflex}
-        if not stopped and not self._stopped:
-            return False
-        self.reflexes += len(stopped - self._stopped)
-        self._stopped = stopped
-        self._waited = self._waited + seconds if stopped else 0.0
-        for name in sorted(stopped):
-            try:
-                self.sim[name].recover()
-            except RequestRefused:  # it still brakes: the next step tries again
-                pass
-        return bool(stopped)
+    @property
+    def reflexes(self) -> int:
+        """Of this episode."""
+        return self.native.reflexes
+
+    @property
+    def stopped(self) -> bool:
+        """Whether a reflex had stopped a robot at the last observation; it is being recovered."""
+        return self.native.stopped
 
     @property
     def stuck(self) -> bool:
-        """Whether recovery fails, as for a joint beyond its limits, which people guide back by hand."""
-        return self._waited > LONGEST_RECOVERY
+        """Whether recovery fails, as for a joint beyond its limits, which a user must guide back by hand."""
+        return self.native.stuck
 
     def observe(self, seconds: float) -> dict[str, numpy.ndarray]:
-        """The observation after so long a step; 0 at the start."""
-        vector, at = numpy.empty(self._size), 0
-        self._tools = []
-        for robot, base in zip(self.robots, self._bases):
-            state = robot.state
-            tool = base @ state.O_T_EE
-            self._tools.append(tool[:3, 3])
-            vector[at : at + 7], vector[at + 7 : at + 14] = state.q, state.dq
-            vector[at + 14 : at + 17] = tool[:3, 3]
-            vector[at + 17 : at + 20], vector[at + 20 : at + 23] = tool[:3, 0], tool[:3, 1]
-            at += 23
-            if self._hands:
-                vector[at] = robot.gripper.width
-                at += 1
-        place = numpy.zeros(3)
-        if self.task.body:
-            place, quaternion = self.sim.body_pose(self.task.body)
-            vector[at : at + 3] = place
-            vector[at + 3 : at + 7] = quaternion if quaternion[0] >= 0.0 else -quaternion
-            vector[at + 7 : at + 10] = (place - self._before) / seconds if seconds else 0.0
-            self._before = place
-        self._reach = self.task.reach(place, self._tools)
-        achieved = self.task.achieved(self.sim, place, self._tools)
-        return {"observation": vector, "achieved_goal": achieved, "desired_goal": self.desired.copy()}
+        """The observation after so long a step; 0 at the start. Starts the recovery of robots that a reflex
+        has stopped."""
+        self.native.observe(seconds, self.row)
+        return {**self.view.observation(self.row), "desired_goal": self.desired.copy()}
 
     def report(self, observation: Mapping[str, numpy.ndarray]) -> dict[str, Any]:
         """The info of an observation."""
         success = self.task.success(observation["achieved_goal"], self.desired)
-        return {"is_success": bool(success), "reach": self._reach, "reflexes": self.reflexes}
+        return {
+            "is_success": bool(success),
+            "reach": float(self.view.reach(self.row)),
+            "reflexes": self.native.reflexes,
+        }
 
 
-def _base_of(robot: Robot) -> numpy.ndarray:
-    base = numpy.asarray(robot.setup.base, dtype=float)
-    pose = numpy.eye(4)
-    pose[:3, 3] = base[:3]
-    pose[:3, :3] = Rotation.from_rotvec([0.0, 0.0, base[3] if base.size == 4 else 0.0]).as_matrix()
-    return pose
+class View:
+    """The meaning of the rows of native episodes for a task: one row, or several as ... x size."""
+
+    def __init__(self, task: type[Task], layout: Mapping[str, slice]):
+        self._task = task
+        self._size = max(part.stop for part in layout.values())
+        self._place = layout.get(f"{task.body}.position", slice(0))
+        self._tools = [
+            part
+            for name, part in layout.items()
+            if name.endswith(".position") and part.start != self._place.start
+        ]
+
+    def observation(self, rows: numpy.ndarray) -> dict[str, numpy.ndarray]:
+        """Copies of the vectors, and the goals that are reached."""
+        achieved = self._task.achieved(rows[..., self._place], self.tools(rows), rows[..., self._size :])
+        return {"observation": rows[..., : self._size].copy(), "achieved_goal": achieved}
+
+    def reach(self, rows: numpy.ndarray) -> numpy.ndarray | float:
+        """Mean distance of the end effectors from the object [m]."""
+        return self._task.reach(rows[..., self._place], self.tools(rows))
+
+    def tools(self, rows: numpy.ndarray) -> list[numpy.ndarray]:
+        """Positions of the end effectors."""
+        return [rows[..., part] for part in self._tools]

@@ -20,6 +20,7 @@ import numpy
 from _pyfranka import _sim
 
 from pyfranka.sim import KINDS, Simulation
+from pyfranka.sim.arguments import items, mapping
 
 from .tasks import Task
 
@@ -28,8 +29,8 @@ __all__ = ["Randomization", "Setting"]
 RANGES = {  # name -> lowest and highest value that makes sense (chosen here)
     "mass": (0.1, 20.0),  # of the object, a factor
     "friction": (0.1, 10.0),  # of the object and what it lies on, a factor
-    "base_height": (-0.1, 0.1),  # of the robots, beside what the task says [m]
-    "load": (0.0, 3.0),  # that the robots are told of although they do not carry it [kg]
+    "base_height": (-0.1, 0.1),  # of the robots, added to that of the task [m]
+    "load": (0.0, 3.0),  # that the robots assume although they do not carry it [kg]
 }
 LOAD_AT = (0.0, 0.0, 0.1)  # in the flange's frame [m]
 
@@ -62,7 +63,7 @@ class Setting:
 
 @dataclass(frozen=True)
 class Randomization:
-    """What is drawn anew for each episode. Raises ValueError for what is unknown or out of range."""
+    """Values drawn for each episode. Raises ValueError for unknown names and values out of range."""
 
     realism: Sequence[str] = ()
     ranges: Mapping[str, tuple[float, float]] = field(default_factory=dict)
@@ -70,9 +71,9 @@ class Randomization:
     @classmethod
     def of(cls, randomize: Mapping[str, Any] | None, task: type[Task]) -> Randomization:
         """From the argument `randomize` of an environment."""
-        values = dict(randomize or {})
+        values = dict(mapping(randomize, "randomize", "what is drawn, by its names"))
         realism = values.pop("realism", ())
-        realism = (realism,) if isinstance(realism, str) else tuple(realism)
+        realism = (realism,) if isinstance(realism, str) else items(realism, "randomize: realism", "profiles")
         if not all(isinstance(profile, str) for profile in realism):
             raise ValueError("randomize: realism is a profile such as 'recorded', or several of them.")
         for name in values:
@@ -81,7 +82,7 @@ class Randomization:
                 raise ValueError(f"randomize: '{name}' is not known; there are {known}.")
             if name in ("mass", "friction") and not task.body:
                 raise ValueError(f"randomize: {name} is that of an object, and {task.name} has none.")
-        return cls(realism, {name: _range(name, value) for name, value in values.items()})
+        return cls(tuple(realism), {name: _range(name, value) for name, value in values.items()})
 
     def __bool__(self) -> bool:
         return bool(self.realism or self.ranges)

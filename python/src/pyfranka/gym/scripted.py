@@ -34,12 +34,12 @@ Steps = Generator[None, None, None]
 
 
 class Arm:
-    """What a script sees of an arm, and where it wants it. One call of `go` is one step of the policy."""
+    """An arm's measured state and target for a script. One iteration of `go` is one step of the policy."""
 
     def __init__(self, script: Script, robot: str):
         self._script, self._robot = script, robot
-        self.wanted = self.position
-        self.wanted_rotation = self.rotation
+        self.target_position = self.position
+        self.target_rotation = self.rotation
         self.grip = 1.0
 
     def _part(self, name: str) -> Vector:
@@ -59,18 +59,18 @@ class Arm:
         return float(self._part("width")[0])
 
     def action(self, seconds: float) -> Vector:
-        """The Cartesian step towards what is wanted."""
-        way = GAIN * (self.wanted - self.position) / (SPEED * seconds)
-        turn = Rotation.from_matrix(self.wanted_rotation @ self.rotation.T).as_rotvec()
+        """The Cartesian step towards the target."""
+        way = GAIN * (self.target_position - self.position) / (SPEED * seconds)
+        turn = Rotation.from_matrix(self.target_rotation @ self.rotation.T).as_rotvec()
         return numpy.concatenate([shortened(way, 1.0), shortened(GAIN * turn / (TURN_SPEED * seconds), 1.0)])
 
     def go(self, position: Vector, rotation: Vector | None = None, near: float = NEAR) -> Steps:
         """Goes to a pose."""
-        self.wanted = numpy.asarray(position, dtype=float)
-        self.wanted_rotation = self.wanted_rotation if rotation is None else rotation
+        self.target_position = numpy.asarray(position, dtype=float)
+        self.target_rotation = self.target_rotation if rotation is None else rotation
         for _ in range(PATIENCE):
-            away = float(numpy.linalg.norm(self.wanted - self.position))
-            turn = Rotation.from_matrix(self.wanted_rotation @ self.rotation.T).magnitude()
+            away = float(numpy.linalg.norm(self.target_position - self.position))
+            turn = Rotation.from_matrix(self.target_rotation @ self.rotation.T).magnitude()
             if away < near and turn < TURNED:
                 return
             yield
@@ -153,7 +153,7 @@ def reach(script: Script) -> Steps:
 
 
 def push(script: Script) -> Steps:
-    """Goes behind the cube, seen from the goal, and pushes; and anew if it has lost the cube."""
+    """Goes behind the cube, seen from the goal, and pushes; and again if it loses the cube."""
     arm, low, high = script.arms[0], 0.005, 0.08
     while True:
         behind = above(script.place - 0.07 * ahead_of(script), low)
@@ -166,8 +166,8 @@ def push(script: Script) -> Steps:
             aside[2] = 0.0
             if offset @ ahead > -0.01 or numpy.linalg.norm(aside) > 0.02:
                 break
-            arm.wanted = arm.position + 0.02 * ahead - aside
-            arm.wanted[2] = behind[2]
+            arm.target_position = arm.position + 0.02 * ahead - aside
+            arm.target_position[2] = behind[2]
             yield
 
 
@@ -198,7 +198,7 @@ def hand_over(script: Script) -> Steps:
     end = numpy.array([grip, 0.0, 0.004])
     toward, back = tilted(angle, 1.0), tilted(angle, -1.0)
     away = numpy.array([0.08, 0.0, 0.08])  # along a tilted hand
-    second.wanted, second.wanted_rotation = middle + [0.2, 0.0, 0.1], back
+    second.target_position, second.target_rotation = middle + [0.2, 0.0, 0.1], back
     yield from first.go(stone - end * [1, 0, -1] - away * [1, 0, -1], toward)
     yield from first.go(stone - end * [1, 0, -1], near=AT)
     yield from first.close()

@@ -8,13 +8,10 @@ the position is nearer than its tolerance and all flags are as desired.
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from typing import ClassVar
 
 import numpy
-
-from pyfranka.sim import Simulation
 
 __all__ = ["TASKS", "HandOver", "PickAndPlace", "Push", "Reach", "Task"]
 
@@ -33,8 +30,13 @@ def turned(axis: Sequence[float], angle: float) -> Vector:
     return numpy.array([numpy.cos(angle / 2), *(numpy.sin(angle / 2) * numpy.asarray(axis))])
 
 
+def length_of(vectors: Vector) -> Vector:
+    """Of vectors x, y, z, ... x 3."""
+    return numpy.sqrt((vectors * vectors).sum(axis=-1))
+
+
 class Task:
-    """What a task is; it has no state. Positions are in the world."""
+    """A task; it has no state. Positions are in the world."""
 
     name: ClassVar[str]
     world: ClassVar[str] = ""
@@ -54,26 +56,29 @@ class Task:
         """A pose of the object: x, y, z and w, x, y, z. Only for tasks with one."""
         raise NotImplementedError
 
-    def achieved(self, sim: Simulation, place: Vector, tools: Sequence[Vector]) -> Vector:
-        """The goal that is reached now. place: of the object; tools: of the end effectors, x, y, z each."""
-        return place
+    @classmethod
+    def achieved(cls, place: Vector, tools: Sequence[Vector], touches: Vector) -> Vector:
+        """The goals that are reached, ... x size. place: of the object; tools: of the end effectors, x, y, z
+        each; touches: whether each robot, and anything else, touches the object, 0 or 1."""
+        return place.copy()
 
-    def reach(self, place: Vector, tools: Sequence[Vector]) -> float:
+    @classmethod
+    def reach(cls, place: Vector, tools: Sequence[Vector]) -> Vector | float:
         """Mean distance of the end effectors from the object [m]."""
-        away = [place - tool for tool in tools]
-        return sum(math.sqrt(way @ way) for way in away) / len(away)
+        return sum(length_of(place - tool) for tool in tools) / len(tools)
 
     @classmethod
     def success(cls, achieved: Vector, desired: Vector) -> Vector:
         """Whether goals are reached; both ... x size."""
-        near = numpy.linalg.norm((achieved - desired)[..., :3], axis=-1) < cls.tolerance
-        return near & (numpy.abs((achieved - desired)[..., 3:]) < 0.5).all(axis=-1)
+        away = achieved - desired
+        near = length_of(away[..., :3]) < cls.tolerance
+        return near & (numpy.abs(away[..., 3:]) < 0.5).all(axis=-1) if cls.flags else near
 
     @classmethod
     def dense(cls, achieved: Vector, desired: Vector, reach: Vector | float) -> Vector:
         """The dense reward: minus all that is missing [m]."""
-        missing = numpy.linalg.norm((achieved - desired)[..., :3], axis=-1)
-        return -(missing + FLAG_COST * numpy.abs((achieved - desired)[..., 3:]).sum(axis=-1) + reach)
+        away = achieved - desired
+        return -(length_of(away[..., :3]) + FLAG_COST * numpy.abs(away[..., 3:]).sum(axis=-1) + reach)
 
 
 class Reach(Task):
@@ -85,11 +90,13 @@ class Reach(Task):
     def draw_goal(self, random, body):
         return random.uniform((0.3, -0.3, 0.15), (0.6, 0.3, 0.6))
 
-    def achieved(self, sim, place, tools):
+    @classmethod
+    def achieved(cls, place, tools, touches):
         return tools[0].copy()
 
-    def reach(self, place, tools):
-        return 0.0
+    @classmethod
+    def reach(cls, place, tools):
+        return numpy.zeros(place.shape[:-1])
 
 
 class Push(Task):
@@ -129,9 +136,10 @@ class PickAndPlace(Task):
         x, y = random.uniform((-0.03, -0.01), (0.03, 0.01)) + TRAY
         return numpy.array([x, y, TRAY_TOP + STONE_HALF[2]])
 
-    def achieved(self, sim, place, tools):
-        held, lies = touched_by(sim, self.body)
-        return numpy.array([*place, float(lies and not any(held))])
+    @classmethod
+    def achieved(cls, place, tools, touches):
+        held, lies = touches[..., :1], touches[..., 1:]
+        return numpy.concatenate((place, lies * (1.0 - held)), axis=-1)
 
 
 class HandOver(Task):
@@ -157,17 +165,9 @@ class HandOver(Task):
     def draw_goal(self, random, body):
         return random.uniform((0.2, -0.1, 0.55), (0.3, 0.1, 0.7))
 
-    def achieved(self, sim, place, tools):
-        held, lies = touched_by(sim, self.body)
-        return numpy.array([*place, *map(float, held), float(lies)])
-
-
-def touched_by(sim: Simulation, body: str) -> tuple[list[bool], bool]:
-    """Whether each robot, and whether anything else touches a body."""
-    others = {c.body2 if c.body1 == body else c.body1 for c in sim.contacts() if body in (c.body1, c.body2)}
-    held = [any(other.startswith(f"{robot}_") for other in others) for robot in sim]
-    robots = tuple(f"{robot}_" for robot in sim)
-    return held, any(not other.startswith(robots) for other in others)
+    @classmethod
+    def achieved(cls, place, tools, touches):
+        return numpy.concatenate((place, touches), axis=-1)
 
 
 TASKS: dict[str, type[Task]] = {task.name: task for task in (Reach, Push, PickAndPlace, HandOver)}

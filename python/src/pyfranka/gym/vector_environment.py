@@ -4,21 +4,22 @@
 
 from __future__ import annotations
 
-import operator
 from collections.abc import Mapping, Sequence
 from copy import deepcopy
 from typing import Any
 
 import numpy
+from _pyfranka import _sim
 from gymnasium import spaces
 from gymnasium.error import ClosedEnvironmentError, ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space, concatenate, create_empty_array
 
 from pyfranka.sim import SimulationBatch
+from pyfranka.sim.arguments import mapping, seed_of, whole
 
 from .actions import CONTROLS
-from .environment import Options, checked_action, make_ready
+from .environment import Options, checked_action, chosen, make_ready, new_episode
 from .episode import Episode
 from .randomization import Randomization
 
@@ -32,10 +33,10 @@ class VectorEnvironment(VectorEnv):
     max_episode_steps: after which an episode is truncated; None: never. threads: as of SimulationBatch.
     autoreset_mode: NextStep (a step after an episode's end resets it, as Gymnasium does by default),
     SameStep (with info["final_obs"] and info["final_info"]) or Disabled (options["reset_mask"] of reset()).
-    The rest as of Environment, except `randomize`: the robots of a batch stay, so of it only `realism` can
-    be chosen. One profile; each world has a robot of its own with it.
+    The rest as of Environment. With `randomize` each episode has a new simulation, which takes the place of
+    the one before in the batch.
 
-    Raises ValueError or RuntimeError with a sentence. One thread.
+    Raises ValueError or RuntimeError with a sentence. Called by one thread.
     """
 
     def __init__(
@@ -46,11 +47,14 @@ class VectorEnvironment(VectorEnv):
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
         **options: Any,
     ):
-        self.num_envs = operator.index(num_envs)
-        if self.num_envs < 1:
-            raise ValueError(f"num_envs is 1 or more, not {num_envs}.")
+        self.num_envs = whole(num_envs, "num_envs", 1)
+        if max_episode_steps is not None:
+            max_episode_steps = whole(max_episode_steps, "max_episode_steps", 1)
         self.options = options = Options(**options)
-        self.autoreset_mode = AutoresetMode(autoreset_mode)
+        modes = {mode.value: mode for mode in AutoresetMode}
+        if not isinstance(autoreset_mode, AutoresetMode):
+            autoreset_mode = modes[chosen("autoreset_mode", autoreset_mode, tuple(modes))]
+        self.autoreset_mode = autoreset_mode
         self.metadata = {
             "render_modes": ["rgb_array"],
             "render_fps": options.frequency,
@@ -63,32 +67,30 @@ class VectorEnvironment(VectorEnv):
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.layout, self._parts = options.layout(), options.parts()
         self._unit = CONTROLS[options.control].unit
-        self._batch = self._make_batch(threads)
+        self._randomization = Randomization.of(options.randomize, options.kind)
+        if self._randomization:  # what cannot be simulated is refused now
+            new_episode(options, self._randomization, numpy.random.default_rng(0)).sim.close()
+        robots = options.setting().robots()
+        self._batch = SimulationBatch(
+            self.num_envs, options.kind.world, robots, threads=threads, observe=["time"]
+        )
+        options.check_camera(self._batch[0])
         self._episodes = [Episode(options.kind(), sim, options.control) for sim in self._batch]
         make_ready(self._episodes, self._batch.step)
+        self._view = self._episodes[0].view
+        self._rows = numpy.zeros((self.num_envs, self._episodes[0].native.size))
+        self._desired = numpy.zeros((self.num_envs, self._goal_size()))
         self._randoms: list[numpy.random.Generator] = []
         self._steps = numpy.zeros(self.num_envs, dtype=int)
         self._ended = numpy.zeros(self.num_envs, dtype=bool)
         self._shared = create_empty_array(self.single_observation_space, self.num_envs)
 
-    def _make_batch(self, threads: int | None) -> SimulationBatch:
-        options = self.options
-        randomization = Randomization.of(options.randomize, options.kind)
-        if randomization.ranges or len(randomization.realism) > 1:
-            raise ValueError(
-                "Worlds of a batch cannot be made anew, so randomize takes one realism only here; for the "
-                "rest use gymnasium.make_vec(..., vectorization_mode='async')."
-            )
-        robots = options.setting().robots(*randomization.realism)
-        batch = SimulationBatch(self.num_envs, options.kind.world, robots, threads=threads, observe=["time"])
-        if options.camera and options.camera not in batch[0].cameras():
-            known = ", ".join(batch[0].cameras()) or "none"
-            raise ValueError(f"There is no camera '{options.camera}'; there are: {known}.")
-        return batch
+    def _goal_size(self) -> int:
+        return self.single_observation_space["desired_goal"].shape[0]
 
     @property
     def episodes(self) -> Sequence[Episode]:
-        """Of each environment."""
+        """The present one of each environment. Others after a reset if anything is randomized."""
         return self._episodes
 
     def _require_open(self) -> None:
@@ -102,14 +104,16 @@ class VectorEnvironment(VectorEnv):
         seed: of the first one, then counted up; or one for each. Other options: as of Environment, the same
         for all."""
         self._require_open()
-        options = dict(options or {})
+        options = dict(mapping(options, "options", "values by their names"))
         mask = options.pop("reset_mask", None)
         mask = self._checked_mask(mask) if mask is not None else numpy.ones(self.num_envs, dtype=bool)
-        self._seed(seed, mask)
+        seeds = self._checked_seeds(seed)
+        checked = self._episodes[mask.argmax()].checked(options)  # the others have equal robots
+        self._seed(seeds, mask)
         infos: dict[str, Any] = {}
         observations: list[Any] = [None] * self.num_envs
         for i in numpy.flatnonzero(mask):
-            observations[i], info = self._reset_one(i, options)
+            observations[i], info = self._reset_one(i, checked)
             infos = self._add_info(infos, info, i)
         for i in numpy.flatnonzero(~mask):
             observations[i] = self._row(i)
@@ -123,20 +127,31 @@ class VectorEnvironment(VectorEnv):
             raise ResetNeeded("The first reset() is that of all environments.")
         return mask
 
-    def _seed(self, seed: int | Sequence[int | None] | None, mask: numpy.ndarray) -> None:
-        seeds = [seed] * self.num_envs if seed is None else seed
-        if isinstance(seed, int | numpy.integer):
-            seeds = [int(seed) + i for i in range(self.num_envs)]
+    def _checked_seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
+        """One for each environment."""
+        if seed is None:
+            return [None] * self.num_envs
+        if isinstance(seed, Sequence | numpy.ndarray) and not isinstance(seed, str):
+            seeds = [None if one is None else seed_of(one) for one in seed]
+        else:
+            seeds = [seed_of(seed) + i for i in range(self.num_envs)]
         if len(seeds) != self.num_envs:
             raise ValueError(f"seed is one number, or {self.num_envs} of them, not {len(seeds)}.")
+        return seeds
+
+    def _seed(self, seeds: list[int | None], mask: numpy.ndarray) -> None:
         if not self._randoms:
             self._randoms = [numpy.random.default_rng(one) for one in seeds]
         for i in numpy.flatnonzero(mask):
             if seeds[i] is not None:
                 self._randoms[i] = numpy.random.default_rng(seeds[i])
 
-    def _reset_one(self, i: int, options: Mapping[str, Any]):
-        self._episodes[i].reset(self._randoms[i], options)
+    def _reset_one(self, i: int, checked: Mapping[str, numpy.ndarray]):
+        if self._randomization:
+            episode = new_episode(self.options, self._randomization, self._randoms[i])
+            self._batch.replace(i, episode.sim)
+            self._episodes[i] = episode
+        self._episodes[i].reset(self._randoms[i], checked)
         self._steps[i], self._ended[i] = 0, False
         return self._observed(i, 0.0)
 
@@ -149,41 +164,63 @@ class VectorEnvironment(VectorEnv):
             which = ", ".join(map(str, numpy.flatnonzero(self._ended)))
             raise ResetNeeded(f"The episodes of the environments {which} have ended; reset them first.")
         resting = self._ended.copy()  # these are reset in place of a step
-        self._advance(values, ~resting)
-        seconds = 1e-3 * self.options.ticks
-        rewards = numpy.zeros(self.num_envs)
-        terminated, truncated = numpy.zeros((2, self.num_envs), dtype=bool)
-        infos: dict[str, Any] = {}
-        observations: list[Any] = [None] * self.num_envs
-        for i, episode in enumerate(self._episodes):
-            if resting[i]:
-                observations[i], info = self._reset_one(i, {})
-            else:
-                stopped = episode.recover(seconds)
-                observations[i], info = self._observed(i, seconds)
-                self._steps[i] += 1
-                goal = observations[i]["achieved_goal"]
-                rewards[i] = self.options.reward_of(goal, episode.desired, info)
-                terminated[i] = info["is_success"] or (stopped and self.options.on_reflex == "terminate")
-                late = self._limit is not None and self._steps[i] >= self._limit
-                truncated[i] = late or episode.stuck
-                self._ended[i] = terminated[i] or truncated[i]
-            if self._ended[i] and self.autoreset_mode == AutoresetMode.SAME_STEP:
-                final = {"final_obs": observations[i], "final_info": info}
-                infos = self._add_info(infos, final, i)
-                observations[i], info = self._reset_one(i, {})
-            infos = self._add_info(infos, info, i)
-        return self._together(observations), rewards, terminated, truncated, infos
+        self._advance(values, resting)
+        natives = [episode.native for episode in self._episodes]
+        _sim.observe_episodes(natives, resting, 1e-3 * self.options.ticks, self._rows)
+        seen = {**self._view.observation(self._rows), "desired_goal": self._desired.copy()}
+        success = self.options.kind.success(seen["achieved_goal"], self._desired)
+        infos = {
+            "is_success": success,
+            "reach": self._view.reach(self._rows),
+            "reflexes": numpy.array([native.reflexes for native in natives]),
+        }
+        rewards = self.options.rewards(seen["achieved_goal"], self._desired, infos["reach"])
+        rewards[resting] = 0.0
+        if "picture" in self.single_observation_space.spaces:
+            seen["picture"] = numpy.stack([self.options.picture(sim) for sim in self._batch])
+        self._steps += 1
+        terminated, truncated = self._ends(success, natives, resting)
+        self._ended = terminated | truncated
+        infos.update({f"_{name}": numpy.ones(self.num_envs, dtype=bool) for name in list(infos)})
+        renewed = self._ended if self.autoreset_mode == AutoresetMode.SAME_STEP else resting
+        for i in numpy.flatnonzero(renewed):
+            infos = self._renew(i, seen, infos)
+        self._shared = {name: values.copy() for name, values in seen.items()}
+        return seen, rewards, terminated, truncated, infos
 
-    def _advance(self, values: numpy.ndarray, moving: numpy.ndarray) -> None:
+    def _ends(self, success: numpy.ndarray, natives: Sequence[_sim.Episode], resting: numpy.ndarray):
+        """Which episodes are terminated, and which are truncated by this step."""
+        terminated = success.copy()
+        if self.options.on_reflex == "terminate":
+            terminated |= [native.stopped for native in natives]
+        truncated = numpy.array([native.stuck for native in natives])
+        if self._limit is not None:
+            truncated |= self._steps >= self._limit
+        return terminated & ~resting, truncated & ~resting
+
+    def _renew(self, i: int, seen: dict[str, numpy.ndarray], infos: dict[str, Any]) -> dict[str, Any]:
+        """Begins another episode in environment i, and puts its observation and info in their places."""
+        if self.autoreset_mode == AutoresetMode.SAME_STEP:
+            final = {"final_obs": {name: values[i].copy() for name, values in seen.items()}}
+            final["final_info"] = {
+                name: infos[name][i].item() for name in ("is_success", "reach", "reflexes")
+            }
+            infos = self._add_info(infos, final, i)
+        observation, info = self._reset_one(i, {})
+        for name, value in observation.items():
+            seen[name][i] = value
+        return self._add_info(infos, info, i)
+
+    def _advance(self, values: numpy.ndarray, resting: numpy.ndarray) -> None:
+        natives = [episode.native for episode in self._episodes]
         for ticks in self._parts:
-            for i in numpy.flatnonzero(moving):
-                self._episodes[i].apply(values[i], 1e-3 * ticks)
+            _sim.apply_actions(natives, resting, values, 1e-3 * ticks)
             self._batch.step(ticks)
 
     def _observed(self, i: int, seconds: float):
         episode = self._episodes[i]
         observation = episode.observe(seconds)
+        self._rows[i], self._desired[i] = episode.row, episode.desired
         if "picture" in self.single_observation_space.spaces:
             observation["picture"] = self.options.picture(episode.sim)
         return observation, episode.report(observation)

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import operator
 import os
 from collections.abc import Iterable, Mapping, Sequence
 
@@ -12,9 +11,12 @@ import numpy
 from _pyfranka import _sim
 from numpy.typing import ArrayLike
 
+from .arguments import items, seed_of, text, whole
 from .robot import Array
 from .setups import _Setup
 from .simulation import Simulation
+
+MOST_WORLDS = 100_000  # chosen here: some hundred gigabytes
 
 
 class SimulationBatch(Sequence):
@@ -32,28 +34,31 @@ class SimulationBatch(Sequence):
     def __init__(
         self,
         number: int,
-        world: str = "",
+        world: str | os.PathLike[str] = "",
         robots: Sequence[_Setup] | None = None,
         seed: int = 1,
         threads: int | None = None,
         observe: Iterable[str] | None = None,
     ):
-        number = operator.index(number)
-        if number < 1:
-            raise ValueError(f"A batch needs at least one world, not {number}.")
-        if isinstance(observe, str):
-            raise TypeError("observe is a list of names, not one string.")
-        self.seeds = tuple(int(s) for s in numpy.random.SeedSequence(seed).generate_state(number))
+        number = whole(number, "number", 1, MOST_WORLDS)
+        threads = len(os.sched_getaffinity(0)) if threads is None else whole(threads, "threads", 1, 1024)
+        if observe is not None:
+            observe = [text(name, "A name of observe") for name in items(observe, "observe", "names")]
+        sequence = numpy.random.SeedSequence(seed_of(seed))
+        self.seeds = tuple(int(s) for s in sequence.generate_state(number))
         self._worlds = [Simulation(world, robots, seed=one) for one in self.seeds]
-        self._native = _sim.Batch(
-            [one._native for one in self._worlds],
-            len(os.sched_getaffinity(0)) if threads is None else threads,
-            None if observe is None else list(observe),
-        )
+        self._native = _sim.Batch([one._native for one in self._worlds], threads, observe)
         self._observations = self._native.observations
 
     def __getitem__(self, index):
-        return self._worlds[index]
+        return self._worlds[index if isinstance(index, slice) else self._checked(index)]
+
+    def _checked(self, number) -> int:
+        """The number of a world, from 0 on; negative ones count from the end."""
+        try:
+            return range(len(self))[whole(number, "The number of a world")]
+        except IndexError:
+            raise IndexError(f"There is no world {number}; the batch has {len(self)}.") from None
 
     def __len__(self) -> int:
         return len(self._worlds)
@@ -71,7 +76,8 @@ class SimulationBatch(Sequence):
 
     @property
     def layout(self) -> dict[str, slice]:
-        """Where each observed value stands in a row of `observations`. 4x4 poses stand column by column."""
+        """The position of each observed value in a row of `observations`. 4x4 poses are stored column by
+        column."""
         return {name: slice(begin, end) for name, begin, end in self._native.layout}
 
     @property
@@ -85,7 +91,8 @@ class SimulationBatch(Sequence):
 
         Raises RuntimeError, after all other worlds have been stepped, if the physics of some has diverged;
         resetting these ends that. Raises RuntimeError and steps none if one is closed or in use by another
-        thread.
+        thread. Warns once of a world (RuntimeWarning) when there are more contacts than the limit
+        (nconmax). Ctrl-C ends a long step; all worlds have then advanced by as many ticks.
         """
         self._native.step(ticks)
 
@@ -101,8 +108,28 @@ class SimulationBatch(Sequence):
         worlds: Iterable[int] | None = None,
     ) -> Array:
         """Resets all worlds, or those with these numbers, as Simulation.reset() does, and returns the
-        observations. Random poses go on with the random numbers of each world."""
-        chosen = self._worlds if worlds is None else [self._worlds[i] for i in worlds]
-        for one in chosen:
-            one.reset(q, objects)
+        observations. Random poses continue with the random numbers of each world.
+
+        Raises as Simulation.reset(), and no world has changed; if no random pose of a world is free, those
+        before it have been reset.
+        """
+        chosen = range(len(self)) if worlds is None else items(worlds, "worlds", "numbers of worlds")
+        chosen = [self._worlds[self._checked(i)] for i in chosen]
+        plans = [one._plan(q, objects) for one in chosen]
+        for one, plan in zip(chosen, plans):
+            one._carry_out(plan)
         return self.observe()
+
+    def replace(self, number: int, simulation: Simulation) -> None:
+        """Puts another simulation, with other robots or another world, in the place of world `number`,
+        which is closed, and observes it. From then on the batch steps it, and close() ends it.
+
+        Raises ValueError if it does not have what `observations` shows, or is in the batch already, and
+        IndexError without such a world; nothing has changed then.
+        """
+        number = self._checked(number)
+        if not isinstance(simulation, Simulation):
+            raise TypeError(f"simulation must be a Simulation, not {simulation!r}.")
+        self._native.replace(number, simulation._native)
+        self._worlds[number].close()
+        self._worlds[number] = simulation

@@ -23,7 +23,7 @@ class Action:
 
     @property
     def outcome(self) -> GripperOutcome:
-        """What has become of it."""
+        """Its outcome."""
         if self._outcome == GripperOutcome.Running:
             self._outcome = self._robot.hand_outcome(self._ticket)
         return self._outcome
@@ -51,14 +51,15 @@ class Gripper:
         return Action(self._robot, self._robot.hand_homing())
 
     def move(self, width: float, speed: float = 0.1) -> Action:
-        """Moves the fingers to a width [m] at a speed [m/s]; refused (Failed) for values that no hand has."""
+        """Moves the fingers to a width [m] at a speed [m/s]; refused (Failed) for values that no hand has.
+        Raises ValueError or TypeError, as all commands do, for a value that is not a finite number."""
         return Action(self._robot, self._robot.hand_move(width, speed))
 
     def grasp(
         self, width: float, speed: float, force: float, epsilon_inner=0.005, epsilon_outer=0.005
     ) -> Action:
-        """Closes [m, m/s] and holds with a force [N]. Succeeds if what is held is as wide as asked, within
-        the epsilons [m]."""
+        """Closes [m, m/s] and holds with a force [N]. Succeeds if the held object has the requested width,
+        within the epsilons [m]."""
         return Action(self._robot, self._robot.hand_grasp(width, speed, force, epsilon_inner, epsilon_outer))
 
     def stop(self) -> Action:
@@ -77,7 +78,7 @@ class Gripper:
 
     @property
     def is_grasped(self) -> bool:
-        """Whether an object as wide as asked is held."""
+        """Whether an object of the requested width is held."""
         return self._robot.hand_state()[2]
 
     @property
@@ -96,9 +97,8 @@ class Robot:
         self._native, self.setup = native, setup
         self.state, self.model = native.state, native.model
         self._gripper: Gripper | None = None
-        if setup.load is not None:
-            mass, com, *inertia = setup.load
-            native.set_load(float(mass), com, inertia[0] if inertia else numpy.zeros(9))
+        if (load := setup._load()) is not None:
+            native.set_load(*load)
 
     @property
     def name(self) -> str:
@@ -151,7 +151,7 @@ class Robot:
         with torques, 7 [Nm s/rad] times the joint velocities are subtracted in every tick.
 
         Raises RequestRefused if the robot cannot start the motion, or if one of another kind runs or one
-        is ending; ValueError.
+        is ending; ValueError or TypeError with a sentence, and nothing has changed.
         """
         values = {
             "torque": torque,
@@ -255,7 +255,8 @@ class Robot:
         self._native.set_K(EE_T_K)
 
     def set_load(self, mass: float, F_x_Cload: ArrayLike, load_inertia: ArrayLike) -> None:
-        """What the robot knows of its load: mass [kg], centre of mass in F, 3 [m], inertia, 3x3 [kg m^2]."""
+        """The load that the robot assumes: mass [kg], centre of mass in F, 3 [m], inertia, 3x3
+        [kg m^2]."""
         self._native.set_load(mass, F_x_Cload, load_inertia)
 
     def hash(self) -> int:

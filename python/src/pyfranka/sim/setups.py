@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import os
+import re
 import typing
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
@@ -12,15 +14,22 @@ import numpy
 from _pyfranka import _sim
 from numpy.typing import ArrayLike
 
+from .arguments import numbers, path, text
+
+NOT_IN_NAMES = re.compile(r"[\s\"'<>&/:]")  # of XML, and of names in names
+
 
 @dataclass(frozen=True)
 class _Setup:
     """A robot to add to a world.
 
     name: prefix of its joints and links (its kind). base: x, y, z [m] and, optionally, the turn about the
-    vertical [rad]. hand: whether its hand is driven. load: mass [kg], centre of mass in the flange's frame
-    [m] and, optionally, inertia 3x3 [kg m^2], as entered in Desk; it is not simulated. realism: a profile of
-    docs/sim_to_real.md, such as "real,friction=off". urdf: another description of this kind of robot.
+    vertical [rad]. hand: False for an arm without one; that of a urdf of one's own stays then, but is not
+    driven. load: mass [kg], centre of mass in the flange's frame [m] and, optionally, inertia 3x3 [kg m^2],
+    as entered in Desk; it is not simulated. realism: a profile of docs/sim_to_real.md, such as
+    "real,friction=off". urdf: another description of this kind of robot.
+
+    Raises ValueError or TypeError with a sentence.
     """
 
     name: str = ""
@@ -28,9 +37,36 @@ class _Setup:
     hand: bool = True
     load: Sequence[ArrayLike] | None = None
     realism: str = ""
-    urdf: str = ""
+    urdf: str | os.PathLike[str] = ""
 
     kind: typing.ClassVar[str] = ""
+
+    def __post_init__(self):
+        if NOT_IN_NAMES.search(text(self.name, "name")):
+            raise ValueError(f"name is the prefix of joints and links; it cannot be {self.name!r}.")
+        numbers(self.base, "base (x, y, z [m] and, optionally, the turn [rad])", 3, 4)
+        if not isinstance(self.hand, (bool, numpy.bool_)):
+            raise TypeError(f"hand must be True or False, not {self.hand!r}.")
+        text(self.realism, "realism")
+        path(self.urdf, "urdf")
+        self._load()
+
+    def _load(self) -> tuple[float, numpy.ndarray, numpy.ndarray] | None:
+        """Mass, centre of mass and inertia."""
+        if self.load is None:
+            return None
+        try:
+            mass, centre, *inertia = self.load
+            (inertia,) = inertia or [numpy.zeros(9)]
+        except (TypeError, ValueError):
+            raise ValueError(
+                f"load must be mass, centre of mass and, optionally, inertia, not {self.load!r}."
+            ) from None
+        return (
+            float(numbers(mass, "The mass of load [kg]", 1)[0]),
+            numbers(centre, "The centre of mass of load [m]", 3),
+            numbers(inertia, "The inertia of load [kg m^2]", 9),
+        )
 
     def _named(self, taken: set[str]) -> _Setup:
         """This, with a name of its own."""
@@ -51,19 +87,15 @@ class _Setup:
 
     def _native(self) -> _sim.RobotSetup:
         base = numpy.asarray(self.base, dtype=float).ravel()
-        if base.size not in (3, 4):
-            raise ValueError(f"base needs x, y, z and optionally the turn, not {base.size} numbers.")
         yaw = float(base[3]) if base.size == 4 else 0.0
-        if not numpy.isfinite(yaw):
-            raise ValueError("base must be finite numbers.")
         return _sim.RobotSetup(
             robot=self.kind,
             name=self.name,
-            urdf=self.urdf,
+            urdf=path(self.urdf, "urdf"),
             base=base[:3],
             yaw=yaw,
             realism=self.realism,
-            hand=self.hand,
+            hand=bool(self.hand),
         )
 
 

@@ -4,6 +4,9 @@
 
 from __future__ import annotations
 
+import copy
+import logging
+import os
 import threading
 import time
 import typing
@@ -16,6 +19,7 @@ from _pyfranka import _sim
 from _pyfranka._sim import Snapshot
 from numpy.typing import ArrayLike, NDArray
 
+from .arguments import items, mapping, numbers, path, seed_of, text
 from .robot import Array, Robot
 from .setups import FR3, Panda, _Setup
 
@@ -24,15 +28,24 @@ ATTENTION = 0.02  # [s] between looks at the network (chosen here)
 TRIES = 1000  # random poses before giving up (chosen here)
 TRIAL = 20  # ticks after which a pose has shown what it touches (chosen here)
 MOVED = 1e-3  # [rad] by then, of an arm that was pushed away (chosen here)
+log = logging.getLogger("pyfranka.sim")
 
 
 class Contact(typing.NamedTuple):
-    """Where two bodies touch: names, position in the world [m], force on the second one, world axes [N]."""
+    """A contact of two bodies: names, position in the world [m], force on the second one, world axes [N]."""
 
     body1: str
     body2: str
     position: Array
     force: Array
+
+
+class _Reset(typing.NamedTuple):
+    """What reset() does. poses: None for a random one."""
+
+    poses: dict[str, Array | None]
+    places: dict[str, tuple[Array, Array]]
+    seed: int | None
 
 
 class Picture(typing.NamedTuple):
@@ -44,7 +57,11 @@ class Picture(typing.NamedTuple):
 
 def _attend(simulation: weakref.ref) -> None:
     """Serves clients until the simulation is closed or forgotten."""
-    while (served := simulation()) is not None and served._native.attend():
+    attended = True
+    while attended and (served := simulation()) is not None:
+        attended = served._native.attend()
+        for event in served._native.take_events():
+            log.warning("%s", event)
         del served
         time.sleep(ATTENTION)
 
@@ -52,17 +69,21 @@ def _attend(simulation: weakref.ref) -> None:
 class Simulation(Mapping):
     """A world with robots, stepped by the program. `sim["panda"]` is a Robot.
 
-    world: an MJCF or SDF file, or the name of one that comes along (stone.xml); empty: an empty world.
-    robots: Panda and FR3. seed: of all randomness; the same seed and the same calls give the same bits.
+    world: an MJCF or SDF file, or the name of one that is installed with franka_sim (stone.xml); empty: an
+    empty world. robots: Panda and FR3. seed: of all randomness; the same seed and the same calls give the
+    same bits.
 
     Raises RuntimeError or ValueError with a sentence for a world or a robot that cannot be used.
     """
 
-    def __init__(self, world: str = "", robots: Sequence[_Setup] | None = None, seed: int = 1):
-        robots, taken = [Panda()] if robots is None else robots, set()
+    def __init__(
+        self, world: str | os.PathLike[str] = "", robots: Sequence[_Setup] | None = None, seed: int = 1
+    ):
+        world, seed, taken = path(world, "world"), seed_of(seed), set()
+        robots = [Panda()] if robots is None else items(robots, "robots", "Panda(...) and FR3(...)")
         for robot in robots:
             if not isinstance(robot, (Panda, FR3)):
-                raise TypeError(f"robots are Panda(...) and FR3(...), not {type(robot).__name__}.")
+                raise TypeError(f"robots are Panda(...) and FR3(...), not {robot!r}.")
         named = [robot._named(taken) for robot in robots]
         setups = [robot._seeded(seed + i) for i, robot in enumerate(named)]
         self._random = numpy.random.default_rng(seed)
@@ -74,7 +95,7 @@ class Simulation(Mapping):
                 warnings.warn(f"{overlaps} Give it another base.", stacklevel=2)
 
     def __getitem__(self, name: str) -> Robot:
-        if name not in self._robots:
+        if not isinstance(name, str) or name not in self._robots:
             raise KeyError(f"There is no robot '{name}'; there are: {', '.join(self._robots)}.")
         return self._robots[name]
 
@@ -95,15 +116,23 @@ class Simulation(Mapping):
         self._native.close()
 
     def serve(
-        self, ip: str, robot: str | None = None, pace: str = "lockstep", patience: float = 30.0
+        self,
+        ip: str,
+        robot: str | None = None,
+        pace: str = "lockstep",
+        patience: float | str = 30.0,
+        wait: str = "auto",
     ) -> None:
         """Puts a robot (the only one) on the network at an address of this machine: clients connect to it as
         to a real one, and time passes in step() alone.
 
         pace: "lockstep", a tick waits for the answer of a client in motion, or "realtime", ticks follow the
-        clock. patience: after so many seconds without an answer in lock-step a client counts as lost. Both
-        are those of the first call. A robot moves either for a client or for command(); the second one is
-        refused. While the program does other work, a thread keeps the connections alive.
+        clock. patience: after so many seconds without an answer in lock-step a client counts as lost;
+        "forever": never. wait: how it is waited for: "auto", "spin" (without sleep, for a processor of its
+        own) or "block"; results do not depend on it. These are those of the first call. Ctrl-C ends a wait:
+        that tick proceeds without the answer. A robot moves either for a client or for command(); the second
+        one is refused. While the program does other work, a thread keeps the connections alive. Why a
+        connection is ended, and collisions, are warnings of the logger "pyfranka.sim".
 
         Raises ValueError, KeyError; RuntimeError where the address cannot be used.
         """
@@ -112,7 +141,9 @@ class Simulation(Mapping):
         name = self[next(iter(self)) if robot is None else robot].name
         if pace not in ("lockstep", "realtime"):
             raise ValueError(f"pace is 'lockstep' or 'realtime', not '{pace}'.")
-        self._native.serve(name, ip, pace == "realtime", patience)
+        if isinstance(patience, str) and patience != "forever":
+            raise ValueError(f"patience is a number of seconds or 'forever', not '{patience}'.")
+        self._native.serve(name, ip, pace == "realtime", None if patience == "forever" else patience, wait)
         if self._attendant is None:
             self._attendant = threading.Thread(
                 target=_attend, args=(weakref.ref(self),), name="pyfranka.sim clients", daemon=True
@@ -131,7 +162,8 @@ class Simulation(Mapping):
 
     def step(self, ticks: int = 1) -> None:
         """Advances by so many milliseconds; other Python threads run meanwhile. Raises RuntimeError once the
-        physics has diverged; reset() ends that."""
+        physics has diverged; reset() ends that. Warns once (RuntimeWarning) when there are more contacts than
+        the limit (nconmax)."""
         self._native.step(ticks)
 
     def reset(
@@ -146,30 +178,49 @@ class Simulation(Mapping):
         name. objects: body name -> x, y, z [m] and, optionally, the quaternion w, x, y, z. seed: of the
         random numbers from now on; without one, their sequence goes on.
 
-        Raises ValueError, KeyError, and nothing has changed; RuntimeError where an object cannot be moved or
-        no random pose is free.
+        Random are the poses alone: noise and everything else that `realism` draws come from the seed of
+        the simulation and begin again with each reset.
+
+        Raises ValueError, TypeError, KeyError; RuntimeError where an object cannot be moved or no random pose
+        is free. Nothing has changed then.
         """
-        places = {body: self._checked_place(body, pose) for body, pose in (objects or {}).items()}
+        self._carry_out(self._plan(q, objects, seed))
+
+    def _plan(self, q, objects, seed: int | None = None) -> _Reset:
+        """The arguments of reset(), checked."""
+        places = {
+            body: self._checked_place(body, pose)
+            for body, pose in mapping(objects, "objects", "poses by the names of bodies").items()
+        }
         given = q if isinstance(q, Mapping) else {name: q for name in self if q is not None}
         poses = {name: self._checked_pose(self[name], pose) for name, pose in given.items()}
-        self._native.reset()
-        if seed is not None:
-            self._random = numpy.random.default_rng(seed)
-        for body, (position, orientation) in places.items():
-            self.place_body(body, position, orientation)
-        for name, pose in poses.items():
-            if pose is None:
-                self._place_randomly(self[name])
-            else:
-                self[name]._native.place(pose)
+        return _Reset(poses, places, None if seed is None else seed_of(seed))
+
+    def _carry_out(self, plan: _Reset) -> None:
+        may_fail = any(pose is None for pose in plan.poses.values()) and not self._native.stopped()
+        before = (self.snapshot(), copy.deepcopy(self._random)) if may_fail else None
+        try:
+            self._native.reset()
+            if plan.seed is not None:
+                self._random = numpy.random.default_rng(plan.seed)
+            for body, (position, orientation) in plan.places.items():
+                self.place_body(body, position, orientation)
+            for name, pose in plan.poses.items():
+                if pose is None:
+                    self._place_randomly(self[name])
+                else:
+                    self[name]._native.place(pose)
+        except BaseException:
+            if before:
+                self.restore(before[0])
+                self._random = before[1]
+            raise
 
     def _checked_place(self, body: str, pose: ArrayLike) -> tuple[Array, Array]:
-        values = numpy.asarray(pose, dtype=float).ravel()
-        if body not in self.bodies():
-            raise ValueError(f"There is no body '{body}' in the world.")
-        if values.size not in (3, 7) or not numpy.isfinite(values).all():
-            raise ValueError(f"The pose of '{body}' is 3 or 7 finite numbers: x, y, z, and w, x, y, z.")
-        return values[:3], values[3:] if values.size == 7 else numpy.array(NO_TURN)
+        values = numbers(pose, f"The pose of '{text(body, 'The name of a body')}'", 3, 7)
+        position, orientation = values[:3], values[3:] if values.size == 7 else numpy.array(NO_TURN)
+        self._native.check_body_pose(body, position, orientation)
+        return position, orientation
 
     def _checked_pose(self, robot: Robot, q: ArrayLike | str) -> Array | None:
         """None for a random pose."""
@@ -177,7 +228,7 @@ class Simulation(Mapping):
             if q != "random":
                 raise ValueError(f"q is 7 numbers or 'random', not '{q}'.")
             return None
-        values = numpy.asarray(q, dtype=float).ravel()
+        values = numbers(q, "q", 7)
         robot._native.check_positions(values)
         return values
 
@@ -186,7 +237,7 @@ class Simulation(Mapping):
         for _ in range(TRIES):
             q = self._random.uniform(*robot.limits)
             robot._native.place(q)
-            self.step(TRIAL)
+            self._native.try_out(TRIAL)
             free = not robot.state.current_errors and numpy.abs(robot.state.q - q).max() < MOVED
             free = free and not self._touches(robot)
             self.restore(before)
@@ -201,11 +252,18 @@ class Simulation(Mapping):
         return touched or bool(self._native.overlaps(robot.name))
 
     def snapshot(self) -> Snapshot:
-        """The present state of the world, for restore()."""
+        """The present state of the world and of its robots, with motions, commands, hands and settings, for
+        restore() here or in a simulation with an equal world and equal robots. The random numbers of reset()
+        are not part of it. RuntimeError once the physics has diverged."""
         return self._native.snapshot()
 
     def restore(self, snapshot: Snapshot) -> None:
-        """Returns to a snapshot. The robots hold their poses in it, idle; commands in transit are lost."""
+        """Returns to a snapshot; with the same commands, what follows is the same to the last bit. A robot
+        that clients on the network use is idle instead. Commands of hands that were given since are
+        interrupted.
+
+        Raises RuntimeError for a snapshot of another world or other robots, and nothing has changed.
+        """
         self._native.restore(snapshot)
 
     def hash(self) -> int:
@@ -229,7 +287,7 @@ class Simulation(Mapping):
         self._native.push(body, force, torque, ticks)
 
     def contacts(self) -> list[Contact]:
-        """Where bodies touch now."""
+        """The present contacts."""
         return [Contact(*contact) for contact in self._native.contacts()]
 
     def cameras(self) -> list[str]:

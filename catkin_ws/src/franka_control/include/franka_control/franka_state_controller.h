@@ -31,7 +31,7 @@ class StatePublisher;
 /// `<arm_id>_K`). Also publishes `/tf` from `<arm_id>_link8` over `_NE` and `_EE` to `_K`. Stamps
 /// are the time argument of update().
 ///
-/// update() is called by the thread of the 1 kHz loop. Real-time safe. Up to 64 complete states are
+/// The control loop calls update(). Real-time safe. Exception: init(). Up to 64 complete states are
 /// queued if the publishing thread is late; each other message is dropped if the previous one has
 /// not been sent yet.
 class FrankaStateController

@@ -36,10 +36,11 @@ enum class RotationError {
 /// elbow to its start configuration in the null space. Stiffness, damping and equilibrium approach
 /// their targets by 0.5 % per update, without jumps. The robot compensates gravity.
 ///
-/// One thread, 1 kHz: no allocation, no lock, no exception. Frame O, units [m] [rad] [N] [Nm].
+/// Called by one thread at 1 kHz. No function throws. Real-time safe. Frame O, units [m] [rad] [N]
+/// [Nm].
 class CartesianImpedance {
  public:
-  using Vector7 = Eigen::Matrix<double, 7, 1>;
+  using Vector7 = Eigen::Matrix<double, 7, 1>;  ///< a value per joint
 
   explicit CartesianImpedance(RotationError rotation_error = RotationError::kQuaternion)
       : rotation_error_(rotation_error) {}
@@ -48,10 +49,10 @@ class CartesianImpedance {
   struct Arm {
     std::array<double, 16> O_T_EE;         ///< 4x4 column-major
     std::array<double, 42> zero_jacobian;  ///< of the end effector, 6x7 column-major
-    std::array<double, 7> coriolis;
-    std::array<double, 7> q;
-    std::array<double, 7> dq;
-    std::array<double, 7> tau_J_d;  ///< torque commanded in the last cycle, without gravity
+    std::array<double, 7> coriolis;        ///< Coriolis torques [Nm]
+    std::array<double, 7> q;               ///< joint positions [rad]
+    std::array<double, 7> dq;              ///< joint velocities [rad/s]
+    std::array<double, 7> tau_J_d;         ///< torque commanded in the last cycle, without gravity
   };
 
   /// Starts at a pose and a configuration, which become the equilibrium. Springs and dampers of the
@@ -63,6 +64,7 @@ class CartesianImpedance {
   void setEquilibrium(const Eigen::Vector3d& position,
                       const Eigen::Quaterniond& orientation) noexcept;
 
+  /// Sets the stiffness that the law approaches in the next cycles.
   void setCompliance(const Compliance& compliance) noexcept { compliance_target_ = compliance; }
 
   /// Torques of this cycle without gravity; each differs from tau_J_d by 1 Nm at most.

@@ -29,9 +29,9 @@ namespace franka_example_controllers {
 /// namespace: `equilibrium_pose` (geometry_msgs/PoseStamped, in O; the frame id is ignored).
 /// dynamic_reconfigure at `dynamic_reconfigure_compliance_param_node` there sets the stiffness.
 ///
-/// starting() and update() run in the 1 kHz loop without allocation or lock; poses and stiffness
-/// come from other threads through real-time buffers. Each start begins at the arm's present pose:
-/// earlier equilibrium poses are dropped.
+/// The control loop calls starting() and update(); poses and stiffness come from other threads
+/// through real-time buffers. Real-time safe. Exception: init(). Each start begins at the arm's
+/// present pose: earlier equilibrium poses are dropped.
 class CartesianImpedanceExampleController
     : public controller_interface::MultiInterfaceController<
           franka_hw::FrankaModelInterface, hardware_interface::EffortJointInterface,
@@ -44,6 +44,11 @@ class CartesianImpedanceExampleController
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  private:
+  static constexpr char kName[] = "CartesianImpedanceExampleController";
+  static constexpr double kMinQuaternionNorm =
+      1e-3;                                  ///< below it a quaternion is not a valid rotation
+  static constexpr double kLogPeriod = 1.0;  ///< [s] between log messages about invalid input
+
   struct Equilibrium {
     Eigen::Vector3d position{Eigen::Vector3d::Zero()};
     Eigen::Quaterniond orientation{Eigen::Quaterniond::Identity()};

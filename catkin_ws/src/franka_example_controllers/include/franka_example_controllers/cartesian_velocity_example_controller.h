@@ -3,6 +3,7 @@
 #pragma once
 
 #include <controller_interface/multi_interface_controller.h>
+#include <franka_example_controllers/pi.h>
 #include <franka_hw/franka_cartesian_command_interface.h>
 #include <franka_hw/franka_state_interface.h>
 #include <hardware_interface/robot_hw.h>
@@ -32,6 +33,11 @@ class CartesianVelocityExampleController
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  private:
+  static constexpr char kName[] = "CartesianVelocityExampleController";
+  static constexpr double kCycle = 4.0;         // [s]
+  static constexpr double kMaxVelocity = 0.05;  // [m/s]
+  static constexpr double kSlope = kPi / 4.0;   // [rad]
+
   std::unique_ptr<franka_hw::FrankaCartesianVelocityHandle> velocity_handle_;
   double elapsed_{0.0};  // [s]
 };

@@ -27,11 +27,11 @@ namespace franka_example_controllers {
 
 /// Data of one arm.
 struct FrankaDataContainer {
-  std::string arm_id;
-  std::unique_ptr<franka_hw::FrankaStateHandle> state_handle;
-  std::unique_ptr<franka_hw::FrankaModelHandle> model_handle;
-  std::vector<hardware_interface::JointHandle> joint_handles;
-  CartesianImpedance impedance{RotationError::kAxisAngle};
+  std::string arm_id;                                          ///< prefix of its joints and links
+  std::unique_ptr<franka_hw::FrankaStateHandle> state_handle;  ///< its state
+  std::unique_ptr<franka_hw::FrankaModelHandle> model_handle;  ///< its model
+  std::vector<hardware_interface::JointHandle> joint_handles;  ///< its joints, for torques
+  CartesianImpedance impedance{RotationError::kAxisAngle};     ///< its law
 };
 
 /// Pulls two end effectors to equilibrium poses that keep their relative pose: both follow a
@@ -54,6 +54,11 @@ class DualArmCartesianImpedanceExampleController
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  private:
+  static constexpr char kName[] = "DualArmCartesianImpedanceExampleController";
+  static constexpr double kTransformTimeout = 4.0;  // [s]
+  static constexpr double kPublishRate = 30.0;      // [Hz]
+  static constexpr double kMinQuaternionNorm = 1e-3;
+
   typedef franka_combined_example_controllers::dual_arm_compliance_paramConfig Config;
 
   struct Target {

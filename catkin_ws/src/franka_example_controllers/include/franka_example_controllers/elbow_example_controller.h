@@ -3,6 +3,7 @@
 #pragma once
 
 #include <controller_interface/multi_interface_controller.h>
+#include <franka_example_controllers/pi.h>
 #include <franka_hw/franka_cartesian_command_interface.h>
 #include <franka_hw/franka_state_interface.h>
 #include <hardware_interface/robot_hw.h>
@@ -30,6 +31,10 @@ class ElbowExampleController
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  private:
+  static constexpr char kName[] = "ElbowExampleController";
+  static constexpr double kCycle = 10.0;       // [s]
+  static constexpr double kSwing = kPi / 5.0;  // of joint 3 there and back [rad]
+
   std::unique_ptr<franka_hw::FrankaCartesianPoseHandle> pose_handle_;
   std::array<double, 16> O_T_EE_start_{};  // 4x4 column-major
   std::array<double, 2> elbow_start_{};    // joint 3 [rad], sign of joint 4

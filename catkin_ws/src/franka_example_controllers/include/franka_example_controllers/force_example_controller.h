@@ -37,6 +37,8 @@ class ForceExampleController
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  private:
+  static constexpr char kName[] = "ForceExampleController";
+
   struct Target {
     double mass{0.0};  ///< [kg]
     double k_p{0.0};

@@ -28,7 +28,7 @@ class GentleStop {
       fastest = std::max(fastest, std::abs(value));
     }
     // The cubic's steepest slope is 3/2 of the mean.
-    duration_ = std::clamp(1.5 * fastest / deceleration, kLeastDuration, kGreatestDuration);
+    duration_ = std::clamp(1.5 * fastest / deceleration, kMinDuration, kMaxDuration);
   }
 
   /// @param time since the start [s]; after `duration` the velocities are zero
@@ -48,12 +48,12 @@ class GentleStop {
   double duration() const { return duration_; }  ///< [s]
 
  private:
-  static constexpr double kLeastDuration = 0.1;     // [s]
-  static constexpr double kGreatestDuration = 2.0;  // [s]
+  static constexpr double kMinDuration = 0.1;  // [s]
+  static constexpr double kMaxDuration = 2.0;  // [s]
 
   Values velocity_{};
   Values acceleration_{};
-  double duration_{kLeastDuration};
+  double duration_{kMinDuration};
 };
 
 /// The velocity and acceleration of the last of three samples.
@@ -65,13 +65,16 @@ class Differences {
   /// Resets the history. @param sample at rest
   void reset(const Values& sample) { samples_ = {sample, sample, sample}; }
 
+  /// Takes a value that was measured a period [s] after the one before.
   void add(const Values& sample, double period) {
     samples_ = {samples_[1], samples_[2], sample};
     period_ = period;
   }
 
+  /// The last value.
   const Values& last() const { return samples_[2]; }
 
+  /// Its first derivative; 0 while there is one value only.
   Values first() const {
     Values values{};
     for (std::size_t i = 0; period_ > 0.0 && i < size; ++i) {
@@ -80,6 +83,7 @@ class Differences {
     return values;
   }
 
+  /// Its second derivative; 0 while there is one value only.
   Values second() const {
     Values values{};
     for (std::size_t i = 0; period_ > 0.0 && i < size; ++i) {

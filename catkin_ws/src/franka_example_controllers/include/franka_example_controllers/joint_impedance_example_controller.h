@@ -4,6 +4,7 @@
 
 #include <controller_interface/multi_interface_controller.h>
 #include <franka_example_controllers/JointTorqueComparison.h>
+#include <franka_example_controllers/pi.h>
 #include <franka_hw/franka_cartesian_command_interface.h>
 #include <franka_hw/franka_model_interface.h>
 #include <franka_hw/trigger_rate.h>
@@ -39,6 +40,12 @@ class JointImpedanceExampleController
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  private:
+  static constexpr char kName[] = "JointImpedanceExampleController";
+  static constexpr double kTwoPi = 2.0 * kPi;
+  static constexpr double kMinRadius = 0.005;  // [m]
+  // Share of the new velocity in the filtered one; the original's constant.
+  static constexpr double kVelocityShare = 0.99;
+
   bool readParameters(const ros::NodeHandle& node_handle);
   void leadAlongCircle(double dt);
   std::array<double, 7> torques();

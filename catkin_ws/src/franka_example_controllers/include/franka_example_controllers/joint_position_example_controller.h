@@ -3,6 +3,7 @@
 #pragma once
 
 #include <controller_interface/multi_interface_controller.h>
+#include <franka_example_controllers/pi.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/node_handle.h>
@@ -29,6 +30,11 @@ class JointPositionExampleController : public controller_interface::MultiInterfa
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  private:
+  static constexpr char kName[] = "JointPositionExampleController";
+  static constexpr double kCycle = 10.0;             // [s]
+  static constexpr double kSwing = 0.2 * kPi / 8.0;  // of each joint there and back [rad]
+  static constexpr std::size_t kOpposite = 4;  // the fifth joint moves in the opposite direction
+
   std::vector<hardware_interface::JointHandle> joint_handles_;
   std::array<double, 7> q_start_{};  // [rad]
   double elapsed_{0.0};              // [s]

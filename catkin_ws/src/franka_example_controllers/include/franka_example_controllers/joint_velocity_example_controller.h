@@ -31,6 +31,10 @@ class JointVelocityExampleController
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  private:
+  static constexpr char kName[] = "JointVelocityExampleController";
+  static constexpr double kCycle = 8.0;        // [s]
+  static constexpr double kMaxVelocity = 0.1;  // [rad/s]
+
   std::vector<hardware_interface::JointHandle> joint_handles_;
   double elapsed_{0.0};  // [s]
 };

@@ -13,7 +13,8 @@ namespace franka_example_controllers {
 ///
 /// Before each soft limit are two zones: the inner one with spring and damper, the outer one with a
 /// damper only. A joint that is in a zone at the start is not pushed out: the zones shrink to its
-/// position and grow back as it leaves. One thread; real-time safe except when it throws.
+/// position and grow back as it leaves. Called by one thread. Real-time safe. Exceptions: the
+/// constructor, and computeTorque() when it throws.
 class JointWall {
  public:
   /// @param soft_upper_joint_position_limit, @param soft_lower_joint_position_limit [rad]
@@ -74,6 +75,7 @@ class JointWallContainer {
     return torque;
   }
 
+  /// Starts again, as before the first cycle.
   void reset() {
     for (auto& wall : walls_) {
       wall->reset();

@@ -33,6 +33,9 @@ class ModelExampleController
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  private:
+  static constexpr char kName[] = "ModelExampleController";
+  static constexpr double kPrintPeriod = 0.1;  // [s] between checks for new results
+
   struct Answers {
     std::uint64_t number{0};
     std::array<double, 49> mass{};

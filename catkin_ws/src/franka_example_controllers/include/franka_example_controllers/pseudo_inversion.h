@@ -13,8 +13,8 @@ constexpr double kPseudoInverseDamping = 0.2;
 
 /// Pseudo-inverse of any matrix by singular values, each inverted to s / (s^2 + damping^2).
 ///
-/// Without damping, singular values that are zero within rounding stay zero. Allocates: not for the
-/// 1 kHz loop, where dampedPseudoInverse() gives the same result (decision 41).
+/// Without damping, singular values that are zero within rounding stay zero. Not real-time safe.
+/// dampedSolution() gives the same result in the control loop (decision 41).
 inline void pseudoInverse(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& inverse,
                           bool damped = true) {
   const double damping = damped ? kPseudoInverseDamping : 0.0;
@@ -27,20 +27,17 @@ inline void pseudoInverse(const Eigen::MatrixXd& matrix, Eigen::MatrixXd& invers
   inverse = svd.matrixV() * inverted.asDiagonal() * svd.matrixU().transpose();
 }
 
-/// Damped pseudo-inverse of a matrix of fixed size: M^T (M M^T + damping^2 I)^-1, or the equivalent
-/// with the smaller matrix to solve. Real-time safe: no allocation.
+/// Damped least squares: the damped pseudo-inverse of a matrix times a vector, (M^T M + damping^2
+/// I)^-1 M^T v, for at least as many rows as columns. Real-time safe.
 template <int Rows, int Columns>
-Eigen::Matrix<double, Columns, Rows> dampedPseudoInverse(
-    const Eigen::Matrix<double, Rows, Columns>& matrix, double damping = kPseudoInverseDamping) {
-  constexpr int kSmaller = Rows < Columns ? Rows : Columns;
-  using Square = Eigen::Matrix<double, kSmaller, kSmaller>;
-  if constexpr (Rows >= Columns) {
-    const Square gram = matrix.transpose() * matrix + damping * damping * Square::Identity();
-    return gram.ldlt().solve(matrix.transpose());
-  } else {
-    const Square gram = matrix * matrix.transpose() + damping * damping * Square::Identity();
-    return gram.ldlt().solve(matrix).transpose();
-  }
+Eigen::Matrix<double, Columns, 1> dampedSolution(const Eigen::Matrix<double, Rows, Columns>& matrix,
+                                                 const Eigen::Matrix<double, Rows, 1>& vector,
+                                                 double damping = kPseudoInverseDamping) {
+  static_assert(Rows >= Columns, "the smaller square matrix is the one to solve");
+  using Square = Eigen::Matrix<double, Columns, Columns>;
+  const Square gram =
+      matrix.transpose().lazyProduct(matrix) + damping * damping * Square::Identity();
+  return gram.ldlt().solve(matrix.transpose() * vector);
 }
 
 }  // namespace franka_example_controllers

@@ -37,8 +37,8 @@ class SelfStop;
 /// controllers continue. After a restart, it begins with the script's `starting`.
 ///
 /// The script runs in its own thread, with the loop's priority; the loop waits for it, but
-/// allocates nothing and never takes Python's lock. Python itself is not real-time safe: the
-/// script's time is part of the cycle.
+/// allocates nothing and never takes Python's lock. In simulated time both wait without sleep
+/// (decision 53). Python itself allocates and locks: the script's time is part of the cycle.
 class PythonController
     : public controller_interface::MultiInterfaceController<
           franka_hw::FrankaModelInterface, franka_hw::FrankaStateInterface,

@@ -27,10 +27,10 @@ namespace franka_example_controllers {
 
 /// Data of one arm.
 struct FrankaDataContainer7 {
-  std::string arm_id;
-  std::unique_ptr<franka_hw::FrankaStateHandle> state_handle;
-  std::vector<hardware_interface::JointHandle> joint_handles;
-  std::unique_ptr<JointWallContainer<7>> walls;
+  std::string arm_id;                                          ///< prefix of its joints and links
+  std::unique_ptr<franka_hw::FrankaStateHandle> state_handle;  ///< its state
+  std::vector<hardware_interface::JointHandle> joint_handles;  ///< its joints, for torques
+  std::unique_ptr<JointWallContainer<7>> walls;  ///< push joints back from their limits
 };
 
 /// Lets one arm follow another, with feedback of the follower's contacts to the leader.
@@ -52,6 +52,9 @@ class TeleopJointPDExampleController
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  private:
+  static constexpr char kName[] = "TeleopJointPDExampleController";
+  static constexpr double kPublishRate = 60.0;  // [Hz]
+
   bool readParameters(const ros::NodeHandle& node_handle);
   bool initArm(hardware_interface::RobotHW* robot_hw, const ros::NodeHandle& node_handle,
                FrankaDataContainer7& arm);

@@ -26,7 +26,7 @@ constexpr double kElbowDeceleration = 2.0;
 // Those of the joint impedance example, which are stable at 1 kHz.
 constexpr std::array<double, 7> kDamping{{50.0, 50.0, 50.0, 20.0, 20.0, 20.0, 10.0}};  // [Nm s/rad]
 constexpr double kAtRest = 0.02;      // [rad/s] of each joint
-constexpr double kLongestRest = 2.0;  // [s]
+constexpr double kMaxRestTime = 2.0;  // [s]
 
 /// The twist in O from one pose to the next within a time.
 std::array<double, 6> twistBetween(const std::array<double, 16>& from,
@@ -170,7 +170,7 @@ bool ArmCommander::rest(const franka::RobotState& state, double period) {
                                 [](double speed) { return std::abs(speed) < kAtRest; });
   const double longest =
       std::max({joint_stop_.duration(), twist_stop_.duration(), elbow_stop_.duration()});
-  return resting_ >= longest && (slow || resting_ >= longest + kLongestRest);
+  return resting_ >= longest && (slow || resting_ >= longest + kMaxRestTime);
 }
 
 }  // namespace franka_example_controllers

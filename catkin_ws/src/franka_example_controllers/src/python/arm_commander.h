@@ -26,7 +26,7 @@ struct ArmCommand {
 };
 
 /// Commands one arm through any allowed combination of interfaces, and can bring it to rest from
-/// any last command. Real-time safe except take().
+/// any last command. Called by one thread. Real-time safe. Exception: take().
 class ArmCommander {
  public:
   /// Gets and claims the handles of a mode.

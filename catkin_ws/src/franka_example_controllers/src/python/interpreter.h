@@ -9,7 +9,7 @@
 namespace franka_example_controllers {
 
 /// Starts the process's Python interpreter unless it runs, and releases its lock. It runs until the
-/// process ends: numpy cannot be started twice. Any thread, outside the loop. @throws
+/// process ends: numpy cannot be started twice. Thread-safe. Not real-time safe. @throws
 /// std::runtime_error with a sentence if Python cannot start
 void ensureInterpreter();
 

@@ -29,6 +29,12 @@ constexpr double kStartingTime = 0.02;
 constexpr double kSimulatedUpdateTime = 0.1;
 constexpr double kSimulatedStartingTime = 1.0;
 
+bool inSimulatedTime() {
+  bool simulated = false;
+  ros::param::get("/use_sim_time", simulated);
+  return simulated;
+}
+
 bool readTime(const ros::NodeHandle& nh, const char* name, double& value) {
   if (nh.hasParam(name) && !(nh.getParam(name, value) && std::isfinite(value) && value > 0.0)) {
     ROS_ERROR("%s: the parameter %s must be a time above zero, in seconds.", kName,
@@ -107,8 +113,7 @@ bool PythonController::init(hardware_interface::RobotHW* robot_hw, ros::NodeHand
 }
 
 bool PythonController::readTimes(ros::NodeHandle& controller_nh) {
-  bool simulated = false;
-  ros::param::get("/use_sim_time", simulated);
+  const bool simulated = inSimulatedTime();
   max_update_time_ = simulated ? kSimulatedUpdateTime : kUpdateTime;
   max_starting_time_ = simulated ? kSimulatedStartingTime : kStartingTime;
   return readTime(controller_nh, "max_update_time", max_update_time_) &&
@@ -124,8 +129,9 @@ bool PythonController::loadScript(ros::NodeHandle& controller_nh,
     return false;
   }
   try {
-    runner_ = std::make_unique<ScriptRunner>();
-  } catch (const std::runtime_error& error) {
+    runner_ = std::make_unique<ScriptRunner>(
+        inSimulatedTime() ? franka_core::waitModeOfEnvironment() : franka_core::WaitMode::kBlock);
+  } catch (const std::exception& error) {
     ROS_ERROR("%s: %s", kName, error.what());
     return false;
   }

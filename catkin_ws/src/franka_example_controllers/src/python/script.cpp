@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "script.h"
 
+#include <franka_core/transform.h>
 #include <franka_example_controllers/command_claims.h>
 #include <pyfranka/arrays.h>
 
@@ -17,9 +18,6 @@ namespace {
 
 namespace py = pybind11;
 using franka_hw::ControlMode;
-
-// The client's tolerance of rotations; larger deviations end a motion there.
-constexpr double kRotationTolerance = 1e-5;
 
 py::object pythonOf(XmlRpc::XmlRpcValue& value) {
   switch (value.getType()) {
@@ -94,30 +92,17 @@ std::array<double, size> finite(const py::object& value, const std::string& name
   const std::array<double, size> values = pyfranka::arrayOf<size>(value, name.c_str());
   for (const double number : values) {
     if (!std::isfinite(number)) {
-      throw std::runtime_error("The command " + name + " holds a value that is no finite number.");
+      throw std::runtime_error("The command " + name +
+                               " holds a value that is not a finite number.");
     }
   }
   return values;
 }
 
-double dot(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
-
 void checkPose(const std::array<double, 16>& pose) {
-  bool good = pose[3] == 0.0 && pose[7] == 0.0 && pose[11] == 0.0 && pose[15] == 1.0;
-  for (int i = 0; i < 3; ++i) {
-    for (int j = 0; j <= i; ++j) {
-      const double product = dot(&pose[4 * i], &pose[4 * j]);
-      good = good && std::abs(product - (i == j ? 1.0 : 0.0)) < kRotationTolerance;
-    }
-  }
-  const std::array<double, 3> z{{pose[1] * pose[6] - pose[2] * pose[5],
-                                 pose[2] * pose[4] - pose[0] * pose[6],
-                                 pose[0] * pose[5] - pose[1] * pose[4]}};
-  if (!good || dot(z.data(), &pose[8]) < 0.0) {
-    throw std::runtime_error(
-        "The command cartesian_pose is no pose: a 4x4 matrix with a rotation, a translation [m] "
-        "and "
-        "the last row 0, 0, 0, 1 is needed.");
+  const std::string fault = franka_core::transformFault(pose);
+  if (!fault.empty()) {
+    throw std::runtime_error("The command cartesian_pose is not a pose: " + fault + ".");
   }
 }
 
@@ -201,7 +186,7 @@ void Script::readPart(const std::string& name, const py::object& value, ArmComma
       (name == "joint_velocity" && commands(mode_, ControlMode::JointVelocity))) {
     command.joints = finite<7>(value, name);
   } else if (name == "cartesian_pose" && commands(mode_, ControlMode::CartesianPose)) {
-    command.pose = finite<16>(value, name);
+    command.pose = pyfranka::arrayOf<16>(value, name.c_str());
     checkPose(command.pose);
   } else if (name == "cartesian_velocity" && commands(mode_, ControlMode::CartesianVelocity)) {
     command.twist = finite<6>(value, name);

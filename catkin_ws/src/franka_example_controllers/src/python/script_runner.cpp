@@ -43,7 +43,11 @@ void scheduleLikeThisThread(pthread_t thread) {
 /// Data of both threads. Orders are numbered; between an order and its answer only the worker
 /// accesses data that is not atomic, at other times only the thread that gives orders.
 struct ScriptRunner::Shared {
+  explicit Shared(franka_core::WaitMode waiting)
+      : spins_for_order(waiting), spins_for_answer(waiting) {}
+
   Semaphore ordered, answered;
+  franka_core::SpinRule spins_for_order, spins_for_answer;
   std::atomic<unsigned> orders{0}, answers{0};
   std::shared_ptr<ModelGate> gate{std::make_shared<ModelGate>()};
   pthread_t thread{};
@@ -68,9 +72,19 @@ struct ScriptRunner::Shared {
     orders.fetch_add(1, std::memory_order_release);
     ordered.post();
   }
+  void awaitOrder();
   void work();
   void carryOut(std::optional<Script>& script);
 };
+
+void ScriptRunner::Shared::awaitOrder() {
+  if (!spins_for_order.spin([this] { return busy(); })) {
+    while (!busy()) {
+      ordered.wait();
+    }
+  }
+  ordered.drain();
+}
 
 void ScriptRunner::Shared::work() {
   const InterpreterLock interpreter;
@@ -79,7 +93,7 @@ void ScriptRunner::Shared::work() {
   for (bool ends = false; !ends;) {
     {
       const InterpreterRelease others;
-      ordered.wait();
+      awaitOrder();
     }
     failed = false;
     ends = order == kEnd;
@@ -126,9 +140,9 @@ void ScriptRunner::Shared::carryOut(std::optional<Script>& script) {
   }
 }
 
-ScriptRunner::ScriptRunner() {
+ScriptRunner::ScriptRunner(franka_core::WaitMode waiting) {
   ensureInterpreter();
-  shared_ = std::make_shared<Shared>();
+  shared_ = std::make_shared<Shared>(waiting);
   std::thread worker([shared = shared_] { shared->work(); });
   shared_->thread = worker.native_handle();
   worker.detach();
@@ -164,12 +178,16 @@ std::string ScriptRunner::load(const ScriptSource& source,
 // --- from the loop -------------------------------------------------------------------------------
 
 bool ScriptRunner::awaitAnswer(double limit) {
+  Shared& shared = *shared_;
   const timespec deadline = deadlineAfter(limit);
-  while (shared_->busy()) {
-    if (!shared_->answered.waitUntil(deadline)) {
-      return !shared_->busy();
+  if (!shared.spins_for_answer.spin([&] { return !shared.busy(); })) {
+    while (shared.busy()) {
+      if (!shared.answered.waitUntil(deadline)) {
+        return !shared.busy();
+      }
     }
   }
+  shared.answered.drain();
   return true;
 }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka/robot_state.h>
+#include <franka_core/spin_rule.h>
 #include <franka_hw/franka_model_interface.h>
 
 #include <memory>
@@ -21,7 +22,9 @@ namespace franka_example_controllers {
 /// another is named.
 class ScriptRunner {
  public:
-  ScriptRunner();
+  /// @param waiting how loop and script wait for each other. Without sleep is worth it in simulated
+  /// time, whose cycles follow each other at once; a robot's loop sleeps and leaves the processor.
+  explicit ScriptRunner(franka_core::WaitMode waiting);
   ~ScriptRunner();
   ScriptRunner(const ScriptRunner&) = delete;
   ScriptRunner& operator=(const ScriptRunner&) = delete;
@@ -39,10 +42,10 @@ class ScriptRunner {
   /// Starts the script's `stopping` without waiting for it; skips it while the script is busy.
   void stop();
 
-  /// Why start() or update() returned false. Any thread, until start() is called again.
+  /// Why start() or update() returned false. Valid until start() is called again. Thread-safe.
   std::string reason() const;
-  /// Interrupts a late script, and logs its position. From any thread but the loop's; returns at
-  /// once.
+  /// Interrupts a late script, and logs its position. Returns at once. Thread-safe.
+  /// Not real-time safe.
   void interrupt();
 
  private:

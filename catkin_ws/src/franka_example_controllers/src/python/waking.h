@@ -19,6 +19,11 @@ class Semaphore {
   Semaphore& operator=(const Semaphore&) = delete;
 
   void post() { sem_post(&semaphore_); }
+  /// Forgets what was posted for an event that was seen without wait().
+  void drain() {
+    while (sem_trywait(&semaphore_) == 0) {
+    }
+  }
   void wait() {
     while (sem_wait(&semaphore_) != 0) {
     }

@@ -13,8 +13,9 @@ constexpr double kDefaultMoveWidthTolerance = 0.001;           ///< [m]
 constexpr double kDefaultGripperActionWidthTolerance = 0.005;  ///< [m]
 constexpr double kDefaultGripperActionSpeed = 0.1;             ///< [m/s]
 constexpr double kGraspRestingThreshold = 0.003;               ///< [m/s]
-constexpr int kGraspConsecutiveSamples = 10;
+constexpr int kGraspConsecutiveSamples = 10;                   ///< default of the original
 
+/// The simulated gripper, by the name that it has in franka_gazebo.
 using FrankaGripperSim = franka_sim_mujoco::FrankaGripperSim;
 
 }  // namespace franka_gazebo

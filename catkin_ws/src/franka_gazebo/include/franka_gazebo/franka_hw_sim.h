@@ -10,7 +10,7 @@
 
 namespace franka_gazebo {
 
-constexpr double kDefaultTauExtLowpassFilter = 1.0;
+constexpr double kDefaultTauExtLowpassFilter = 1.0;  ///< no filter
 
 /// The original's name. Its base class franka_sim_mujoco::RobotHWSim has the interface of
 /// gazebo_ros_control's, with the simulation's handle of the robot instead of Gazebo's model.

@@ -18,8 +18,8 @@
 namespace franka_gazebo {
 
 /// A joint and its desired motion, for programs written for the original. The simulation itself
-/// does not use it. Positions [rad] or [m], efforts [Nm] or [N]. One thread,
-/// except setJointPosition.
+/// does not use it. Positions [rad] or [m], efforts [Nm] or [N]. Called by one thread. Exception:
+/// setJointPosition.
 struct Joint {
   Joint() = default;
   Joint(Joint&& other) noexcept;
@@ -30,21 +30,21 @@ struct Joint {
   /// Without a drive nothing happens.
   void update(const ros::Duration& period);
 
-  std::string name;
-  franka_sim::JointDrive* handle{nullptr};  ///< replaces Gazebo's joint
-  int type{0};                              ///< of urdf::Joint
-  joint_limits_interface::JointLimits limits;
-  Eigen::Vector3d axis{Eigen::Vector3d::Zero()};
+  std::string name;                               ///< of the joint in the URDF
+  franka_sim::JointDrive* handle{nullptr};        ///< replaces Gazebo's joint
+  int type{0};                                    ///< of urdf::Joint
+  joint_limits_interface::JointLimits limits;     ///< of the URDF
+  Eigen::Vector3d axis{Eigen::Vector3d::Zero()};  ///< of the joint
 
-  double command{0};  ///< of an effort controller, without gravity
-  double desired_position{0}, desired_velocity{0};
-  double gravity{0};  ///< added to the command
-  double position{0}, velocity{0}, effort{0}, jerk{0}, acceleration{0};
+  double command{0};                                ///< of an effort controller, without gravity
+  double desired_position{0}, desired_velocity{0};  ///< of motions
+  double gravity{0};                                ///< added to the command
+  double position{0}, velocity{0}, effort{0}, jerk{0}, acceleration{0};  ///< measured
   double stop_position{0};  ///< held while there is no command
-  double contact_threshold{std::numeric_limits<double>::infinity()};
-  double collision_threshold{std::numeric_limits<double>::infinity()};
-  boost::optional<ControlMethod> control_method;  ///< none: not controlled
-  control_toolbox::Pid position_controller, velocity_controller;
+  double contact_threshold{std::numeric_limits<double>::infinity()};    ///< [Nm]
+  double collision_threshold{std::numeric_limits<double>::infinity()};  ///< [Nm]
+  boost::optional<ControlMethod> control_method;                        ///< none: not controlled
+  control_toolbox::Pid position_controller, velocity_controller;        ///< of motions
 
   /// @name Desired values in robot states, by mode and control method
   /// @{
@@ -56,8 +56,8 @@ struct Joint {
 
   /// Not known to a drive: always NaN.
   double getLinkMass() const;
-  bool isInContact() const;
-  bool isInCollision() const;
+  bool isInContact() const;    ///< effort above contact_threshold
+  bool isInCollision() const;  ///< effort above collision_threshold
   /// The next update uses this as position, desired position and stop_position. Thread-safe.
   void setJointPosition(double position);
 

@@ -6,6 +6,7 @@
 
 namespace franka_gazebo {
 
+/// The model of an arm from its URDF, by the name that it has in franka_gazebo.
 using ModelKDL = franka_hw::ModelKDL;
 
 }  // namespace franka_gazebo

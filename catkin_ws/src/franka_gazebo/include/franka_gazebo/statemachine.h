@@ -11,6 +11,7 @@
 
 namespace franka_gazebo {
 
+/// Joints by their names.
 using JointMap = std::map<std::string, std::shared_ptr<Joint>>;
 
 /// Whether a text contains another.
@@ -18,17 +19,18 @@ bool contains(const std::string& haystack, const std::string& needle);
 
 /// @name States
 /// @{
-struct Idle {};
-struct Move {};
-struct UserStopped {};
+struct Idle {};         ///< no controller moves the arm
+struct Move {};         ///< a controller moves it
+struct UserStopped {};  ///< the user stop is pressed
 /// @}
 
 /// @name Events
 /// @{
-struct ErrorRecovery {};
-struct SwitchControl {};
+struct ErrorRecovery {};  ///< the action was called
+struct SwitchControl {};  ///< controllers were switched
+/// The user stop was pressed or released.
 struct UserStop {
-  bool pressed;
+  bool pressed;  ///< otherwise released
 };
 /// @}
 
@@ -58,6 +60,7 @@ class StateMachine {
 
   bool is(Idle /*state*/) const noexcept { return now_ == Now::kIdle; }
   bool is(Move /*state*/) const noexcept { return now_ == Now::kMove; }
+  /// Whether this is its state.
   bool is(UserStopped /*state*/) const noexcept { return now_ == Now::kUserStopped; }
 
  private:

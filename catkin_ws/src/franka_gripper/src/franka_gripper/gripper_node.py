@@ -283,7 +283,7 @@ def warn_of_unknown_joints(parameters):
     unknown = [joint for joint in parameters.joint_names if joint not in known]
     if known and unknown:
         rospy.logwarn(
-            "franka_gripper_node: the parameter %s holds '%s', which is no joint of '%s': give both the "
+            "franka_gripper_node: the parameter %s holds '%s', which is not a joint of '%s': give both the "
             "same arm_id.",
             rospy.resolve_name("~joint_names"),
             unknown[0],

@@ -71,6 +71,7 @@ class ArmConnection {
   bool connected() const noexcept { return isConnected(state()); }
   /// Null without a connection. Only for the holder of the mutex.
   const std::unique_ptr<franka::Robot>& robot() const noexcept { return robot_; }
+  /// For the holder of the connection to the robot.
   RobotMutex& mutex() noexcept { return mutex_; }
 
   /// @name Errors
@@ -88,8 +89,8 @@ class ArmConnection {
   /// Sets whether this arm must not move because another one has an error. @returns whether that
   /// has changed. Real-time safe. Thread-safe.
   bool waitForOthers(bool waits) noexcept { return waits_for_others_.exchange(waits) != waits; }
-  /// Whether there is an own error, or the robot stopped while no controller moved it. Real-time
-  /// safe. Thread-safe.
+  /// Whether there is an own error, or the robot stopped while no controller moved it.
+  /// Real-time safe. Thread-safe.
   bool needsRecovery() const noexcept;
   /// Clears the robot's error and ends the own one. A robot that is Idle has no error. If there is
   /// nothing to recover, only a warning is logged. Thread-safe. Not real-time safe.
@@ -101,6 +102,7 @@ class ArmConnection {
 
   /// @name For the robot's thread. Not real-time safe.
   /// @{
+
   /// Holds the mutex for a motion. False if no motion may begin: the robot is not connected, or has
   /// an error.
   class Motion {
@@ -122,8 +124,8 @@ class ArmConnection {
   /// The next state of a robot at rest. @returns none if it is not connected, or if the connection
   /// has just been lost, which is reported
   std::optional<franka::RobotState> readAtRest();
-  /// As readAtRest(), for the holder of the mutex. Waits three times as long as libfranka for a
-  /// silent robot: on a busy computer a simulated robot may not run for a second or more.
+  /// As readAtRest(), for the holder of the mutex. Waits three seconds for a silent robot, or
+  /// longer if libfranka does (as for simulated robots on this computer).
   /// @throws franka::NetworkException if the connection is lost
   static franka::RobotState readPatiently(franka::Robot& robot);
   /// Connects to a robot that was lost, if the parameter `reconnect` is true and the next attempt
@@ -141,7 +143,7 @@ class ArmConnection {
   void offer(const ros::NodeHandle& nh, const std::string& arm_id);
   /// Withdraws what was offered, and waits for calls under way. Called after the robot's thread has
   /// ended.
-  void close();
+  void close() noexcept;
   /// @}
 
  private:
@@ -150,7 +152,7 @@ class ArmConnection {
   void abort(ArmEvent event, const std::string& what, const std::vector<franka::Record>& log);
   void lose(const std::string& what);
   void offerRobot();
-  void withdrawRobot();
+  void withdrawRobot() noexcept;
   void handleRecovery();
 
   Owner& owner_;

@@ -17,9 +17,9 @@ enum class ArmState {
   kLost,          ///< the connection broke
   kLostInError,   ///< as kLost; a recovery has to follow when the connection is back
 };
-constexpr int kArmStateCount = 8;
+constexpr int kArmStateCount = 8;  ///< members of ArmState
 
-/// What can change the state.
+/// Events that can change the state.
 enum class ArmEvent {
   kConnected,
   kGivenUp,  ///< the user disconnects
@@ -31,7 +31,7 @@ enum class ArmEvent {
   kRecovered,           ///< by a recovery of ArmConnection
   kRecoveredElsewhere,  ///< the robot is Idle again by other means: its user stop was released
 };
-constexpr int kArmEventCount = 9;
+constexpr int kArmEventCount = 9;  ///< members of ArmEvent
 
 /// @name Groups of states. Real-time safe. Thread-safe.
 /// @{
@@ -40,6 +40,7 @@ bool isConnected(ArmState state) noexcept;
 bool isInMotion(ArmState state) noexcept;
 /// The robot needs a recovery.
 bool isInError(ArmState state) noexcept;
+/// The robot was lost; `connect` or `reconnect` ends it.
 bool isLost(ArmState state) noexcept;
 /// @}
 
@@ -49,6 +50,7 @@ class ArmStateMachine {
  public:
   explicit ArmStateMachine(ArmState state = ArmState::kDisconnected) noexcept : state_(state) {}
 
+  /// The present state.
   ArmState state() const noexcept { return state_; }
 
   /// @returns whether the event caused a transition

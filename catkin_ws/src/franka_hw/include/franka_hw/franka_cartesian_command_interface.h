@@ -35,6 +35,7 @@ class FrankaCartesianPoseHandle : public FrankaStateHandle {
     *elbow_ = elbow;
   }
 
+  /// The last commanded pose, column-major.
   const std::array<double, 16>& getCommand() const noexcept { return *command_; }
 
  private:
@@ -73,6 +74,7 @@ class FrankaCartesianVelocityHandle : public FrankaStateHandle {
     *elbow_ = elbow;
   }
 
+  /// The last commanded velocities [m/s] [rad/s].
   const std::array<double, 6>& getCommand() const noexcept { return *command_; }
 
  private:

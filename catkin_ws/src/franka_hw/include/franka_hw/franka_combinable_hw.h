@@ -46,6 +46,7 @@ class FrankaCombinableHW : public FrankaHW {
   void write(const ros::Time& time, const ros::Duration& period) override;
   void checkJointLimits() override;
 
+  /// The prefix of the arm's joints and links.
   std::string getArmID() const noexcept;
   /// Ends the motion as if the robot had an error.
   void triggerError();

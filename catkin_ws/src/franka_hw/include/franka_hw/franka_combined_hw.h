@@ -29,6 +29,7 @@ class FrankaCombinedHW : public combined_robot_hw::CombinedRobotHW {
 
   /// Whether the controllers have to be reset, because an error of an arm was cleared.
   bool controllerNeedsReset();
+  /// Whether an arm has an error.
   bool hasError();
   /// Ends the motions of all arms as if each had an error. Used for errors of controllers.
   void triggerError();

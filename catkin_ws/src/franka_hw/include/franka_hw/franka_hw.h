@@ -50,21 +50,21 @@ namespace franka_hw {
 /// Threads: one thread alternates between control(), while a controller commands the arm, and
 /// update() with readOnce() otherwise; it calls the controller manager in both. That thread calls
 /// all virtual functions of the control cycle (read, write, update, enforceLimits,
-/// checkJointLimits, reset, the callbacks), which neither allocate, lock nor log: Real-time safe.
-/// Other threads call prepareSwitch, connect, disconnect and the services. A thread that
-/// communicates with the robot holds robotMutex(); control() holds it during a motion.
+/// checkJointLimits, reset, the callbacks). Real-time safe. Other threads call prepareSwitch,
+/// connect, disconnect and the services. A thread that communicates with the robot holds
+/// robotMutex(); control() holds it during a motion.
 class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owner {
  public:
   /// Thresholds of contact and collision, [Nm] and [N, Nm].
   struct CollisionConfig {
-    std::array<double, 7> lower_torque_thresholds_acceleration;
-    std::array<double, 7> upper_torque_thresholds_acceleration;
-    std::array<double, 7> lower_torque_thresholds_nominal;
-    std::array<double, 7> upper_torque_thresholds_nominal;
-    std::array<double, 6> lower_force_thresholds_acceleration;
-    std::array<double, 6> upper_force_thresholds_acceleration;
-    std::array<double, 6> lower_force_thresholds_nominal;
-    std::array<double, 6> upper_force_thresholds_nominal;
+    std::array<double, 7> lower_torque_thresholds_acceleration;  ///< [Nm]
+    std::array<double, 7> upper_torque_thresholds_acceleration;  ///< [Nm]
+    std::array<double, 7> lower_torque_thresholds_nominal;       ///< [Nm]
+    std::array<double, 7> upper_torque_thresholds_nominal;       ///< [Nm]
+    std::array<double, 6> lower_force_thresholds_acceleration;   ///< [N, Nm]
+    std::array<double, 6> upper_force_thresholds_acceleration;   ///< [N, Nm]
+    std::array<double, 6> lower_force_thresholds_nominal;        ///< [N, Nm]
+    std::array<double, 6> upper_force_thresholds_nominal;        ///< [N, Nm]
   };
 
   FrankaHW();
@@ -134,9 +134,11 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                      const std::list<hardware_interface::ControllerInfo>& stop_list) override;
 
-  /// The controllers' last commands: [rad], [rad/s], [Nm].
+  /// The controllers' last positions [rad].
   virtual std::array<double, 7> getJointPositionCommand() const noexcept;
+  /// The controllers' last velocities [rad/s].
   virtual std::array<double, 7> getJointVelocityCommand() const noexcept;
+  /// The controllers' last torques [Nm].
   virtual std::array<double, 7> getJointEffortCommand() const noexcept;
 
   /// Limits the controllers' joint commands to the soft limits. @param period since the last cycle;
@@ -212,9 +214,10 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
     }
     write(clock_.time(), period);
     if (commandHasNaN(command)) {
-      throw std::invalid_argument("A controller of " + arm_id_ +
-                                  " commands a value that is no number (NaN). The motion was ended "
-                                  "before it reached the robot.");
+      throw std::invalid_argument(
+          "A controller of " + arm_id_ +
+          " commands a value that is not a number (NaN). The motion was ended "
+          "before it reached the robot.");
     }
     response_times_.commandReady(response_times_.lastArrival(), ResponseTimes::Clock::now());
     return command;
@@ -392,7 +395,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   bool mayStart(const std::list<hardware_interface::ControllerInfo>& list) const;
   /// Why controllers must not command the robot, as one sentence; empty if they may.
   std::string refusalOfMotions() const;
-  /// How the robot contradicts its parameters (robot_mismatch.h); empty if it does not.
+  /// The mismatch of the robot and its parameters (robot_mismatch.h); empty if there is none.
   std::string mismatch() const;
   /// Whether the present value of the parameter ignore_robot_mismatch allows a mismatch.
   bool ignoresMismatch() const;

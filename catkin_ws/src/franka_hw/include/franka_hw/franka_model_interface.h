@@ -16,7 +16,7 @@ namespace franka_hw {
 ///
 /// Functions without q evaluate the model at the state that the hardware last read; the others at
 /// their arguments. Layouts, frames and units: ModelBase. Called by the thread that calls the
-/// controllers. Real-time safe if the model is (ModelKDL and franka::Model are).
+/// controllers. Real-time safe. The model must be so too, as ModelKDL and franka::Model are.
 class FrankaModelHandle {
  public:
   FrankaModelHandle() = delete;
@@ -27,6 +27,7 @@ class FrankaModelHandle {
                     franka::RobotState& robot_state)
       : name_(name), model_(&model), robot_state_(&robot_state) {}
 
+  /// The resource's name.
   std::string getName() const noexcept { return name_; }
 
   /// Mass matrix [kg m^2].

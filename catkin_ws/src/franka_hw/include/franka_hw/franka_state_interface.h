@@ -23,6 +23,7 @@ class FrankaStateHandle {
   FrankaStateHandle(const std::string& name, franka::RobotState& robot_state)
       : name_(name), robot_state_(&robot_state) {}
 
+  /// The resource's name.
   const std::string& getName() const noexcept { return name_; }
 
   /// A reference to the state, which changes with every cycle.

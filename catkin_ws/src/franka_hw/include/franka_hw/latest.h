@@ -10,7 +10,7 @@ namespace franka_hw {
 
 /// Passes the newest value from one thread to another. There are three copies: each side holds one
 /// and the third one is exchanged, so that neither thread waits for the other. One writer, one
-/// reader. Real-time safe if copying T is.
+/// reader. Real-time safe. Copying a T must neither allocate nor lock.
 template <typename T>
 class Latest {
  public:

@@ -23,9 +23,9 @@ namespace franka_hw {
 /// root and tip have mass here: the mass of the hand is part of the total load in the arguments of
 /// each call.
 ///
-/// All solvers and arrays are built in the constructor; the calls neither allocate nor lock nor
-/// throw. Real-time safe. All calls except takeSingularityWarning() share one workspace, so use a
-/// separate instance for every thread.
+/// All solvers and arrays are built in the constructor; the calls throw nothing. Real-time safe.
+/// All calls except takeSingularityWarning() share one workspace, so use a separate instance for
+/// every thread.
 class ModelKDL : public ModelBase {
  public:
   /// @param model the parsed URDF, with <inertial> in the arm's seven moving links

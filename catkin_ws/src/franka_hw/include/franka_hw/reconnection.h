@@ -28,7 +28,7 @@ class Reconnection {
   std::string report(const std::string& what) const;
 
  private:
-  bool wanted_{false};
+  bool enabled_{false};
   ros::WallTime last_attempt_, last_warning_;
 };
 

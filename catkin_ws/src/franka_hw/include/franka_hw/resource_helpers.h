@@ -22,11 +22,11 @@ using ResourceWithClaimsMap = std::map<std::string, std::vector<std::vector<std:
 
 /// How often each kind of command is claimed on one arm.
 struct ResourceClaims {
-  uint8_t joint_position_claims = 0;
-  uint8_t joint_velocity_claims = 0;
-  uint8_t joint_torque_claims = 0;
-  uint8_t cartesian_velocity_claims = 0;
-  uint8_t cartesian_pose_claims = 0;
+  uint8_t joint_position_claims = 0;      ///< number of claims
+  uint8_t joint_velocity_claims = 0;      ///< number of claims
+  uint8_t joint_torque_claims = 0;        ///< number of claims
+  uint8_t cartesian_velocity_claims = 0;  ///< number of claims
+  uint8_t cartesian_pose_claims = 0;      ///< number of claims
 };
 
 /// arm_id -> claims on that arm.

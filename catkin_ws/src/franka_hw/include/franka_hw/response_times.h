@@ -23,14 +23,14 @@ namespace franka_hw {
 /// One thread calls the functions of a motion, another one take(). Real-time safe.
 class ResponseTimes {
  public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = std::chrono::steady_clock;  ///< of the times that are measured
 
   /// Of the cycles since the last report; all zero if there were none.
   struct Report {
-    std::uint64_t cycles{0};
-    double mean{0.0};     ///< from a state to the command computed from it [s]
-    double longest{0.0};  ///< of these [s]
-    double spread{0.0};   ///< largest delay minus least delay of the states of a motion [s]
+    std::uint64_t cycles{0};  ///< commands
+    double mean{0.0};         ///< from a state to the command computed from it [s]
+    double longest{0.0};      ///< of these [s]
+    double spread{0.0};       ///< largest delay minus least delay of the states of a motion [s]
   };
 
   /// Delays before this call are not compared with delays after it.
@@ -64,7 +64,7 @@ class ResponseTimes {
   Window window_;
 
   Latest<Window> published_;
-  std::atomic_bool starts_anew_{true};  // the next cycle begins another report
+  std::atomic_bool restarts_{true};  // the next cycle begins another report
 };
 
 }  // namespace franka_hw

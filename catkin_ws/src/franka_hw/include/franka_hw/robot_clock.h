@@ -14,8 +14,8 @@ namespace franka_hw {
 /// woke up: the time between two cycles is the time that passed on the robot. It is adjusted to the
 /// clock of ROS by at most 1 % of the elapsed time, so that it contains no jitter of the network
 /// and never goes back. After a gap of more than half a second, or when the robot's time restarts,
-/// it is set to the clock of ROS again and still never goes back. Called by one thread. Real-time
-/// safe.
+/// it is set to the clock of ROS again and still never goes back. Called by one thread.
+/// Real-time safe.
 class RobotClock {
  public:
   /// @param robot_time of a state @param now on the clock of ROS, when the state arrived

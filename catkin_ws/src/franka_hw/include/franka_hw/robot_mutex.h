@@ -14,8 +14,8 @@ namespace franka_hw {
 /// it until its end.
 ///
 /// A loop that only reads states holds it nearly all the time, and because a mutex is not fair,
-/// another thread may wait for ever. Such a loop calls giveWay(); the others use a Request or
-/// take(). Thread-safe. Not real-time safe.
+/// another thread may wait for ever. Such a loop calls yieldToRequests(); the others use a Request
+/// or take(). Thread-safe. Not real-time safe.
 class RobotMutex : public std::mutex {
  public:
   /// @param state of the arm, which shows whether a motion holds the robot; outlives this object
@@ -48,7 +48,7 @@ class RobotMutex : public std::mutex {
 
   /// The reading loop calls this, unlocked, between two reads: sleeps for 0.1 ms, and longer while
   /// there is a request, at most 5 ms, so that reading continues.
-  void giveWay() const;
+  void yieldToRequests() const;
 
   /// Whether a motion holds the robot, so that waiting for it is useless. Real-time safe.
   bool inMotion() const noexcept { return isInMotion(state_.state()); }

@@ -22,8 +22,8 @@ namespace franka_hw {
 /// Name and type of one of the services.
 template <typename T>
 struct Setter {
-  using Service = T;
-  const char* name;
+  using Service = T;  ///< type of the service
+  const char* name;   ///< of the service
 };
 
 /// Calls `visit` with the Setter of each of the services.

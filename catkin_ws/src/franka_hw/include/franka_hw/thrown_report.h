@@ -17,11 +17,11 @@ class ThrownReport {
   /// @param advice the consequence for the robot, and the next step for the user; a sentence
   void report(const std::string& where, const std::string& what, const std::string& advice) {
     const ros::WallTime now = ros::WallTime::now();
-    if (what == last_ && now - said_ < ros::WallDuration(kPeriod)) {
+    if (what == last_ && now - last_report_time_ < ros::WallDuration(kPeriod)) {
       return;
     }
     last_ = what;
-    said_ = now;
+    last_report_time_ = now;
     ROS_ERROR_STREAM(where << ": a controller threw an exception: " << what << " " << advice);
   }
 
@@ -29,7 +29,7 @@ class ThrownReport {
   static constexpr double kPeriod = 5.0;  // [s]
 
   std::string last_;
-  ros::WallTime said_;
+  ros::WallTime last_report_time_;
 };
 
 }  // namespace franka_hw

@@ -23,7 +23,7 @@ class TriggerRate {
   TriggerRate(double rate, const ros::Time& start);
 
   /// True if a period has passed since the last time it was true. Calls ros::Time::now(), which
-  /// takes a lock under simulated time; real-time safe only without simulated time.
+  /// takes a lock under simulated time. Not real-time safe.
   bool operator()();
 
   /// The same with the time of the loop. Real-time safe.

@@ -19,7 +19,7 @@ class BareCycle : public franka_hw::FrankaHW {
     }
     // The switch finishes only while cycles run.
     std::atomic_bool done{false};
-    std::thread asks([&] {
+    std::thread requests([&] {
       manager_.switchController({name}, {}, 2, false, 10.0);
       done = true;
     });
@@ -27,7 +27,7 @@ class BareCycle : public franka_hw::FrankaHW {
       manager_.update(time_, ros::Duration(0.001));
       std::this_thread::sleep_for(std::chrono::microseconds(100));
     }
-    asks.join();
+    requests.join();
     working_ = [this](const franka::RobotState&, franka::Duration step) {
       time_ += ros::Duration(step.toSec());
       const ros::Duration period(step.toSec());

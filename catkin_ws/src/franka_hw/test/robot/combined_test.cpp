@@ -105,7 +105,7 @@ TEST_F(Combined, ShowsTheJointsOfAllArmsAndTakesTorquesOnly) {
   EXPECT_EQ(nullptr, robot_.get<hardware_interface::PositionJointInterface>());
 }
 
-TEST_F(Combined, RefusesWhatIsNoTorque) {
+TEST_F(Combined, RefusesTorquesThatAreNotNumbers) {
   FakeArm arm("alone");
   franka_hw::FrankaCombinableHW alone;
   ASSERT_TRUE(alone.init(arm.nh, arm.robot_nh));
@@ -120,7 +120,7 @@ TEST_F(Combined, RefusesWhatIsNoTorque) {
   }
 }
 
-TEST_F(Combined, AgreesToASwitchBeforeItHasARobot) {
+TEST_F(Combined, AcceptsASwitchBeforeItHasARobot) {
   FakeArm arm("alone");
   franka_hw::FrankaCombinableHW alone;
   ASSERT_TRUE(alone.initParameters(arm.nh, arm.robot_nh));
@@ -162,7 +162,7 @@ TEST_F(Combined, AnErrorOfOneStopsAllUntilAllAreRecovered) {
   recover();
   EXPECT_TRUE(bothMove());
   EXPECT_FALSE(robot_.hasError());
-  EXPECT_TRUE(needed_reset_) << "the controllers were told to start anew";
+  EXPECT_TRUE(needed_reset_) << "the controllers must be reset";
   EXPECT_FALSE(robot_.controllerNeedsReset()) << "once";
   EXPECT_EQ(moves + 1, right_.robot.count(Command::kMove));
 }
@@ -181,7 +181,7 @@ TEST_F(Combined, NanOnOneArmIsAnErrorAndReachesNoRobot) {
   }
 }
 
-TEST_F(Combined, ConnectionsAreGivenUpAndTakenTogether) {
+TEST_F(Combined, ConnectionsAreClosedAndOpenedTogether) {
   EXPECT_TRUE(call("disconnect").success);
   EXPECT_TRUE(call("connect").success);
   EXPECT_EQ(2, left_.robot.connections());
@@ -225,7 +225,7 @@ class Losing : public Combined {
   const franka::Timeouts usual_{franka::timeouts()};
 };
 
-TEST_F(Losing, ALostArmIsNamedAndTheOtherIsThereForEverybody) {
+TEST_F(Losing, LostArmIsNamedAndOtherStaysAvailable) {
   const LogCatcher log;
   loseLeft();
   EXPECT_NE(std::string::npos, log.text().find("left: the robot is lost. ")) << log.text();
@@ -246,7 +246,7 @@ TEST_F(Losing, ALostArmIsNamedAndTheOtherIsThereForEverybody) {
   EXPECT_EQ(1, right_.robot.count(Command::kSetLoad));
 }
 
-TEST_F(Losing, ConnectSaysWhatCameOfEachArm) {
+TEST_F(Losing, ConnectReportsEachArm) {
   loseLeft();
   const std_srvs::Trigger::Response all = call("connect");
   EXPECT_FALSE(all.success);
@@ -260,7 +260,7 @@ TEST_F(Losing, ConnectSaysWhatCameOfEachArm) {
 
   leftComesBack();
   EXPECT_TRUE(call("left/connect").success);
-  EXPECT_TRUE(robot_.hasError()) << "it moves again when somebody says so";
+  EXPECT_TRUE(robot_.hasError()) << "it moves again only after a recovery";
   recover();
   EXPECT_TRUE(bothMove());
   EXPECT_TRUE(needed_reset_);

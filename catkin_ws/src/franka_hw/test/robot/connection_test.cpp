@@ -20,7 +20,7 @@ class Connection : public testing::Test {
   franka_hw::FrankaHW robot_;
 };
 
-TEST_F(Connection, CanBeGivenUpAndTakenAgain) {
+TEST_F(Connection, CanBeClosedAndOpenedAgain) {
   EXPECT_TRUE(robot_.connected());
   EXPECT_TRUE(robot_.disconnect());
   EXPECT_FALSE(robot_.connected());
@@ -30,7 +30,7 @@ TEST_F(Connection, CanBeGivenUpAndTakenAgain) {
   EXPECT_TRUE(robot_.connected());
   const int connections = arm_.robot.connections();
   robot_.connect();
-  EXPECT_EQ(connections, arm_.robot.connections()) << "who is connected connects no second time";
+  EXPECT_EQ(connections, arm_.robot.connections()) << "a connected robot is not connected again";
   EXPECT_NO_THROW(robot_.robot().readOnce());
 }
 
@@ -46,7 +46,7 @@ TEST_F(Connection, IsKeptWhileAControllerRuns) {
   EXPECT_FALSE(robot_.controllerActive());
 }
 
-TEST_F(Connection, OfARobotThatGoesAwayEndsTheMotionWithASentence) {
+TEST_F(Connection, LossEndsTheMotionWithAMessage) {
   const franka::Timeouts patient = franka::timeouts();
   franka::Timeouts timeouts = patient;
   timeouts.state = std::chrono::seconds(3);
@@ -73,12 +73,12 @@ TEST_F(Connection, OutlivesASilenceOfARestingRobot) {
   robot_.disconnect();
   robot_.connect();
   franka::setTimeouts(usual);
+  const auto begin = std::chrono::steady_clock::now();  // of the silence
   arm_.robot.script([](auto& script) { script.sends_states = false; });
   std::thread wakes([&] {
     std::this_thread::sleep_for(std::chrono::milliseconds(1500));
     arm_.robot.script([](auto& script) { script.sends_states = true; });
   });
-  const auto begin = std::chrono::steady_clock::now();
   EXPECT_NO_THROW(robot_.readPatiently());
   EXPECT_GT(std::chrono::steady_clock::now() - begin, timeouts.state);
   wakes.join();
@@ -113,7 +113,7 @@ TEST_F(Connection, RunsTheServicesOfARestingRobot) {
   EXPECT_FALSE(load.response.error.empty());
 }
 
-TEST_F(Connection, ALoopThatOnlyReadsDoesNotKeepSwitchesOut) {
+TEST_F(Connection, ReadOnlyLoopDoesNotBlockSwitches) {
   franka_hw::ServiceContainer services;
   franka_hw::setupServices(robot_.robot(), robot_.robotMutex(), arm_.robot_nh, services);
   // As in loops of users and of the original: the robot is locked again microseconds after its

@@ -26,7 +26,7 @@ TEST(Cycle, IsMeasuredFromTheStateToTheCommand) {
   franka_hw::FrankaHW robot;
   ASSERT_TRUE(robot.init(arm.nh, arm.robot_nh));
   Loop loop(robot, arm);
-  loop.controller("JT+JP").fault = ToldController::Fault::kSleep;  // two milliseconds
+  loop.controller("JT+JP").fault = TestController::Fault::kSleep;  // two milliseconds
   ASSERT_TRUE(loop.switchTo({"JT+JP"}, {}));
   const std::atomic<int>& updates = loop.controller("JT+JP").updates_since_start;
   ASSERT_TRUE(waitUntil([&] { return updates > 5; }));

@@ -146,9 +146,9 @@ TEST_P(Interfaces, CutCommandsToTheSoftLimits) {
     const auto joint = urdf.getJoint(FakeArm::joints(arm_.arm_id)[i]);
     // The speed that the safety controller allows at this position, which is proportional to the
     // distance.
-    const double room = joint->safety->soft_upper_limit - state.q_d[i];
-    const double speed =
-        std::min(joint->limits->velocity, joint->safety->k_position * std::max(0.0, room));
+    const double distance_to_limit = joint->safety->soft_upper_limit - state.q_d[i];
+    const double speed = std::min(joint->limits->velocity,
+                                  joint->safety->k_position * std::max(0.0, distance_to_limit));
     EXPECT_LE(robot_.getJointPositionCommand()[i], state.q_d[i] + speed * 0.001 + 1e-9) << i;
     EXPECT_LE(robot_.getJointVelocityCommand()[i], joint->limits->velocity + 1e-9) << i;
     EXPECT_LE(robot_.getJointEffortCommand()[i], joint->limits->effort + 1e-9) << i;

@@ -43,7 +43,7 @@ class Modes : public testing::Test {
 
   /// Runs a controller until the robot has received `count` of its commands, and stops it.
   std::vector<franka_test::FakeRobot::Exchange> run(const std::string& claims, size_t count = 20) {
-    ToldController& controller = loop_->controller(claims);
+    TestController& controller = loop_->controller(claims);
     EXPECT_TRUE(loop_->switchTo({claims}, {})) << claims;
     EXPECT_TRUE(waitUntil([&] {
       return controller.updates_since_start > 3 && arm_.robot.exchanges().size() >= count;
@@ -118,7 +118,7 @@ TEST_F(Modes, APartOfTheJointsIsRefused) {
   }
 }
 
-TEST_F(Modes, EachAsksTheRobotForItsMotion) {
+TEST_F(Modes, EachRequestsItsMotion) {
   struct Expected {
     const char* claims;
     MotionGeneratorMode generator;
@@ -145,9 +145,9 @@ TEST_F(Modes, EachAsksTheRobotForItsMotion) {
   }
 }
 
-TEST_F(Modes, WhatTheControllerCommandsReachesTheRobot) {
+TEST_F(Modes, CommandsOfTheControllerReachTheRobot) {
   for (const std::string& claims : kModes) {
-    ToldController& controller = loop_->controller(claims);
+    TestController& controller = loop_->controller(claims);
     controller.torque = 1.5;
     controller.speed = 0.001;  // slow enough to end a motion without an interruption
     const auto exchanges = run(claims);
@@ -175,7 +175,7 @@ TEST_F(Modes, WhatTheControllerCommandsReachesTheRobot) {
 
 TEST_F(Modes, ControllersRunOnceAMillisecondAlsoBesideAGenerator) {
   for (const std::string claims : {"JT", "JT+JP"}) {
-    ToldController& controller = loop_->controller(claims);
+    TestController& controller = loop_->controller(claims);
     ASSERT_TRUE(loop_->switchTo({claims}, {}));
     ASSERT_TRUE(waitUntil([&] { return controller.updates_since_start > 200; }));
     const double exchanges = static_cast<double>(arm_.robot.exchanges().size());
@@ -185,9 +185,9 @@ TEST_F(Modes, ControllersRunOnceAMillisecondAlsoBesideAGenerator) {
   }
 }
 
-// --- what is read anew at a switch ---------------------------------------------------------------
+// --- parameters that are read again at a switch -------------------------------------------------
 
-TEST_F(Modes, RateLimitingIsReadAnewAtASwitch) {
+TEST_F(Modes, RateLimitingIsReadAgainAtASwitch) {
   for (const bool limited : {true, false, true}) {
     arm_.robot_nh.setParam("rate_limiting", limited);
     loop_->controller("JT").torque = 5.0;
@@ -205,7 +205,7 @@ TEST_F(Modes, RateLimitingIsReadAnewAtASwitch) {
   }
 }
 
-TEST_F(Modes, TheFilterIsReadAnewAtASwitch) {
+TEST_F(Modes, FilterIsReadAgainAtASwitch) {
   constexpr double kCutoff = 100.0;
   const double gain = 0.001 / (0.001 + 1.0 / (2.0 * M_PI * kCutoff));
   arm_.robot_nh.setParam("cutoff_frequency", kCutoff);
@@ -222,7 +222,7 @@ TEST_F(Modes, TheFilterIsReadAnewAtASwitch) {
   }
 }
 
-TEST_F(Modes, TheInternalControllerIsReadAnewAtASwitch) {
+TEST_F(Modes, InternalControllerIsReadAgainAtASwitch) {
   arm_.robot_nh.setParam("internal_controller", "cartesian_impedance");
   ASSERT_TRUE(waitUntil([&] {
     run("JV", 3);

@@ -51,7 +51,7 @@ std::vector<Case> refusals() {
       {"description no XML",
        [](FakeArm& arm) { arm.nh.setParam("robot_description", "<robot"); },
        {"robot_description"}},
-      {"nobody at the address",
+      {"no robot at the address",
        with("robot_ip", std::string("127.0.0.1:9")),
        {"127.0.0.1:9", "could not be initialised", "franka_sim --robot", "sim:=true"}},
   };
@@ -65,16 +65,17 @@ TEST(Parameters, EveryMistakeEndsInASentenceThatNamesIt) {
     FrankaHW robot;
     const LogCatcher log;
     EXPECT_FALSE(robot.init(arm.nh, arm.robot_nh));
-    const std::string said = log.text(ros::console::levels::Error);
+    const std::string log_text = log.text(ros::console::levels::Error);
     for (const std::string& word : mistake.words) {
-      EXPECT_NE(std::string::npos, said.find(word)) << "'" << word << "' is not in:\n" << said;
+      EXPECT_NE(std::string::npos, log_text.find(word)) << "'" << word << "' is not in:\n"
+                                                        << log_text;
     }
     EXPECT_FALSE(robot.connected());
     EXPECT_THROW(robot.robot(), std::logic_error);
   }
 }
 
-TEST(Parameters, TwoInitsAreOneTooMany) {
+TEST(Parameters, SecondInitIsRefused) {
   FakeArm arm;
   FrankaHW robot;
   ASSERT_TRUE(robot.init(arm.nh, arm.robot_nh));
@@ -83,7 +84,7 @@ TEST(Parameters, TwoInitsAreOneTooMany) {
   EXPECT_NE(std::string::npos, log.text().find("a second time"));
 }
 
-TEST(Parameters, AnArmThatTheDescriptionDoesNotHoldIsNamedJointByJoint) {
+TEST(Parameters, AnArmMissingInTheDescriptionIsReportedJointByJoint) {
   FakeArm arm;
   arm.robot_nh.setParam("arm_id", "left");
   arm.robot_nh.setParam("joint_names", FakeArm::joints("left"));
@@ -93,6 +94,17 @@ TEST(Parameters, AnArmThatTheDescriptionDoesNotHoldIsNamedJointByJoint) {
   for (const std::string& joint : FakeArm::joints("left")) {
     EXPECT_NE(std::string::npos, log.text(ros::console::levels::Warn).find("'" + joint + "'"));
   }
+}
+
+/// The thresholds that a robot has received.
+std::vector<franka_core::fci::SetCollisionBehaviorRequest> thresholdsOf(FakeArm& arm) {
+  std::vector<franka_core::fci::SetCollisionBehaviorRequest> received;
+  for (const auto& request : arm.robot.requests()) {
+    if (const auto* of = std::get_if<franka_core::fci::SetCollisionBehaviorRequest>(&request)) {
+      received.push_back(*of);
+    }
+  }
+  return received;
 }
 
 TEST(Parameters, CollisionThresholdsGoToTheRobot) {
@@ -108,15 +120,9 @@ TEST(Parameters, CollisionThresholdsGoToTheRobot) {
   const LogCatcher log;
   ASSERT_TRUE(robot.init(arm.nh, arm.robot_nh));
 
-  franka_core::fci::SetCollisionBehaviorRequest sent;
-  int count = 0;
-  for (const auto& request : arm.robot.requests()) {
-    if (const auto* of = std::get_if<franka_core::fci::SetCollisionBehaviorRequest>(&request)) {
-      sent = *of;
-      count++;
-    }
-  }
-  ASSERT_EQ(1, count);
+  const auto received = thresholdsOf(arm);
+  ASSERT_EQ(1U, received.size());
+  const auto& sent = received[0];
   const std::array<double, 7> default_torques{20, 20, 18, 18, 16, 14, 12};
   const std::array<double, 6> default_forces{20, 20, 20, 25, 25, 25};
   EXPECT_TRUE(std::equal(torques.begin(), torques.end(), sent.lower_torques_nominal.begin()));
@@ -130,6 +136,19 @@ TEST(Parameters, CollisionThresholdsGoToTheRobot) {
   for (const char* name : {"upper_torque_thresholds_nominal", "lower_force_thresholds_nominal"}) {
     EXPECT_NE(std::string::npos, log.text().find(name)) << name;
   }
+}
+
+TEST(Parameters, LowerThresholdsAboveTheUpperOnesGoToTheRobotToo) {
+  FakeArm arm;
+  const std::vector<double> torques(7, 80.0);
+  arm.robot_nh.setParam("collision_config/lower_torque_thresholds_nominal", torques);
+  FrankaHW robot;
+  ASSERT_TRUE(robot.init(arm.nh, arm.robot_nh));
+  const auto received = thresholdsOf(arm);
+  ASSERT_EQ(1U, received.size());
+  const auto& sent = received[0];
+  EXPECT_TRUE(std::equal(torques.begin(), torques.end(), sent.lower_torques_nominal.begin()));
+  EXPECT_GT(sent.lower_torques_nominal[0], sent.upper_torques_nominal[0]);
 }
 
 TEST(Parameters, ARobotThatRefusesItsThresholdsIsNotConnected) {

@@ -57,7 +57,7 @@ TEST_F(Refusals, AnFr3IsNotCommandedAsAPanda) {
     expectWords(log.text(ros::console::levels::Error),
                 {"'" + kind + "' cannot command 'fr3'", "a Panda's", parameter});
   }
-  EXPECT_TRUE(loop.switchTo({"looks"}, {})) << "who only looks does no harm";
+  EXPECT_TRUE(loop.switchTo({"looks"}, {})) << "a read-only controller is accepted";
   EXPECT_EQ(0, arm_.robot.count(Command::kMove));
 
   arm_.robot_nh.setParam("ignore_robot_mismatch", true);

@@ -17,32 +17,6 @@ using hardware_interface::EffortJointInterface;
 using hardware_interface::PositionJointInterface;
 using hardware_interface::VelocityJointInterface;
 
-void LogCatcher::log(ros::console::Level level, const char* text, const char* /*file*/,
-                     const char* /*function*/, int /*line*/) {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  lines_.emplace_back(level, text);
-}
-
-std::string LogCatcher::text(ros::console::Level level) const {
-  const std::lock_guard<std::mutex> lock(mutex_);
-  std::string all;
-  for (const auto& [of, line] : lines_) {
-    all += of >= level ? line + "\n" : "";
-  }
-  return all;
-}
-
-bool waitUntil(const std::function<bool()>& condition, double limit) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::duration<double>(limit);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) {
-      return false;
-    }
-    std::this_thread::sleep_for(std::chrono::microseconds(200));
-  }
-  return true;
-}
-
 std::string nameOf(std::string claims) {
   for (char& letter : claims) {
     letter = std::isalnum(static_cast<unsigned char>(letter)) != 0 ? letter : '_';
@@ -109,7 +83,7 @@ FakeArm::FakeArm(const std::string& id, const ros::NodeHandle& namespace_nh)
 // --- the controller ------------------------------------------------------------------------------
 
 template <typename Interface>
-void ToldController::claim(hardware_interface::RobotHW* robot_hw,
+void TestController::claim(hardware_interface::RobotHW* robot_hw,
                            const std::vector<std::string>& names,
                            std::vector<typename Interface::ResourceHandleType>& handles,
                            ClaimedResources& claimed) {
@@ -126,7 +100,7 @@ void ToldController::claim(hardware_interface::RobotHW* robot_hw,
   interface->clearClaims();
 }
 
-bool ToldController::initRequest(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& /*root*/,
+bool TestController::initRequest(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& /*root*/,
                                  ros::NodeHandle& nh, ClaimedResources& claimed) {
   const std::string arm_id = nh.param<std::string>("arm_id", "");
   std::vector<std::string> claims;
@@ -153,7 +127,7 @@ bool ToldController::initRequest(hardware_interface::RobotHW* robot_hw, ros::Nod
   return true;
 }
 
-void ToldController::starting(const ros::Time& /*time*/) {
+void TestController::starting(const ros::Time& /*time*/) {
   ++starts;
   updates_since_start = 0;
   for (size_t i = 0; i < positions_.size(); i++) {
@@ -164,7 +138,7 @@ void ToldController::starting(const ros::Time& /*time*/) {
   }
 }
 
-void ToldController::update(const ros::Time& /*time*/, const ros::Duration& period) {
+void TestController::update(const ros::Time& /*time*/, const ros::Duration& period) {
   ++updates;
   ++updates_since_start;
   const Fault what = fault;
@@ -203,18 +177,18 @@ void ToldController::update(const ros::Time& /*time*/, const ros::Duration& peri
 
 class Loop::Loader : public controller_manager::ControllerLoaderInterface {
  public:
-  Loader() : ControllerLoaderInterface("franka_hw_test::ToldController") {}
+  Loader() : ControllerLoaderInterface("franka_hw_test::TestController") {}
   controller_interface::ControllerBaseSharedPtr createInstance(const std::string& type) override {
-    if (type != "test/Told") {
+    if (type != "test/Test") {
       throw std::runtime_error("unknown type " + type);
     }
-    last = std::make_shared<ToldController>();
+    last = std::make_shared<TestController>();
     return last;
   }
-  std::vector<std::string> getDeclaredClasses() override { return {"test/Told"}; }
+  std::vector<std::string> getDeclaredClasses() override { return {"test/Test"}; }
   void reload() override {}
 
-  std::shared_ptr<ToldController> last;
+  std::shared_ptr<TestController> last;
 };
 
 Loop::Loop(franka_hw::FrankaHW& robot, const FakeArm& arm, bool considerate)
@@ -252,13 +226,13 @@ std::string Loop::describe(const ros::NodeHandle& nh, const std::string& arm_id,
     kinds.push_back(kind);
   }
   const std::string name = nameOf(claims);
-  nh.setParam(name + "/type", "test/Told");
+  nh.setParam(name + "/type", "test/Test");
   nh.setParam(name + "/claims", kinds);
   nh.setParam(name + "/arm_id", arm_id);
   return name;
 }
 
-ToldController& Loop::controller(const std::string& claims) {
+TestController& Loop::controller(const std::string& claims) {
   if (controllers_.count(claims) == 0) {
     const std::string name = describe(nh_, arm_id_, claims);
     if (!manager_.loadController(name)) {

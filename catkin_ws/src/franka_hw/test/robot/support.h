@@ -9,8 +9,9 @@
 #include <controller_manager/controller_loader_interface.h>
 #include <controller_manager/controller_manager.h>
 #include <franka_hw/franka_hw.h>
-#include <ros/console.h>
 #include <ros/ros.h>
+#include <ros_test/eventually.h>
+#include <ros_test/log_catcher.h>
 
 #include <array>
 #include <atomic>
@@ -27,24 +28,13 @@
 namespace franka_hw_test {
 
 using franka_core::fci::Command;
-
-/// Collects the log lines during its lifetime.
-class LogCatcher : public ros::console::LogAppender {
- public:
-  LogCatcher() { ros::console::register_appender(this); }
-  ~LogCatcher() override { ros::console::deregister_appender(this); }
-  void log(ros::console::Level level, const char* text, const char* file, const char* function,
-           int line) override;
-  /// The lines logged so far, of this level or above.
-  std::string text(ros::console::Level level = ros::console::levels::Debug) const;
-
- private:
-  mutable std::mutex mutex_;
-  std::vector<std::pair<ros::console::Level, std::string>> lines_;
-};
+using ros_test::LogCatcher;
 
 /// Waits for a condition. @returns false after the time limit [s]
-bool waitUntil(const std::function<bool()>& condition, double limit = 10.0);
+inline bool waitUntil(const std::function<bool()>& condition, double limit = 10.0) {
+  return ros_test::eventually(condition, std::chrono::microseconds(200),
+                              std::chrono::duration<double>(limit));
+}
 
 /// The name under which Loop loads the controller with these claims.
 std::string nameOf(std::string claims);
@@ -72,7 +62,7 @@ class FakeArm {
 /// A controller that claims the interfaces in its parameter `claims` (a list of JP, JV, JT, CP, CV
 /// and looks, on the first `joints` joints). It holds still unless the test sets a command or a
 /// fault.
-class ToldController : public controller_interface::ControllerBase {
+class TestController : public controller_interface::ControllerBase {
  public:
   enum class Fault { kNone, kThrow, kNan, kSleep };
 
@@ -116,13 +106,13 @@ class Loop {
 
   /// The controller with these claims ("JT", "JT+CP", ...), loaded at the first call; "JT:2" is
   /// another controller with the same claims.
-  ToldController& controller(const std::string& claims);
+  TestController& controller(const std::string& claims);
   bool switchTo(const std::vector<std::string>& start, const std::vector<std::string>& stop);
   controller_manager::ControllerManager& manager() { return manager_; }
   /// The information about a loaded controller for the robot.
   hardware_interface::ControllerInfo info(const std::string& claims) const;
 
-  /// Creates ToldController, the type test/Told.
+  /// Creates TestController, the type test/Test.
   static controller_manager::ControllerLoaderInterfaceSharedPtr makeLoader();
   /// Writes the parameters of a controller with these claims. @returns its name
   static std::string describe(const ros::NodeHandle& nh, const std::string& arm_id,
@@ -143,7 +133,7 @@ class Loop {
   const bool considerate_;
   std::shared_ptr<Loader> loader_;
   controller_manager::ControllerManager manager_;
-  std::map<std::string, ToldController*> controllers_;
+  std::map<std::string, TestController*> controllers_;
   mutable std::mutex mutex_;
   std::vector<std::string> errors_;
   std::atomic_bool has_error_{false};

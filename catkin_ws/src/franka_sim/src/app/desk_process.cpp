@@ -111,10 +111,10 @@ bool DeskProcess::hasEnded(int& status) noexcept {
 void DeskProcess::serve() {
   constexpr std::chrono::milliseconds kPause{200};
   const Clock::time_point now = Clock::now();
-  if (process_ <= 0 || now - looked_at_ < kPause) {
+  if (process_ <= 0 || now - checked_at_ < kPause) {
     return;
   }
-  looked_at_ = now;
+  checked_at_ = now;
   int status = 0;
   if (hasEnded(status)) {
     std::fprintf(stderr,

@@ -33,8 +33,8 @@ class DeskProcess : public fci::Service {
   bool hasEnded(int& status) noexcept;
 
   pid_t process_{-1};
-  fci::Descriptor input_;  // its standard input: the end of it tells the program to end
-  Clock::time_point looked_at_{};
+  fci::Descriptor input_;  // its standard input; closing it ends the program
+  Clock::time_point checked_at_{};
 };
 
 }  // namespace franka_sim

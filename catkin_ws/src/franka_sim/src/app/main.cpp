@@ -3,9 +3,11 @@
 //
 // Simulated robots on the network, without ROS.
 #include <franka_sim/physics/world.h>
+#include <franka_sim/robot/condition_text.h>
 #include <franka_sim/simulation/files.h>
 #include <franka_sim/simulation/operator_commands.h>
 #include <franka_sim/simulation/scene_commands.h>
+#include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
 
@@ -33,16 +35,21 @@ namespace {
 
 std::atomic<bool> end_requested{false};  // set by a signal
 
+/// Robots without clients run ten ticks at a time, and a client that connects waits for that at
+/// most. Chosen here: it needs a tenth of the wake-ups, and a client's own start takes longer.
+constexpr std::chrono::milliseconds kIdleInterval{10};
+
 void requestEnd(int /*signal*/) { end_requested = true; }
 
 // Gives the ticks priority over other processes, if the system allows it; otherwise their
-// punctuality depends on the load of the machine.
+// punctuality depends on the load of the machine. Memory stays in place from its first use on:
+// the ticks use the same pages again and again, and the rest of the libraries needs none.
 void preferThisThread() {
   constexpr int kPriority = 70;
   sched_param parameters{};
   parameters.sched_priority = kPriority;
   if (sched_setscheduler(0, SCHED_FIFO, &parameters) == 0) {
-    mlockall(MCL_CURRENT | MCL_FUTURE);
+    mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT);
   }
 }
 
@@ -55,11 +62,11 @@ class WorldWatch {
   void step() {
     world_.step();
     for (const std::string& warning : world_.takeWarnings()) {
-      tell(warning);
+      report(warning);
     }
     const bool before = std::exchange(stopped_, world_.stopped());
     if (stopped_ && !before) {
-      tell(world_.fault() + " Send the line reset to a control port.");
+      report(world_.fault() + " Send the line reset to a control port.");
       for (fci::SimRobot* robot : robots_) {
         robot->halt();
       }
@@ -67,7 +74,7 @@ class WorldWatch {
   }
 
  private:
-  static void tell(const std::string& what) {
+  static void report(const std::string& what) {
     std::fprintf(stderr, "franka_sim: %s\n", what.c_str());
   }
 
@@ -92,7 +99,7 @@ void serve(const Options& options) {
     robots.push_back(&arms.emplace_back(arm, world).robot());
     if (options.locked) {
       robots.back()->whole().start(SafetyRules::kDesk);
-      robots.back()->serve(true);  // closes its ports before anyone can find them
+      robots.back()->serve(true);  // closes its ports before a client can connect
     }
   }
   std::mutex mutex;
@@ -112,6 +119,7 @@ void serve(const Options& options) {
         const auto locked = lock();
         world.prepareStep();
       });
+  host.setIdleInterval(kIdleInterval);
   std::atomic<bool> ended{false};
   Shutdown shutdown(end_requested, ended, std::chrono::duration<double>(options.linger), robots);
   host.add(shutdown);
@@ -134,7 +142,13 @@ void serve(const Options& options) {
   }
   std::optional<Viewer> viewer;
   if (viewed) {
-    viewer.emplace(world, mutex);
+    host.add(viewer.emplace(world, mutex, [&arms] {
+      std::vector<std::string> lines;
+      for (ServedArm& arm : arms) {
+        lines.push_back(conditionText(arm.options().arm_id, arm.robot().unit().state()));
+      }
+      return lines;
+    }));
   }
 
   if (!options.pace.standsStill()) {
@@ -151,6 +165,7 @@ void serve(const Options& options) {
       std::fprintf(stderr, "franka_sim: %s Put it elsewhere with --base.\n", overlaps.c_str());
     }
   }
+  malloc_trim(0);  // what the compilation of the world has freed
   host.run(ended);
 }
 

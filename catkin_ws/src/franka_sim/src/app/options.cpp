@@ -79,7 +79,7 @@ void readBase(ArmOptions& arm, const std::string& text) {
         "--base", "give three numbers such as -0.5,0,0, or four with the angle, not " + text + ".");
   }
   for (const double coordinate : arm.base) {
-    if (!(std::abs(coordinate) <= sizes::kFarthest)) {
+    if (!(std::abs(coordinate) <= sizes::kMaxPosition)) {
       throw CLI::ValidationError("--base", "give metres, 1000 at most, not " + text + ".");
     }
   }
@@ -98,8 +98,12 @@ void readPace(const std::string& text, fci::Pace& pace) {
 }
 
 void readPatience(const std::string& text, fci::Pace& pace) {
-  double seconds = 3600.0 * 24 * 365 * 100;  // a finite limit, which nanoseconds can represent
-  if (text != "forever" && !isWithin(0.01, 86400.0, text, seconds)) {
+  if (text == "forever") {
+    pace.patience = fci::Pace::kForever;
+    return;
+  }
+  double seconds = 0.0;
+  if (!isWithin(0.01, 86400.0, text, seconds)) {
     throw CLI::ValidationError(
         "--patience", "give a number of seconds from 0.01 to 86400, or forever, not " + text + ".");
   }
@@ -118,9 +122,9 @@ void readWait(const std::string& text, fci::Pace& pace) {
 void checkPace(const CLI::App& app, const fci::Pace& pace) {
   for (const char* option : {"--patience", "--wait"}) {
     if (app.count(option) > 0 && !pace.waitsForClients()) {
-      throw CLI::ValidationError(option,
-                                 "only a robot that waits for its client takes it; give "
-                                 "--pace patient or --pace lockstep as well.");
+      throw CLI::ValidationError(
+          option,
+          "it needs --pace patient or --pace lockstep: only such a robot waits for its client.");
     }
   }
 }
@@ -168,16 +172,16 @@ void nameArms(std::vector<ArmOptions>& arms) {
 }
 
 // The width of an arm's foot: arms that are closer together would overlap.
-constexpr double kLeastDistance = 0.2;  // [m]
+constexpr double kMinDistance = 0.2;  // [m]
 
 void checkPlaces(const std::vector<ArmOptions>& arms) {
   for (std::size_t i = 0; i < arms.size(); i++) {
     for (std::size_t k = 0; k < i; k++) {
       const auto& a = arms[i].base;
       const auto& b = arms[k].base;
-      if (std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < kLeastDistance) {
+      if (std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]) < kMinDistance) {
         throw CLI::ValidationError("The robots at " + arms[k].ip + " and " + arms[i].ip +
-                                   " stand within each other; give them places with --base.");
+                                   " overlap; give them different positions with --base.");
       }
     }
   }
@@ -226,7 +230,7 @@ void addOptionsOfRobots(CLI::App& app, std::vector<ArmOptions>& arms, bool& robo
       })
       ->check(CLI::IsMember({"panda", "fr3"}));
   add("--ip", "ADDRESS",
-      "where it is found (127.0.0.1); each robot needs an address of its own,\n"
+      "its address (127.0.0.1); each robot needs an address of its own,\n"
       "for example 127.0.0.2",
       text(&ArmOptions::ip))
       ->check({addressFault, ""});
@@ -236,8 +240,7 @@ void addOptionsOfRobots(CLI::App& app, std::vector<ArmOptions>& arms, bool& robo
       ->check(within(3, 10, "a number from 3 to 10"))
       ->check({wholeNumberFault, ""});
   add("--base", "X,Y,Z[,YAW]",
-      "where the robot stands in the world [m] and how far it is turned there\n[rad] (0,0,0,0)",
-      readBase);
+      "position of the robot in the world [m] and its rotation about z [rad]\n(0,0,0,0)", readBase);
   add("--urdf", "FILE", "another robot description; its chain is found by --arm-id",
       text(&ArmOptions::urdf));
   add("--arm-id", "PREFIX",
@@ -262,8 +265,8 @@ void addOptionsOfRobots(CLI::App& app, std::vector<ArmOptions>& arms, bool& robo
       ->trigger_on_parse()
       ->disable_flag_override();
   add("--control-port", "N",
-      "where lines of text press the user stop, push the arm and so on (1340;\n"
-      "0: nowhere); send the line help for all of them",
+      "port of the control interface: lines of text that press the user stop, push\n"
+      "the arm and so on (1340; 0: none); the line help lists them",
       number(&ArmOptions::control_port))
       ->check(within(0, 65535, "a number from 0 to 65535"))
       ->check({wholeNumberFault, ""})
@@ -282,7 +285,8 @@ void addOptionsOfDesk(CLI::App& app, Options& options) {
          "443, or 8443 if that is not permitted). Robots start locked")
       ->option_text("[ADDRESS:PORT]")
       ->expected(0, 1);
-  app.add_option("--desk-user", options.desk.user, "who may log in (franka)")->option_text("NAME");
+  app.add_option("--desk-user", options.desk.user, "user that may log in (franka)")
+      ->option_text("NAME");
   app.add_option("--desk-password", options.desk.password,
                  "the password (a new one, printed at the start). Others can read it\n"
                  "here; the variable FRANKA_DESK_PASSWORD is for this program only")
@@ -305,8 +309,8 @@ void addOptionsOfAll(CLI::App& app, Options& options) {
       ->option_text("PACE");
   app.add_option_function<std::string>(
          "--patience", patience,
-         "with --pace patient or lockstep: how long a client that is silent in its\n"
-         "motion is waited for, 0.01 to 86400, or forever (30)")
+         "with --pace patient or lockstep: how long to wait for a client that is\n"
+         "silent in its motion, 0.01 to 86400, or forever (30)")
       ->option_text("SECONDS");
   app.add_option_function<std::string>(
          "--wait", wait,
@@ -314,11 +318,11 @@ void addOptionsOfAll(CLI::App& app, Options& options) {
          "moment) or block (asleep) (auto: without sleep while a processor is free)")
       ->option_text("MODE");
   app.add_option("--world", options.world,
-                 "the scene, MJCF or SDF: a file, or the name of one that comes along:\n"
-                 "stone.xml (an empty world)")
+                 "the scene, MJCF or SDF: a file, or the name of one that is installed with\n"
+                 "franka_sim: stone.xml (an empty world)")
       ->option_text("FILE");
   app.add_option("--linger", options.linger,
-                 "when told to end by a signal, wait so long for clients to go first (0)")
+                 "after a signal, wait this long for clients to disconnect (0)")
       ->option_text("SECONDS")
       ->check(within(0, 60, "a number of seconds from 0 to 60"));
   app.add_flag("--viewer", options.viewer, "open a window")->disable_flag_override();
@@ -357,6 +361,9 @@ Options readOptions(int argc, const char* const* argv) {
     checkDesk(app, options);
     options.locked = options.locked || (options.desk.served && app.count("--start") == 0);
     checkTogether(options.arms);
+    for (ArmOptions& arm : options.arms) {
+      arm.meshes = options.viewer;
+    }
   } catch (const CLI::CallForHelp&) {
     options.help = app.help();
   } catch (const CLI::ParseError& error) {

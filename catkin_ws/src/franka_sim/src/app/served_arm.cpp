@@ -34,11 +34,11 @@ fci::SimRobot makeRobot(const ArmOptions& options, World& world) {
 
 ServedArm::ServedArm(const ArmOptions& options, World& world)
     : options_(options), robot_(makeRobot(options, world)) {
-  const auto tell = [name = options.arm_id + " at " + options.ip](const std::string& what) {
+  const auto report = [name = options.arm_id + " at " + options.ip](const std::string& what) {
     std::fprintf(stderr, "franka_sim: %s: %s\n", name.c_str(), what.c_str());
   };
-  robot_.onCollision(tell);
-  robot_.onRefusal(tell);
+  robot_.onCollision(report);
+  robot_.onRefusal(report);
 }
 
 std::string ServedArm::protocols() const {

@@ -7,12 +7,12 @@
 namespace franka_sim {
 
 void Shutdown::serve() {
-  if (!asked_) {
+  if (!requested_) {
     return;
   }
   const Clock::time_point now = Clock::now();
-  asked_at_ = asked_at_.value_or(now);
-  ended_ = !hasClients() || now - *asked_at_ >= patience_;
+  requested_at_ = requested_at_.value_or(now);
+  ended_ = !hasClients() || now - *requested_at_ >= patience_;
 }
 
 bool Shutdown::hasClients() const {

@@ -17,13 +17,14 @@ namespace franka_sim {
 /// its clients at the same time; without the delay the clients would report a lost robot.
 class Shutdown : public fci::Service {
  public:
-  /// @param asked true once the end was requested
+  /// @param requested true once the end was requested
   /// @param ended is set when no client is left, or `patience` after the request
-  Shutdown(const std::atomic<bool>& asked, std::atomic<bool>& ended,
+  Shutdown(const std::atomic<bool>& requested, std::atomic<bool>& ended,
            std::chrono::duration<double> patience, std::vector<fci::SimRobot*> robots)
-      : asked_(asked), ended_(ended), patience_(patience), robots_(std::move(robots)) {}
+      : requested_(requested), ended_(ended), patience_(patience), robots_(std::move(robots)) {}
 
   void serve() override;
+  bool idle() const override { return !requested_; }
   void addDescriptors(std::vector<pollfd>& /*fds*/) const override {}
 
  private:
@@ -31,11 +32,11 @@ class Shutdown : public fci::Service {
 
   bool hasClients() const;
 
-  const std::atomic<bool>& asked_;
+  const std::atomic<bool>& requested_;
   std::atomic<bool>& ended_;
   std::chrono::duration<double> patience_;
   std::vector<fci::SimRobot*> robots_;
-  std::optional<Clock::time_point> asked_at_;
+  std::optional<Clock::time_point> requested_at_;
 };
 
 }  // namespace franka_sim

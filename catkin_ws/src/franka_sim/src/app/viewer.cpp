@@ -16,7 +16,8 @@ namespace {
 constexpr std::chrono::milliseconds kFrame{33};
 }  // namespace
 
-Viewer::Viewer(World& world, std::mutex& mutex) : world_(world), mutex_(mutex) {
+Viewer::Viewer(World& world, std::mutex& mutex, Lines lines)
+    : world_(world), mutex_(mutex), lines_(std::move(lines)) {
   std::promise<void> opened;
   std::future<void> open = opened.get_future();
   thread_ =
@@ -34,6 +35,21 @@ Viewer::~Viewer() {
   thread_.join();
 }
 
+void Viewer::serve() {
+  const auto now = std::chrono::steady_clock::now();
+  if (now >= next_texts_) {
+    next_texts_ = now + kFrame;
+    std::vector<std::string> texts = lines_();
+    const std::lock_guard<std::mutex> lock(texts_mutex_);
+    texts_ = std::move(texts);
+  }
+}
+
+std::vector<std::string> Viewer::copyOfTexts() {
+  const std::lock_guard<std::mutex> lock(texts_mutex_);
+  return texts_;
+}
+
 void Viewer::loop(std::promise<void> opened) {
   std::optional<Window> window;
   try {
@@ -45,14 +61,16 @@ void Viewer::loop(std::promise<void> opened) {
   opened.set_value();
   try {
     bool open = true;
+    PushByMouse push;
     while (open && !stop_) {
       const auto next = std::chrono::steady_clock::now() + kFrame;
       Scene scene;
       {
         const std::lock_guard<std::mutex> lock(mutex_);
+        push.act(world_, window->push());
         scene = captureScene(world_);
       }
-      open = window->draw(scene);
+      open = window->draw(scene, copyOfTexts());
       std::this_thread::sleep_until(next);
     }
   } catch (const std::exception& error) {

@@ -19,14 +19,18 @@ constexpr std::uint64_t kTicksAfterAction = 100;
 
 /// In lock-step, requests wait until the world is at rest, but no longer than this. Chosen here:
 /// the world may never come to rest, for example when two arms press on each other.
-constexpr std::uint64_t kLongestDeferral = 10000;
+constexpr std::uint64_t kMaxDeferral = 10000;
 
-/// A longer delay of the host is not made up for (chosen here: a burst of ticks would lose more
+/// The host does not catch up after a longer delay (chosen here: a burst of ticks would lose more
 /// commands).
 constexpr std::chrono::milliseconds kMaxCatchUp{50};
 
 /// Sockets are polled at least this often, even if commands come too fast for a poll.
-constexpr std::chrono::milliseconds kServeAtLeast{1};
+constexpr std::chrono::milliseconds kMaxServeInterval{1};
+
+/// Robots without clients are served so often if a poll reports nothing (chosen here: opens and
+/// closes their ports in time). Serving one looks at three sockets, with a system call each.
+constexpr std::chrono::milliseconds kMaxIdleServeInterval{10};
 
 /// A client that waits for another one's answer gives up after a second without a state; genuine
 /// clients and ours drop a repeated state and wait on. Chosen here: three repeats fit into that
@@ -40,8 +44,12 @@ constexpr std::chrono::milliseconds kRepeatPeriod{300};
 constexpr int kPromptStarts = 2;
 constexpr std::chrono::milliseconds kLaterStarts{600};
 
-/// While the host makes up for a delay, clients still get this time for each answer (chosen here).
-constexpr std::chrono::microseconds kLeastTimeToAnswer{400};
+/// While the host catches up after a delay, clients still get this time for each answer (chosen
+/// here).
+constexpr std::chrono::microseconds kMinTimeToAnswer{400};
+
+/// Interval of the calls of keep_waiting (chosen here: fast enough for Ctrl-C).
+constexpr std::chrono::milliseconds kKeepWaitingPeriod{50};
 
 timespec toTimespec(std::chrono::nanoseconds duration) noexcept {
   constexpr std::int64_t kNanoseconds = 1000000000;
@@ -80,12 +88,12 @@ void Host::add(HostedRobot& robot) {
 
 void Host::add(Service& service) { services_.push_back(&service); }
 
-void Host::remove(const HostedRobot& robot) {
+void Host::remove(const HostedRobot& robot) noexcept {
   const auto is_robot = [&](const Entry& entry) { return entry.robot == &robot; };
   entries_.erase(std::remove_if(entries_.begin(), entries_.end(), is_robot), entries_.end());
 }
 
-void Host::remove(const Service& service) {
+void Host::remove(const Service& service) noexcept {
   services_.erase(std::remove(services_.begin(), services_.end(), &service), services_.end());
 }
 
@@ -99,13 +107,15 @@ void Host::setPace(const Pace& pace) {
   restartClock();
 }
 
-void Host::letRun(std::uint64_t ticks) { rolling_ = std::max(rolling_, ticks + kTicksAfterAction); }
+void Host::runFree(std::uint64_t ticks) {
+  rolling_ = std::max(rolling_, ticks + kTicksAfterAction);
+}
 
 void Host::advance(std::uint64_t ticks) { rolling_ = std::max(rolling_, ticks); }
 
-void Host::beginAnew() {
+void Host::restartAfterReset() {
   rolling_ = 0;
-  letRun(1);
+  runFree(1);
 }
 
 void Host::run(const std::atomic<bool>& stop) {
@@ -125,7 +135,7 @@ void Host::tick() {
   }
   if (pace_.waitsForClients()) {
     waitInLockStep();
-    if (heedsClock()) {
+    if (followsClock()) {
       listenUntil(nextDeadline());
     }
   } else {
@@ -178,23 +188,30 @@ void Host::publish(Entry& entry, bool same_moment, Clock::time_point now) {
 // System calls take longer than a control unit's tick, so sockets are read only when a poll reports
 // data.
 void Host::serveIfDue() {
-  if (requests_ready_ || requests_left_ || Clock::now() - served_at_ >= kServeAtLeast) {
+  if (requests_ready_ || requests_left_ || Clock::now() - served_at_ >= kMaxServeInterval) {
     serveAll();
   }
 }
 
 void Host::serveAll() {
-  requests_ready_ = false;
   served_at_ = Clock::now();
+  const bool reported = std::exchange(requests_ready_, false);
+  const bool polled = std::exchange(polled_, false);
+  const bool all = reported || !polled || served_at_ - served_idle_at_ >= kMaxIdleServeInterval;
+  served_idle_at_ = all ? served_at_ : served_idle_at_;
   const bool stops_only = holdsRequestsBack();
   requests_left_ = stops_only;
   for (const Entry& entry : entries_) {
-    entry.robot->serve(stops_only);
+    if (all || !entry.robot->idle()) {
+      entry.robot->serve(stops_only);
+    }
   }
   // The next states wait for commands, whose sender may itself wait for the answer of a service.
   const bool states_wait = pace_.waitsForClients() && clientsAreDue();
   for (Service* service : services_) {
-    service->serve();
+    if (all || !service->idle()) {
+      service->serve();
+    }
     if (states_wait) {
       service->published();
     }
@@ -206,13 +223,13 @@ void Host::serveAll() {
 bool Host::holdsRequestsBack() const {
   const bool hand_busy = std::any_of(entries_.begin(), entries_.end(),
                                      [](const Entry& entry) { return entry.robot->handBusy(); });
-  return pace_.standsStill() && rolling_ > 0 && held_back_ < kLongestDeferral && !hand_busy &&
-         !clientsAreDue() && !clientsAreAtLeisure();
+  return pace_.standsStill() && rolling_ > 0 && held_back_ < kMaxDeferral && !hand_busy &&
+         !clientsAreDue() && !hasAsynchronousMotion();
 }
 
-bool Host::settled() const { return !pace_.standsStill() || isRestless() || atRest(); }
+bool Host::settled() const { return !pace_.standsStill() || failsToSettle() || atRest(); }
 
-bool Host::isRestless() const { return pace_.standsStill() && held_back_ >= kLongestDeferral; }
+bool Host::failsToSettle() const { return pace_.standsStill() && held_back_ >= kMaxDeferral; }
 
 bool Host::atRest() const {
   const auto moves = [](const Entry& entry) {
@@ -258,6 +275,7 @@ void Host::pollUntil(Clock::time_point deadline) {
       requests_ready_ = requests_ready_ || fds_[i].revents != 0;
     }
   }
+  polled_ = true;
 }
 
 Host::Clock::time_point Host::nextDeadline() {
@@ -271,10 +289,36 @@ Host::Clock::time_point Host::nextDeadline() {
 
 void Host::waitInRealTime() {
   Clock::time_point end = nextDeadline();
+  if (idle_interval_ > Clock::duration::zero() && isIdle()) {
+    waitIdle(end);
+    return;
+  }
   if (clientsAreDue()) {
-    end = std::max(end, Clock::now() + std::min<Clock::duration>(kLeastTimeToAnswer, period_));
+    end = std::max(end, Clock::now() + std::min<Clock::duration>(kMinTimeToAnswer, period_));
   }
   listenUntil(end);
+  slept_until_ = end;
+}
+
+bool Host::isIdle() const {
+  return std::all_of(entries_.begin(), entries_.end(),
+                     [](const Entry& entry) { return entry.robot->idle(); }) &&
+         std::all_of(services_.begin(), services_.end(),
+                     [](const Service* service) { return service->idle(); });
+}
+
+void Host::waitIdle(Clock::time_point end) {
+  if (end - slept_until_ < idle_interval_ && slept_until_ < end) {
+    return;
+  }
+  while (Clock::now() < end && isIdle()) {
+    pollUntil(end);
+    serveIfDue();
+  }
+  if (!isIdle()) {
+    restartClock();  // a client does not wait for the time that the ticks are ahead
+  }
+  slept_until_ = deadline_;
 }
 
 void Host::listenUntil(Clock::time_point end) {
@@ -290,16 +334,15 @@ bool Host::clientsAreDue() const {
                      [](const Entry& entry) { return entry.isDue(); });
 }
 
-bool Host::clientsAreAtLeisure() const {
+bool Host::hasAsynchronousMotion() const {
   return std::any_of(entries_.begin(), entries_.end(),
                      [](const Entry& entry) { return entry.robot->asynchronous(); });
 }
 
-// In lock-step only the clock says when the next tick of an asynchronous motion is due; if time
-// runs on, the other robots do.
-bool Host::heedsClock() const {
+// In lock-step only the clock defines when the next tick of an asynchronous motion is due.
+bool Host::followsClock() const {
   return pace_.mode == PaceMode::kPatient ||
-         (pace_.mode != PaceMode::kFreeRunning && clientsAreAtLeisure());
+         (pace_.mode != PaceMode::kFreeRunning && hasAsynchronousMotion());
 }
 
 // Whether an answer of a client that has not been given up is missing.
@@ -309,7 +352,7 @@ bool Host::answersAreMissing() const {
   });
 }
 
-bool Host::timeMustGoOn() {
+bool Host::mustAdvanceTime() {
   for (const Entry& entry : entries_) {
     if (entry.robot->settling() || entry.robot->handBusy() || entry.robot->asynchronous()) {
       rolling_ = std::max(rolling_, kTicksAfterAction);
@@ -318,12 +361,12 @@ bool Host::timeMustGoOn() {
   return rolling_ > 0;
 }
 
-bool Host::settlesInTime() const {
+bool Host::settlesInKnownTime() const {
   return std::any_of(entries_.begin(), entries_.end(),
-                     [](const Entry& entry) { return entry.robot->settlesInTime(); });
+                     [](const Entry& entry) { return entry.robot->settlesInKnownTime(); });
 }
 
-void Host::giveUpOnTheSilent() {
+void Host::giveUpSilentClients() {
   for (Entry& entry : entries_) {
     entry.given_up = entry.given_up || (entry.isDue() && !entry.robot->receiveCommand());
   }
@@ -333,11 +376,11 @@ void Host::waitInLockStep() {
   const bool news = std::any_of(entries_.begin(), entries_.end(),
                                 [](const Entry& entry) { return entry.robot->hasNews(); });
   const bool due = clientsAreDue();
-  if (due || news || heedsClock() || Clock::now() - published_at_ >= kTick) {
+  if (due || news || followsClock() || Clock::now() - published_at_ >= kTick) {
     publishAll();
   }
   beginWait();
-  const Clock::time_point begin = looked_at_;
+  const Clock::time_point begin = waited_until_;
   prepare_();
   // An answer takes a while; if none is expected, one look at the sockets is enough.
   if (due) {
@@ -359,8 +402,8 @@ void Host::waitInLockStep() {
     if (!pace_.standsStill()) {
       return;
     }
-    if (timeMustGoOn()) {
-      if (!settlesInTime()) {
+    if (mustAdvanceTime()) {
+      if (!settlesInKnownTime()) {
         held_back_ = holdsRequestsBack() ? held_back_ + 1 : 0;
       }
       rolling_--;
@@ -375,7 +418,7 @@ void Host::waitInLockStep() {
 }
 
 void Host::beginWait() {
-  looked_at_ = Clock::now();
+  waited_until_ = keep_waiting_called_at_ = Clock::now();
   waited_ = {};
   for (Entry& entry : entries_) {
     entry.starts_shown = entry.isDue() ? 1 : 0;
@@ -385,26 +428,37 @@ void Host::beginWait() {
 // @returns whether there is still something to wait for.
 bool Host::waitForClients() {
   // Time in which this process did not run must not count as the clients' silence.
-  constexpr Clock::duration kLongestLook = 2 * kTick;
+  constexpr Clock::duration kMaxCountedTime = 2 * kTick;
   const Clock::time_point now = Clock::now();
-  waited_ += std::min<Clock::duration>(now - looked_at_, kLongestLook);
-  looked_at_ = now;
+  waited_ += std::min<Clock::duration>(now - waited_until_, kMaxCountedTime);
+  waited_until_ = now;
   if (!answersAreMissing() && (receiveAll() || waited_ >= kTick)) {
     return false;
   }
-  if (waited_ >= pace_.patience) {
-    giveUpOnTheSilent();
+  if (patienceHasEnded(now)) {
+    giveUpSilentClients();
     return true;
   }
-  showThatTimeStandsStill(now);
+  publishWhileWaiting(now);
   pollUntil(now + kTick);
   return true;
 }
 
+bool Host::patienceHasEnded(Clock::time_point now) {
+  if (waited_ >= pace_.patience) {
+    return true;
+  }
+  if (!keep_waiting_ || now - keep_waiting_called_at_ < kKeepWaitingPeriod) {
+    return false;
+  }
+  keep_waiting_called_at_ = now;
+  return !keep_waiting_();
+}
+
 // Other clients must see that the robots are there. A state that shows a motion's client nothing
 // new keeps its number: the motion's clock, which counts states, stands still as well. A client
-// that owes an answer gets no new state: it has all it needs.
-void Host::showThatTimeStandsStill(Clock::time_point now) {
+// that has not answered gets no new state; it must answer the last one.
+void Host::publishWhileWaiting(Clock::time_point now) {
   for (Entry& entry : entries_) {
     HostedRobot& robot = *entry.robot;
     if (entry.isStarting()) {

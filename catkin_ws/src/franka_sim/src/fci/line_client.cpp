@@ -9,7 +9,7 @@ namespace franka_sim::fci {
 
 namespace {
 
-constexpr std::size_t kLongestLine = 4000;
+constexpr std::size_t kMaxLineLength = 4000;
 
 }  // namespace
 
@@ -72,7 +72,11 @@ void LineClient::sendAnswer() {
 }
 
 bool LineClient::lineIsTooLong() const noexcept {
-  return isIdle() && connection_->received().size >= kLongestLine && !lineSize();
+  return isIdle() && connection_->received().size >= kMaxLineLength && !lineSize();
+}
+
+bool LineClient::isQuiet() const noexcept {
+  return isIdle() && !has_ended_ && !is_broken_ && !connection_->hasUnsent() && !lineSize();
 }
 
 bool LineClient::isGone() const noexcept {

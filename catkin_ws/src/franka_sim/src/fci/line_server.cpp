@@ -16,15 +16,15 @@ namespace franka_sim::fci {
 namespace {
 
 /// Time for a refused client to read the reason; and how many such clients are kept at most.
-constexpr std::chrono::seconds kTimeToLeave{1};
-constexpr std::size_t kMostLeaving = 8;
+constexpr std::chrono::seconds kTimeToReadRefusal{1};
+constexpr std::size_t kMaxRefused = 8;
 
 /// Connections accepted per call; others wait for the next call.
 constexpr int kAcceptedAtOnce = 16;
 
 /// Between two states, no further line is begun after this time (chosen here: robots in real time
 /// need most of each millisecond).
-constexpr std::chrono::microseconds kMostBusy{200};
+constexpr std::chrono::microseconds kMaxBusyTime{200};
 
 LineServer::Words split(const std::string& line) {
   std::istringstream stream(line);
@@ -82,7 +82,13 @@ bool LineServer::isReady(const std::string& line) const {
   return entry == entries_.end() || entry->second.ready();
 }
 
-LineServer::~LineServer() { published(); }
+LineServer::~LineServer() {
+  try {
+    published();
+  } catch (const std::exception&) {
+    // The end of the server is the answer then.
+  }
+}
 
 void LineServer::serve() {
   receiveAll();
@@ -90,7 +96,12 @@ void LineServer::serve() {
     receiveAll();
   }
   executeLines();
-  closeLeaving();
+  closeRefused();
+}
+
+bool LineServer::idle() const {
+  return refused_.empty() && std::all_of(clients_.begin(), clients_.end(),
+                                         [](const LineClient& client) { return client.isQuiet(); });
 }
 
 void LineServer::receiveAll() {
@@ -112,13 +123,14 @@ bool LineServer::accept() {
       break;
     }
     auto connection = std::make_unique<Connection>(std::move(socket));
-    makeRoom();
-    if (clients_.size() < kMostClients) {
+    connection->watchPeer();
+    freeSlot();
+    if (clients_.size() < kMaxClients) {
       clients_.emplace_back(std::move(connection));
       any = true;
     } else {
       dismiss(std::move(connection),
-              "error: " + std::to_string(kMostClients) +
+              "error: " + std::to_string(kMaxClients) +
                   " clients use this control interface, which takes no more: end one of them, then "
                   "connect again.");
     }
@@ -126,14 +138,14 @@ bool LineServer::accept() {
   return any;
 }
 
-// Clients that have just left, or have ended and wait for an answer, make room first, then the one
-// that has been silent for longest.
-void LineServer::makeRoom() {
-  if (clients_.size() < kMostClients) {
+// Closes a connection for the newest one, if there are too many: first clients that have just left,
+// or have ended and wait for an answer, then the one that has been silent for longest.
+void LineServer::freeSlot() {
+  if (clients_.size() < kMaxClients) {
     return;
   }
   receiveAll();
-  if (clients_.size() < kMostClients) {
+  if (clients_.size() < kMaxClients) {
     return;
   }
   const auto ended = std::find_if(clients_.begin(), clients_.end(),
@@ -159,7 +171,7 @@ void LineServer::makeRoom() {
 void LineServer::executeLines() {
   clients_.sort([](const LineClient& a, const LineClient& b) { return a.arrival() < b.arrival(); });
   for (LineClient& client : clients_) {
-    if (!client.line() || busy_ > kMostBusy || !isReady(*client.line())) {
+    if (!client.line() || busy_ > kMaxBusyTime || !isReady(*client.line())) {
       continue;
     }
     const Clock::time_point begin = Clock::now();
@@ -179,18 +191,18 @@ void LineServer::dismiss(std::unique_ptr<Connection> connection, const std::stri
   sendLine(*connection, sentence);
   // Closing at once, with unread lines of the peer, would discard the sentence.
   ::shutdown(connection->descriptor(), SHUT_WR);
-  if (leaving_.size() < kMostLeaving) {
-    leaving_.push_back({std::move(connection), Clock::now() + kTimeToLeave});
+  if (refused_.size() < kMaxRefused) {
+    refused_.push_back({std::move(connection), Clock::now() + kTimeToReadRefusal});
   }
 }
 
-void LineServer::closeLeaving() {
-  const auto gone = [](Leaving& leaving) {
+void LineServer::closeRefused() {
+  const auto gone = [](Refused& leaving) {
     const bool open = leaving.connection->receive();
     leaving.connection->consume(leaving.connection->received().size);
     return !open || Clock::now() > leaving.until;
   };
-  leaving_.erase(std::remove_if(leaving_.begin(), leaving_.end(), gone), leaving_.end());
+  refused_.erase(std::remove_if(refused_.begin(), refused_.end(), gone), refused_.end());
 }
 
 void LineServer::addDescriptors(std::vector<pollfd>& fds) const {
@@ -215,7 +227,7 @@ std::uint64_t toSeed(const std::string& word) {
   const auto [stop, error] = std::from_chars(word.data(), end, value);
   if (error != std::errc() || stop != end) {
     throw std::invalid_argument(
-        "'" + word + "' is no seed: give a whole number from 0 to 18446744073709551615.");
+        "'" + word + "' is not a seed: give a whole number from 0 to 18446744073709551615.");
   }
   return value;
 }

@@ -30,10 +30,10 @@ void RobotFront::observe() {
     before[i] = unit.state().errors[indexOf(kCollisions[i])];
   }
   robot_.observe();
-  for (std::size_t i = 0; tell_ && i < before.size(); i++) {
+  for (std::size_t i = 0; report_ && i < before.size(); i++) {
     if (!before[i] && unit.state().errors[indexOf(kCollisions[i])]) {
-      tell_(collisionOf(unit, kCollisions[i]) + " (" +
-            franka_core::kErrorNames[indexOf(kCollisions[i])] + ").");
+      report_(collisionOf(unit, kCollisions[i]) + " (" +
+              franka_core::kErrorNames[indexOf(kCollisions[i])] + ").");
     }
   }
 }
@@ -81,18 +81,22 @@ void RobotFront::repeat() {
   publishTools(0);
 }
 
-void RobotFront::onRefusal(const ClientSlot::Tell& tell) {
-  server_.onRefusal(tell);
+void RobotFront::onRefusal(const ClientSlot::Report& report) {
+  server_.onRefusal(report);
   if (hand_) {
-    hand_->onRefusal(tell);
+    hand_->onRefusal(report);
   }
   if (vacuum_) {
-    vacuum_->onRefusal(tell);
+    vacuum_->onRefusal(report);
   }
 }
 
 bool RobotFront::hasClients() const {
   return server_.hasClient() || (hand_ && hand_->hasClient()) || (vacuum_ && vacuum_->hasClient());
+}
+
+bool RobotFront::idle() const {
+  return server_.idle() && (!hand_ || hand_->idle()) && (!vacuum_ || vacuum_->idle());
 }
 
 bool RobotFront::settling() const {

@@ -58,15 +58,15 @@ void RobotServer::serve(bool stops_only) {
     slot_.drop();  // not connected yet; a client first gets the end of its motion (publish)
   }
   slot_.serve([this, stops_only](Connection& client) { return serveOne(client, stops_only); },
-              [this] { forgetClient(); });
+              [this] { clearClient(); });
 }
 
 void RobotServer::dropClient() noexcept {
   slot_.drop();
-  forgetClient();
+  clearClient();
 }
 
-void RobotServer::forgetClient() noexcept {
+void RobotServer::clearClient() noexcept {
   if (version_ != 0) {
     handler_.disconnected();
   }
@@ -95,20 +95,20 @@ Served RobotServer::serveOne(Connection& client, bool stops_only) {
   const CodecError error =
       codec::decodeRequest(version, {stream.data, header.size}, header, request);
   const bool stop = error == CodecError::kNone && codec::commandOf(request) == Command::kStopMove;
-  const bool later = stops_only || answered_setter_count_ == kMostAnswered;
+  const bool later = stops_only || answered_setter_count_ == kMaxAnswered;
   if (later && version_ != 0 && !stop) {
     return Served::kHeldBack;
   }
   client.consume(header.size);
-  bool goes_on = false;
+  bool connection_valid = false;
   if (error != CodecError::kNone) {
-    goes_on = refuse(header, error);
+    connection_valid = refuse(header, error);
   } else if (const auto* connection = std::get_if<codec::ConnectRequest>(&request)) {
-    goes_on = connect(header, *connection);
+    connection_valid = connect(header, *connection);
   } else {
-    goes_on = version_ != 0 && answer(header, request);
+    connection_valid = version_ != 0 && answer(header, request);
   }
-  return goes_on ? Served::kDone : Served::kBroken;
+  return connection_valid ? Served::kDone : Served::kBroken;
 }
 
 bool RobotServer::connect(const codec::Header& header, const codec::ConnectRequest& request) {
@@ -170,7 +170,7 @@ bool RobotServer::answer(const codec::Header& header, const codec::Request& requ
     (pending.command == Command::kStopMove ? stop_ : recovery_) = pending;
     return true;
   }
-  if (pending.command != Command::kMove && answered_setter_count_ < kMostAnswered) {
+  if (pending.command != Command::kMove && answered_setter_count_ < kMaxAnswered) {
     answered_setters_[answered_setter_count_++] = {pending, *status};
     return true;
   }

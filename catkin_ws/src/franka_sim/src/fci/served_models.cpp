@@ -88,7 +88,7 @@ std::vector<std::uint8_t> servedLibrary(const ArmModel& arm) {
   const auto& mark = model_library::kMark;
   const auto place = std::search(library.begin(), library.end(), mark.begin(), mark.end());
   if (place == library.end()) {
-    throw std::logic_error("The model library of this build has no place for parameters.");
+    throw std::logic_error("The model library of this build has no block for parameters.");
   }
   std::uint8_t* next = &*place + offsetof(model_library::Parameters, numbers);
   const auto put = [&next](double value) {

@@ -64,9 +64,10 @@ Descriptor bound(int type, const std::string& what, const std::string& address,
   return result;
 }
 
-/// Connections queued by the system until they are accepted. If this queue overflows, a client
-/// retries only after a second.
-constexpr int kBacklog = 1024;
+/// Connections queued by the system until they are accepted, if it permits so many. If this queue
+/// overflows, a client retries only after a second. (Chosen here: on a busy machine a host may not
+/// run for 0.1 s, in which two programs can make so many connections.)
+constexpr int kBacklog = 4096;
 
 /// Wait after running out of file descriptors (chosen here: short for a client, long for a poll
 /// loop).
@@ -127,7 +128,9 @@ bool Listener::open() noexcept {
 }
 
 Descriptor Listener::accept(sockaddr_in& peer) noexcept {
-  if (!accepts()) {
+  // accept4 creates a socket before it finds that no connection is pending; poll does not.
+  pollfd waiting{socket_.get(), POLLIN, 0};
+  if (!accepts() || ::poll(&waiting, 1, 0) <= 0) {
     return Descriptor();
   }
   socklen_t size = sizeof(peer);
@@ -144,7 +147,9 @@ bool Listener::accepts() const noexcept {
                    std::chrono::steady_clock::now() >= exhausted_until_);
 }
 
-Connection::Connection(Descriptor socket) : socket_(std::move(socket)) {
+Connection::Connection(Descriptor socket) : socket_(std::move(socket)) {}
+
+void Connection::watchPeer() noexcept {
   setOption(socket_.get(), IPPROTO_TCP, TCP_NODELAY, 1);
   setOption(socket_.get(), SOL_SOCKET, SO_KEEPALIVE, 1);
   setOption(socket_.get(), IPPROTO_TCP, TCP_KEEPIDLE, 1);

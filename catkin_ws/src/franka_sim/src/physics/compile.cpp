@@ -5,16 +5,13 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "physics/engine_errors.h"
 #include "physics/kept_files.h"
 
 namespace franka_sim::physics {
 namespace {
 
 constexpr const char* kFileName = "merged.xml";
-
-/// Replaces MuJoCo's handler, which prints and writes MUJOCO_LOG.TXT into the current folder, from
-/// inside the loop.
-void ignoreWarning(const char* /*message*/) {}
 
 /// Files in memory that a text may refer to.
 class Files {
@@ -33,7 +30,8 @@ class Files {
 }  // namespace
 
 ModelPtr compile(const std::string& mjcf, const std::string& what) {
-  mju_user_warning = ignoreWarning;
+  installEngineHandlers();
+  const EngineErrorScope scope;
   Files files;
   if (mj_makeEmptyFileVFS(files.get(), kFileName, static_cast<int>(mjcf.size())) != 0) {
     throw std::runtime_error(what + ": there is not enough memory to compile it.");
@@ -54,6 +52,7 @@ ModelPtr compile(const std::string& mjcf, const std::string& what) {
 }
 
 DataPtr makeData(const mjModel& model) {
+  const EngineErrorScope scope;
   DataPtr data(mj_makeData(&model));
   if (!data) {
     throw std::runtime_error("There is not enough memory for the state of the simulated world.");

@@ -5,7 +5,9 @@
 #include <EGL/egl.h>
 #include <EGL/eglext.h>
 #include <GL/osmesa.h>
+#include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <stdexcept>
 #include <vector>
@@ -23,17 +25,18 @@ class EglContext final : public GlContext {
     makeCurrent();
   }
   ~EglContext() override {
-    call<decltype(&eglMakeCurrent)>("eglMakeCurrent")(display_, EGL_NO_SURFACE, EGL_NO_SURFACE,
-                                                      EGL_NO_CONTEXT);
-    call<decltype(&eglDestroyContext)>("eglDestroyContext")(display_, context_);
+    release();
+    destroy_context_(display_, context_);
   }
   void makeCurrent() override {
     // The API is bound per thread.
     call<decltype(&eglBindAPI)>("eglBindAPI")(EGL_OPENGL_API);
-    if (call<decltype(&eglMakeCurrent)>("eglMakeCurrent")(display_, EGL_NO_SURFACE, EGL_NO_SURFACE,
-                                                          context_) != EGL_TRUE) {
+    if (make_current_(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, context_) != EGL_TRUE) {
       throw std::runtime_error("EGL cannot make its context current");
     }
+  }
+  void release() noexcept override {
+    make_current_(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   }
   std::string name() const override { return "EGL"; }
 
@@ -71,6 +74,10 @@ class EglContext final : public GlContext {
   }
 
   RunTimeLibrary library_;
+  // What release() and the destructor need, which must not fail.
+  decltype(&eglMakeCurrent) make_current_{call<decltype(&eglMakeCurrent)>("eglMakeCurrent")};
+  decltype(&eglDestroyContext) destroy_context_{
+      call<decltype(&eglDestroyContext)>("eglDestroyContext")};
   EGLDisplay display_{EGL_NO_DISPLAY};
   EGLContext context_{EGL_NO_CONTEXT};
 };
@@ -95,24 +102,30 @@ class OsMesaContext final : public GlContext {
     }
     makeCurrent();
   }
-  ~OsMesaContext() override {
-    library_.find<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")(context_);
-  }
+  ~OsMesaContext() override { destroy_context_(context_); }
   void makeCurrent() override {
-    if (library_.find<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent")(
-            context_, buffer_.data(), GL_UNSIGNED_BYTE, kSize, kSize) != GL_TRUE) {
+    if (make_current_(context_, buffer_.data(), GL_UNSIGNED_BYTE, kSize, kSize) != GL_TRUE) {
       throw std::runtime_error("OSMesa cannot make its context current");
     }
   }
+  void release() noexcept override { make_current_(nullptr, nullptr, 0, 0, 0); }
   std::string name() const override { return "OSMesa"; }
 
  private:
   static constexpr int kSize = 64;  ///< of the window; pictures go to a framebuffer object
 
   RunTimeLibrary library_;
+  // What release() and the destructor need, which must not fail.
+  decltype(&OSMesaMakeCurrent) make_current_{
+      library_.find<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent")};
+  decltype(&OSMesaDestroyContext) destroy_context_{
+      library_.find<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")};
   std::vector<unsigned char> buffer_;
   OSMesaContext context_{nullptr};
 };
+
+/// The process that made the first context; 0 before. A driver's state is that of the process, too.
+std::atomic<pid_t> gl_process{0};
 
 template <typename Context>
 std::unique_ptr<GlContext> attempt(const char* name, std::string* problems) {
@@ -126,13 +139,29 @@ std::unique_ptr<GlContext> attempt(const char* name, std::string* problems) {
 
 }  // namespace
 
+bool isGlProcess() noexcept {
+  const pid_t process = gl_process;
+  return process == 0 || process == getpid();
+}
+
+void requireGlProcess() {
+  if (!isGlProcess()) {
+    throw std::runtime_error(
+        "Pictures were drawn before this process was forked, and graphics drivers do not survive "
+        "that. Draw in the other process, fork before the first picture, or start a new process "
+        "(multiprocessing: the start method spawn).");
+  }
+}
+
 std::unique_ptr<GlContext> makeGlContext() {
+  requireGlProcess();
   const char* variable = std::getenv("FRANKA_SIM_RENDERER");
   const std::string requested = variable == nullptr ? "" : variable;
   if (!requested.empty() && requested != "egl" && requested != "osmesa") {
     throw std::runtime_error("The environment variable FRANKA_SIM_RENDERER is '" + requested +
                              "'; it can be egl or osmesa.");
   }
+  gl_process = getpid();
   std::string problems;
   std::unique_ptr<GlContext> context;
   if (requested != "osmesa") {

@@ -32,6 +32,8 @@ struct Glfw {
       find<decltype(&glfwGetMouseButton)>("glfwGetMouseButton");
   decltype(&glfwSetCursorPosCallback) setCursorPosCallback =
       find<decltype(&glfwSetCursorPosCallback)>("glfwSetCursorPosCallback");
+  decltype(&glfwSetMouseButtonCallback) setMouseButtonCallback =
+      find<decltype(&glfwSetMouseButtonCallback)>("glfwSetMouseButtonCallback");
   decltype(&glfwSetScrollCallback) setScrollCallback =
       find<decltype(&glfwSetScrollCallback)>("glfwSetScrollCallback");
   decltype(&glfwSetKeyCallback) setKeyCallback =
@@ -49,7 +51,7 @@ struct Glfw {
   }
 };
 
-/// Loads the library at the first call. Any thread.
+/// Loads the library at the first call. Thread-safe.
 /// @throws std::runtime_error with the package to install if the machine does not have it
 const Glfw& glfw();
 

@@ -38,6 +38,10 @@ void JointFrictions::add(const mjModel& model, const std::string& joint, const J
   added.stiffness = law.coulomb / kSlipsAfter;
   // Damps the lightest arm that can hang on the joint, which is the motor alone, critically.
   added.damping = 2.0 * std::sqrt(added.stiffness * model.dof_armature[added.dof]);
+  const double steepest = added.damping + law.viscous + 0.25 * law.amplitude * law.slope;
+  if (steepest > 0.0) {
+    longest_step_ = std::min(longest_step_, model.dof_armature[added.dof] / steepest);
+  }
   joints_.push_back(added);
 }
 

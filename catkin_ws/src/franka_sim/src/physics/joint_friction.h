@@ -5,6 +5,7 @@
 #include <franka_sim/robot/plant.h>
 #include <mujoco/mujoco.h>
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -12,10 +13,10 @@ namespace franka_sim::physics {
 
 /// The friction of arms' joints (JointFriction), as torques in each physics step.
 ///
-/// MuJoCo's own dry friction has no law of the velocity, knows no friction beyond a torque sensor,
-/// and creeps. At rest the motor side is Prandtl's elastoplastic element: a spring in series with a
-/// slider, so that a joint neither creeps under a torque below Coulomb friction nor chatters. Owned
-/// by the stepping thread; only `add` and `carry` allocate.
+/// MuJoCo's own dry friction does not depend on velocity, cannot act behind a torque sensor, and
+/// creeps. At rest the motor side is Prandtl's elastoplastic element: a spring in series with a
+/// slider, so that a joint neither creeps under a torque below Coulomb friction nor chatters.
+/// Called by the stepping thread. Real-time safe. Exceptions: `add` and `carry`.
 class JointFrictions {
  public:
   struct Joint {
@@ -37,10 +38,15 @@ class JointFrictions {
   /// Call in each physics step, between its first half and its second: adds to qfrc_passive.
   void apply(const mjModel& model, mjData* data) noexcept;
 
+  /// The longest physics step in which no friction changes a joint's velocity by more than that
+  /// velocity [s]: half of what makes an Euler step unstable.
+  double longestStep() const noexcept { return longest_step_; }
+
   const std::vector<Joint>& joints() const noexcept { return joints_; }
 
  private:
   std::vector<Joint> joints_;
+  double longest_step_{std::numeric_limits<double>::infinity()};
 };
 
 }  // namespace franka_sim::physics

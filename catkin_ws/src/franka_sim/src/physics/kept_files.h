@@ -9,7 +9,7 @@
 namespace franka_sim::physics {
 
 /// Keeps a file's content in memory until the process ends and returns the name for MJCF texts. The
-/// same content is stored once and always has the same name. Any thread.
+/// same content is stored once and always has the same name. Thread-safe.
 /// @param extension with its dot, e.g. ".msh": MuJoCo derives the file's kind from it
 std::string keepFile(const std::string& content, const std::string& extension);
 

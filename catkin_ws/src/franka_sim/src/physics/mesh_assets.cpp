@@ -16,7 +16,7 @@
 namespace franka_sim::physics {
 namespace {
 
-constexpr std::uint32_t kMostFaces = 200000;  ///< MuJoCo's own limit for STL
+constexpr std::uint32_t kMaxFaces = 200000;  ///< MuJoCo's own limit for STL
 
 bool isFile(const std::string& path) {
   struct stat info{};
@@ -45,7 +45,7 @@ bool isBinaryStl(const std::string& path) {
   }
   std::uint32_t faces = 0;
   std::memcpy(&faces, header + 80, sizeof faces);
-  return faces > 0 && faces <= kMostFaces && size == 84 + 50 * static_cast<std::int64_t>(faces);
+  return faces > 0 && faces <= kMaxFaces && size == 84 + 50 * static_cast<std::int64_t>(faces);
 }
 
 /// Whether MuJoCo reads the file directly, which is faster than a conversion.
@@ -128,7 +128,7 @@ std::string collisionFile(const std::string& uri, const ResourceResolver& resolv
   if (path.empty() || !isFile(path)) {
     throw std::runtime_error(where + ": the collision mesh '" + uri + "' " +
                              (path.empty() ? std::string("cannot be resolved to a file")
-                                           : "is not there (looked for " + path + ")") +
+                                           : "does not exist (searched for " + path + ")") +
                              "; install the meshes or make the URDF without them.");
   }
   if (isReady(path)) {

@@ -17,9 +17,9 @@ namespace {
 constexpr double kSheet = 1e-4;  ///< thickness of a flat visual mesh [m]
 /// Thickness of a flat collision mesh [m]: nothing may pass through it within a step.
 constexpr double kPlate = 0.01;
-constexpr int kMostOfHull = 2000;  ///< vertices: MuJoCo needs 0.2 s for their hull
+constexpr int kMaxHullVertices = 2000;  ///< vertices: MuJoCo needs 0.2 s for their hull
 /// MuJoCo ignores bodies below 1e-15 m^3; a body fills a part of its box.
-constexpr double kLeastBox = 1e-13;  ///< [m^3]
+constexpr double kMinBoxVolume = 1e-13;  ///< [m^3]
 
 /// Changes with the requested part and with the file.
 std::string keyOf(const MeshSource& source) {
@@ -75,14 +75,14 @@ SolidMesh makeSolid(const MeshSource& source) {
   if (!mesh.faces.empty()) {
     thickenFlat(kPlate, &mesh);
   }
-  if (mesh.faces.empty() || extents(mesh).prod() < kLeastBox) {
+  if (mesh.faces.empty() || extents(mesh).prod() < kMinBoxVolume) {
     throw std::runtime_error("the mesh " + source.file +
                              " is too small or too thin to collide with; are its units and its "
                              "scale (" +
                              toText(source.scale) + ") right?");
   }
   const bool is_convex = isConvex(mesh);
-  keepOutermost(kMostOfHull, &mesh);
+  keepOutermost(kMaxHullVertices, &mesh);
   return {keepFile(toMsh(mesh), ".msh"), is_convex};
 }
 

@@ -35,7 +35,7 @@ struct SolidMesh {
 };
 
 /// A mesh file of any format assimp knows, converted for MuJoCo and kept in memory (kept_files.h);
-/// an unchanged file is read once. Any thread.
+/// an unchanged file is read once. Thread-safe.
 /// @throws std::runtime_error with the file and the error.
 DrawnMesh loadMeshToDraw(const MeshSource& source);
 /// The same for collisions: the outermost points of all colours, of which MuJoCo takes the hull. A

@@ -25,7 +25,7 @@ std::optional<std::array<double, 4>> colourOf(const aiMaterial& material) {
   }
   float opacity = 1;
   material.Get(AI_MATKEY_OPACITY, opacity);
-  // Exporters disagree on what opaque means; no author means an invisible body.
+  // Exporters disagree on the meaning of opaque; an author never intends an invisible body.
   const double alpha = opacity > 0 ? opacity : 1;
   return std::array<double, 4>{diffuse.r, diffuse.g, diffuse.b, alpha};
 }

@@ -16,7 +16,7 @@ struct MeshFile {
 
 /// Reads a mesh file by Debian's assimp (Collada, STL, OBJ and most others), as Gazebo and rviz do:
 /// transforms of nodes are applied, Collada's <unit> counts and its <up_axis> does not; numbers in
-/// other formats are metres. Any thread; may take seconds for large files.
+/// other formats are metres. May take seconds for large files. Thread-safe.
 /// @param submesh when not empty, only the nodes or geometries of this name
 /// @param center puts the middle of the bounding box at the origin
 /// @throws std::runtime_error with the file and the error.

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/mjcf_object.h"
 
-#include <cmath>
+#include <franka_sim/physics/pose_conversions.h>
+
 #include <stdexcept>
 
 #include "physics/compile.h"
@@ -69,17 +70,12 @@ void nameBodies(XMLElement* parent, const std::string& prefix, const std::string
 }
 
 Eigen::Isometry3d isometry(const Pose& pose, const std::string& title) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  result.translation() = Eigen::Map<const Eigen::Vector3d>(pose.position.data());
-  const Eigen::Quaterniond turn(pose.orientation[0], pose.orientation[1], pose.orientation[2],
-                                pose.orientation[3]);
-  if (!result.translation().allFinite() || !(std::abs(turn.norm() - 1) < 1e-3)) {
+  if (!vector(pose.position).allFinite() || !hasUnitOrientation(pose)) {
     throw std::runtime_error(title +
                              ": its pose is not made of finite numbers and a unit "
                              "quaternion.");
   }
-  result.linear() = turn.normalized().matrix();
-  return result;
+  return toIsometry(pose);
 }
 
 /// Compiles the object alone, so that errors are its own and every pose notation is resolved.

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/mjcf_world.h"
 
+#include <algorithm>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,6 +14,7 @@
 
 #include "physics/compile.h"
 #include "physics/contact_settings.h"
+#include "physics/degree.h"
 #include "physics/mjcf_files.h"
 #include "physics/xml_util.h"
 
@@ -20,8 +22,6 @@ namespace franka_sim::physics {
 namespace {
 
 using tinyxml2::XMLElement;
-
-constexpr double kDegree = 3.14159265358979323846 / 180;
 
 constexpr const char* kEmptyWorld = R"(<mujoco model="empty">
   <asset>
@@ -61,6 +61,47 @@ void setEverywhere(XMLElement* root, const char* name, const char* attribute, co
   for (auto* e = root->FirstChildElement(name); e != nullptr; e = e->NextSiblingElement(name)) {
     e->SetAttribute(attribute, value);
   }
+}
+
+bool moves(const XMLElement& body) {
+  return body.FirstChildElement("joint") != nullptr ||
+         body.FirstChildElement("freejoint") != nullptr;
+}
+
+/// The number of geoms of bodies that move.
+int movingGeoms(const XMLElement& body, bool moving) {
+  int count = 0;
+  for (auto* e = body.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    const std::string name = e->Name();
+    if (name == "body") {
+      count += movingGeoms(*e, moving || moves(*e));
+    } else if (name == "geom" && moving) {
+      count += 1;
+    }
+  }
+  return count;
+}
+
+/// Sets the limits of contacts and constraints, unless the world's file sets them.
+void setContactCapacity(XMLElement* root, int robots) {
+  int geoms = 0;
+  for (auto* e = root->FirstChildElement("worldbody"); e != nullptr;
+       e = e->NextSiblingElement("worldbody")) {
+    geoms += movingGeoms(*e, false);
+  }
+  const int contacts = std::clamp(kContactsOfMovingGeom * geoms + kContactsOfRobot * robots,
+                                  kMinContacts, kMaxContacts);
+  const auto set_unless_given = [root](const char* attribute, int capacity) {
+    for (auto* e = root->FirstChildElement("size"); e != nullptr;
+         e = e->NextSiblingElement("size")) {
+      if (e->Attribute(attribute) != nullptr) {
+        return;
+      }
+    }
+    section(root, "size")->SetAttribute(attribute, capacity);
+  };
+  set_unless_given("nconmax", contacts);
+  set_unless_given("njmax", kRowsOfContact * contacts + kRowsOfRobot * robots + kRowsOfWorld);
 }
 
 /// Refuses compiler settings that would silently change robots.
@@ -303,10 +344,13 @@ std::string MjcfWorld::merge(const std::vector<const RobotModel*>& robots, bool 
                           visuals,
                           angle_unit_,
                           &geoms_};
+  if (!visuals) {
+    setContactCapacity(root, static_cast<int>(robots.size()));
+  }
   for (const RobotModel* robot : robots) {
     writeRobot(*robot, target);
   }
-  if (!has_priorities_ && !visuals) {
+  if (!visuals && !has_priorities_) {
     rankFrictions(root);
   }
   return toText(merged);

@@ -42,6 +42,7 @@ void MotorSide::addSubstep(const mjModel& model, const mjData& data,
 
 void MotorSide::finishTick(const mjModel& model, const mjData& data, int substeps,
                            double period) noexcept {
+  substeps_ = substeps;
   for (int dof = 0; dof < model.nv; ++dof) {
     torque_[dof] =
         sum_[dof] / substeps - model.dof_armature[dof] * (data.qvel[dof] - velocity_[dof]) / period;

@@ -31,12 +31,15 @@ class MotorSide {
   void reset(const mjData& data) noexcept;
 
   double torque(int dof) const noexcept { return torque_[dof]; }
+  /// Physics steps of the last tick.
+  int substeps() const noexcept { return substeps_; }
   void setTorque(int dof, double torque) noexcept { torque_[dof] = torque; }
   const std::vector<double>& torques() const noexcept { return torque_; }
 
  private:
   std::vector<double> torque_, sum_, velocity_;
   std::vector<int> brake_dofs_;
+  int substeps_{1};
 };
 
 }  // namespace franka_sim::physics

@@ -77,7 +77,7 @@ YAML::Node loadYaml(const std::string& file) {
   }
 }
 
-/// Names of the keys of a map that are none of `known`, so that no misspelt figure is ignored.
+/// Names of the keys of a map that are not in `known`, so that no misspelt key is ignored.
 void checkKeys(const YAML::Node& map, const std::set<std::string>& known,
                const std::string& where) {
   for (const auto& entry : map) {
@@ -119,8 +119,8 @@ void readNoise(const YAML::Node& part, const std::string& where, SensorPhysics& 
   readNumbers(part, "tau_J_second_difference", where, second_difference);
   readNumbers(part, "dq_noise", where, sensors.dq_noise);
   for (std::size_t i = 0; i < 7; ++i) {
-    // The second difference of independent readings has 1 + 4 + 1 times their variance, of which
-    // rounding causes the twelfth of a squared step.
+    // The second difference of independent readings has six (1 + 4 + 1) times the variance of one
+    // reading; rounding contributes step^2 / 12 to that variance.
     const double step = sensors.tau_J_resolution[i];
     const double variance = second_difference[i] * second_difference[i] / 6.0 - step * step / 12.0;
     sensors.tau_J_noise[i] = std::sqrt(std::max(variance, 0.0));
@@ -275,8 +275,8 @@ void startAt(const std::array<double, 7>& q, const std::string& arm_id,
   }
 }
 
-void comeToRest(const std::array<double, 7>& stiffness, const std::string& arm_id,
-                RobotDescription& description) {
+void applyRestOffset(const std::array<double, 7>& stiffness, const std::string& arm_id,
+                     RobotDescription& description) {
   for (std::size_t i = 0; i < 7; ++i) {
     const auto start = description.initial_positions.find(jointName(arm_id, i));
     if (start != description.initial_positions.end() && stiffness[i] > 0.0) {

@@ -12,12 +12,23 @@ namespace {
 double finite(double value) noexcept { return std::isfinite(value) ? value : 0.0; }
 
 /// Closes or opens a joint's brake. The equality holds q - qpos0 at its constant term.
-void writeHold(mjModel& model, const JointSlot& slot, bool closed, double position) noexcept {
+void writeHold(const PlantView& view, const JointSlot& slot, bool closed,
+               double position) noexcept {
   if (slot.brake < 0) {
     return;
   }
-  model.eq_data[mjNEQDATA * slot.brake] = closed ? position - model.qpos0[slot.qpos] : 0.0;
-  model.eq_active[slot.brake] = closed ? 1 : 0;
+  mjModel& model = *view.model;
+  double& constant = model.eq_data[mjNEQDATA * slot.brake];
+  mjtByte& active = model.eq_active[slot.brake];
+  const double desired = closed ? position - model.qpos0[slot.qpos] : 0.0;
+  if (constant == desired && active == static_cast<mjtByte>(closed)) {
+    return;
+  }
+  if (view.preparation_thread != nullptr) {
+    view.preparation_thread->finish();
+  }
+  constant = desired;
+  active = static_cast<mjtByte>(closed);
 }
 
 }  // namespace
@@ -33,23 +44,24 @@ ArmMeasurement MujocoArm::measure() const noexcept {
     result.dq[i] = view_->data->qvel[slots_[i].dof];
     result.tau_J[i] = view_->motor_side->torque(slots_[i].dof) + torque_offset_[i];
   }
+  result.substeps = view_->motor_side->substeps();
   return result;
 }
 
 void MujocoArm::applyTorques(const std::array<double, 7>& tau) noexcept {
   for (std::size_t i = 0; i < 7; ++i) {
     view_->data->qfrc_applied[slots_[i].dof] =
-        brakes_closed_ ? 0.0 : finite(tau[i]) - torque_offset_[i];
+        state_.brakes_closed ? 0.0 : finite(tau[i]) - torque_offset_[i];
   }
 }
 
 void MujocoArm::setBrakes(bool closed) noexcept {
-  if (closed == brakes_closed_) {
+  if (closed == state_.brakes_closed) {
     return;
   }
-  brakes_closed_ = closed;
+  state_.brakes_closed = closed;
   for (std::size_t i = 0; i < 7; ++i) {
-    brake_positions_[i] = view_->data->qpos[slots_[i].qpos];
+    state_.brake_positions[i] = view_->data->qpos[slots_[i].qpos];
     if (closed) {
       view_->data->qfrc_applied[slots_[i].dof] = 0.0;
     }
@@ -65,21 +77,20 @@ void MujocoArm::restoreBrakes() noexcept {
 
 void MujocoArm::jointWasMoved(const std::string& joint) noexcept {
   for (std::size_t i = 0; i < 7; ++i) {
-    if (joints_[i] == joint && brakes_closed_) {
-      brake_positions_[i] = view_->data->qpos[slots_[i].qpos];
+    if (joints_[i] == joint && state_.brakes_closed) {
+      state_.brake_positions[i] = view_->data->qpos[slots_[i].qpos];
       writeBrake(i);
     }
   }
 }
 
 void MujocoArm::reset() noexcept {
-  brakes_closed_ = false;
-  brake_positions_ = {};
+  state_ = {};
   restoreBrakes();
 }
 
 void MujocoArm::writeBrake(std::size_t joint) noexcept {
-  writeHold(*view_->model, slots_[joint], brakes_closed_, brake_positions_[joint]);
+  writeHold(*view_, slots_[joint], state_.brakes_closed, state_.brake_positions[joint]);
 }
 
 MujocoHand::MujocoHand(const PlantView* view, std::array<std::string, 2> joints)
@@ -109,7 +120,7 @@ JointMeasurement MujocoDrive::measure() const noexcept {
 }
 
 void MujocoDrive::applyEffort(double effort) noexcept {
-  follows_ = false;
+  state_.follows = false;
   view_->data->qfrc_applied[slot_.dof] = finite(effort);
   writeTarget();
 }
@@ -118,9 +129,9 @@ void MujocoDrive::follow(double position) noexcept {
   if (!std::isfinite(position)) {
     return;
   }
-  last_target_ = follows_ ? target_ : view_->data->qpos[slot_.qpos];
-  follows_ = true;
-  target_ = position;
+  state_.last_target = state_.follows ? state_.target : view_->data->qpos[slot_.qpos];
+  state_.follows = true;
+  state_.target = position;
   view_->data->qfrc_applied[slot_.dof] = 0.0;
   writeTarget();
 }
@@ -131,28 +142,30 @@ void MujocoDrive::bind(const Slots& slots) noexcept {
 }
 
 void MujocoDrive::jointWasMoved(const std::string& joint) noexcept {
-  if (joint == joint_[0] && follows_) {
-    target_ = last_target_ = view_->data->qpos[slot_.qpos];
+  if (joint == joint_[0] && state_.follows) {
+    state_.target = state_.last_target = view_->data->qpos[slot_.qpos];
     writeTarget();
   }
 }
 
 void MujocoDrive::reset() noexcept {
-  follows_ = false;
+  state_.follows = false;
   writeTarget();
 }
 
 void MujocoDrive::prepare(int substep, int substeps) noexcept {
-  if (!follows_) {
+  if (!state_.follows) {
     return;
   }
-  const double way = target_ - last_target_;
-  writeHold(*view_->model, slot_, true, target_ - way * (substeps - substep) / substeps);
+  const double way = state_.target - state_.last_target;
+  writeHold(*view_, slot_, true, state_.target - way * (substeps - substep) / substeps);
   if (substep == substeps) {
-    last_target_ = target_;
+    state_.last_target = state_.target;
   }
 }
 
-void MujocoDrive::writeTarget() noexcept { writeHold(*view_->model, slot_, follows_, target_); }
+void MujocoDrive::writeTarget() noexcept {
+  writeHold(*view_, slot_, state_.follows, state_.target);
+}
 
 }  // namespace franka_sim::physics

@@ -10,6 +10,7 @@
 #include <string>
 
 #include "physics/motor_side.h"
+#include "physics/preparation_thread.h"
 
 namespace franka_sim::physics {
 
@@ -24,6 +25,8 @@ struct PlantView {
   mjModel* model{nullptr};
   mjData* data{nullptr};
   MotorSide* motor_side{nullptr};
+  /// Must have finished before a hold is written, which a preparation reads; null: there is none.
+  PreparationThread* preparation_thread{nullptr};
 };
 
 /// The seven joints of an arm in MuJoCo's arrays.
@@ -48,6 +51,15 @@ class MujocoArm final : public ArmPlant {
   /// Opens brakes, zero torque.
   void reset() noexcept;
 
+  /// What a snapshot keeps of it beside the model and the data.
+  struct State {
+    bool brakes_closed{false};
+    std::array<double, 7> brake_positions{};
+  };
+  const State& state() const noexcept { return state_; }
+  /// Call after the model's equalities were restored.
+  void restore(const State& state) noexcept { state_ = state; }
+
  private:
   void writeBrake(std::size_t joint) noexcept;
 
@@ -55,8 +67,7 @@ class MujocoArm final : public ArmPlant {
   std::array<std::string, 7> joints_;
   std::array<double, 7> torque_offset_;
   std::array<JointSlot, 7> slots_{};
-  bool brakes_closed_{false};
-  std::array<double, 7> brake_positions_{};
+  State state_;
 };
 
 /// The two fingers of a hand in MuJoCo's arrays.
@@ -97,15 +108,23 @@ class MujocoDrive final : public JointDrive {
   /// Call before each physics step of a tick, counted from 1: the target moves in even steps, too.
   void prepare(int substep, int substeps) noexcept;
 
+  /// What a snapshot keeps of it beside the model and the data.
+  struct State {
+    bool follows{false};
+    double last_target{0},
+        target{0};  ///< followed position at the last tick's end, and at this one's
+  };
+  const State& state() const noexcept { return state_; }
+  /// Call after the model's equalities were restored.
+  void restore(const State& state) noexcept { state_ = state; }
+
  private:
   void writeTarget() noexcept;
 
   const PlantView* view_;
   std::array<std::string, 1> joint_;
   JointSlot slot_{};
-  bool follows_{false};
-  double last_target_{0},
-      target_{0};  ///< followed position at the last tick's end, and at this one's
+  State state_;
 };
 
 }  // namespace franka_sim::physics

@@ -8,6 +8,8 @@
 #include <limits>
 #include <stdexcept>
 
+#include "physics/degree.h"
+#include "physics/engine_errors.h"
 #include "physics/gl_context.h"
 #include "physics/scene_model.h"
 #include "physics/world_impl.h"
@@ -15,9 +17,7 @@
 namespace franka_sim {
 namespace {
 
-constexpr int kLargestPicture = 4096;  ///< [pixel] per side
-constexpr int kMostGeoms = 4000;
-constexpr double kDegree = 3.14159265358979323846 / 180;
+constexpr int kMaxGeoms = 4000;
 
 /// MuJoCo's free camera turns about the point it looks at.
 mjvCamera freeCamera(const Camera& camera) {
@@ -32,17 +32,17 @@ mjvCamera freeCamera(const Camera& camera) {
   result.type = mjCAMERA_FREE;
   result.distance = line.norm();
   std::copy(camera.target.begin(), camera.target.end(), result.lookat);
-  result.azimuth = std::atan2(line.y(), line.x()) / kDegree;
-  result.elevation = std::asin(line.z() / line.norm()) / kDegree;
+  result.azimuth = std::atan2(line.y(), line.x()) / physics::kDegree;
+  result.elevation = std::asin(line.z() / line.norm()) / physics::kDegree;
   return result;
 }
 
 void checkSize(int width, int height) {
-  if (width < 1 || height < 1 || width > kLargestPicture || height > kLargestPicture) {
-    throw std::runtime_error("A picture of " + std::to_string(width) + " x " +
-                             std::to_string(height) +
-                             " pixels cannot be drawn; each side can have 1 to " +
-                             std::to_string(kLargestPicture) + ".");
+  constexpr int kMax = Renderer::kMaxPictureSide;
+  if (width < 1 || height < 1 || width > kMax || height > kMax) {
+    throw std::runtime_error(
+        "A picture of " + std::to_string(width) + " x " + std::to_string(height) +
+        " pixels cannot be drawn; each side can have 1 to " + std::to_string(kMax) + ".");
   }
 }
 
@@ -75,6 +75,21 @@ Pose opticalFrame(const mjData& data, int camera) {
   return {{p[0], p[1], p[2]}, {q.w(), q.x(), q.y(), q.z()}};
 }
 
+/// Makes a context current for its life; between pictures any thread may draw the next one.
+class Current {
+ public:
+  explicit Current(physics::GlContext& context) : context_(context) {
+    physics::requireGlProcess();
+    context_.makeCurrent();
+  }
+  ~Current() { context_.release(); }
+  Current(const Current&) = delete;
+  Current& operator=(const Current&) = delete;
+
+ private:
+  physics::GlContext& context_;
+};
+
 }  // namespace
 
 struct Renderer::Impl {
@@ -88,7 +103,12 @@ struct Renderer::Impl {
     mjr_defaultContext(&context);
   }
   ~Impl() {
-    mjr_freeContext(&context);
+    try {
+      const Current current(*gl);
+      mjr_freeContext(&context);
+    } catch (const std::runtime_error&) {  // NOLINT(bugprone-empty-catch)
+      // What the driver holds ends with its context.
+    }
     mjv_freeScene(&scene);
   }
 
@@ -102,7 +122,7 @@ struct Renderer::Impl {
     mjModel* model = drawn.model();
     if (other_model) {
       mjv_freeScene(&scene);
-      mjv_makeScene(model, &scene, kMostGeoms);
+      mjv_makeScene(model, &scene, kMaxGeoms);
     }
     model->vis.global.offwidth = std::max(width, context.offWidth);
     model->vis.global.offheight = std::max(height, context.offHeight);
@@ -135,7 +155,11 @@ struct Renderer::Impl {
 };
 
 Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
-Renderer::~Renderer() = default;
+Renderer::~Renderer() {
+  if (!physics::isGlProcess()) {
+    impl_.release();  // NOLINT(bugprone-unused-return-value): its driver cannot be used here
+  }
+}
 
 std::string Renderer::backend() const { return impl_->gl->name(); }
 
@@ -145,7 +169,8 @@ Picture Renderer::render(const Scene& scene, const Camera& camera, int width, in
     throw std::runtime_error("The camera's field of view must lie between 1 and 170 degrees.");
   }
   mjvCamera view = freeCamera(camera);
-  impl_->gl->makeCurrent();
+  const physics::EngineErrorScope scope;
+  const Current current(*impl_->gl);
   impl_->prepare(scene.mjcf, width, height);
   impl_->drawn.pose(scene);
   impl_->drawn.model()->vis.global.fovy = static_cast<float>(camera.field_of_view);
@@ -158,7 +183,8 @@ Picture Renderer::render(const Scene& scene, const Camera& camera, int width, in
 
 Picture Renderer::render(const Scene& scene, const std::string& camera, int width, int height) {
   checkSize(width, height);
-  impl_->gl->makeCurrent();
+  const physics::EngineErrorScope scope;
+  const Current current(*impl_->gl);
   impl_->prepare(scene.mjcf, width, height);
   impl_->drawn.pose(scene);
   const mjModel& model = *impl_->drawn.model();
@@ -188,6 +214,8 @@ Scene captureScene(World& world) {
   Scene scene;
   scene.mjcf = impl.visual_mjcf;
   scene.contacts = world.contacts();
+  scene.time = world.time();
+  scene.fault = world.fault();
   const mjModel& model = *impl.model;
   for (int j = 0; j < model.njnt; ++j) {
     const double* qpos = impl.data->qpos + model.jnt_qposadr[j];

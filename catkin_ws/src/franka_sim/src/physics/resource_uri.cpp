@@ -13,7 +13,7 @@ std::string fileOfUri(const std::string& uri, const PackageFinder& find) {
     return uri;
   }
   const std::size_t slash = uri.find('/', kPackage.size());
-  // Without a file in it: names such as `sun`, which are no packages; rospack would print errors
+  // Without a file in it: names such as `sun`, which are not packages; rospack would print errors
   // about them.
   if (slash == std::string::npos) {
     return "";

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/robot_model.h"
 
+#include <franka_sim/physics/pose_conversions.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -16,7 +18,7 @@ namespace {
 /// damped.
 constexpr double kFingerArmature = 0.1;
 /// MuJoCo refuses moving bodies lighter than this [kg], [kg m^2].
-constexpr double kSmallest = 1e-12;
+constexpr double kMinInertial = 1e-12;
 
 [[noreturn]] void fail(const RobotDescription& robot, const std::string& what) {
   throw std::runtime_error("Robot '" + robot.name + "': " + what);
@@ -66,18 +68,13 @@ class Builder {
  private:
   Eigen::Isometry3d base() const {
     const Pose& pose = robot_->description.base;
-    const Eigen::Quaterniond turn(pose.orientation[0], pose.orientation[1], pose.orientation[2],
-                                  pose.orientation[3]);
-    if (!(std::abs(turn.norm() - 1) < 1e-3)) {
-      fail(robot_->description, "the orientation of its base is no unit quaternion.");
+    if (!hasUnitOrientation(pose)) {
+      fail(robot_->description, "the orientation of its base is not a unit quaternion.");
     }
-    Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-    result.linear() = turn.normalized().toRotationMatrix();
-    result.translation() = Eigen::Vector3d(pose.position.data());
-    if (!result.translation().allFinite()) {
+    if (!vector(pose.position).allFinite()) {
       fail(robot_->description, "the position of its base is not finite.");
     }
-    return result;
+    return toIsometry(pose);
   }
 
   void startSegment(int link, int parent, int joint, const Eigen::Isometry3d& pose) {
@@ -109,8 +106,8 @@ class Builder {
   }
 
   void checkMass(const Segment& segment) const {
-    if (segment.joint >= 0 &&
-        (segment.inertial.mass < kSmallest || segment.inertial.inertia.trace() < 3 * kSmallest)) {
+    if (segment.joint >= 0 && (segment.inertial.mass < kMinInertial ||
+                               segment.inertial.inertia.trace() < 3 * kMinInertial)) {
       fail(robot_->description, "link '" + urdf_.links[segment.link].name +
                                     "' moves but has no mass and inertia; make its URDF with the "
                                     "xacro argument gazebo:=true.");
@@ -177,7 +174,8 @@ void applyLinkErrors(RobotModel& robot) {
   for (const auto& [name, error] : robot.description.link_errors) {
     const int index = robot.urdf.link(name);
     if (index < 0) {
-      fail(robot.description, "an error of link '" + name + "' is given, which its URDF has not.");
+      fail(robot.description,
+           "an error of link '" + name + "' is given, but its URDF has no such link.");
     }
     if (!(error.mass > -1.0) || !(error.added_mass >= 0.0)) {
       fail(robot.description, "with its error link '" + name + "' would have no mass.");

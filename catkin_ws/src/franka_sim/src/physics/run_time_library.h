@@ -10,7 +10,7 @@
 namespace franka_sim::physics {
 
 /// A library for pictures, which the machine may lack: loaded when it is needed, and never
-/// unloaded, because drivers leave threads and handlers behind. Any thread.
+/// unloaded, because drivers leave threads and handlers behind. Thread-safe.
 class RunTimeLibrary {
  public:
   /// @throws std::runtime_error if the machine does not have it

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "physics/drawn_meshes.h"
+
 namespace franka_sim::physics {
 namespace {
 
@@ -31,6 +33,7 @@ bool SceneModel::load(const std::string& mjcf) {
     return false;
   }
   model_ = compile(mjcf, "The model to draw");
+  simplifyDrawnMeshes(model_.get());
   data_ = makeData(*model_);
   mjcf_ = mjcf;
   return true;

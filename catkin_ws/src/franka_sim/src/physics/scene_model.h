@@ -21,7 +21,9 @@ class SceneModel {
   void pose(const Scene& scene);
 
   mjModel* model() noexcept { return model_.get(); }
+  const mjModel* model() const noexcept { return model_.get(); }
   mjData* data() noexcept { return data_.get(); }
+  const mjData* data() const noexcept { return data_.get(); }
 
  private:
   std::string mjcf_;

@@ -110,11 +110,11 @@ void takeOver(const XMLElement& include, XMLElement* model) {
     model->SetAttribute("placement_frame", childText(include, "placement_frame").c_str());
   }
   for (const char* name : {"pose", "static"}) {
-    if (const XMLElement* said = include.FirstChildElement(name)) {
+    if (const XMLElement* override_element = include.FirstChildElement(name)) {
       if (XMLElement* own = model->FirstChildElement(name)) {
         model->DeleteChild(own);
       }
-      model->InsertFirstChild(said->DeepClone(model->GetDocument()));
+      model->InsertFirstChild(override_element->DeepClone(model->GetDocument()));
     }
   }
   for (auto* plugin = include.FirstChildElement("plugin"); plugin != nullptr;

@@ -16,7 +16,7 @@ namespace {
 using tinyxml2::XMLElement;
 
 /// More references in a row than frames in any world mean a circle.
-constexpr int kDeepest = 200;
+constexpr int kMaxDepth = 200;
 
 /// Text before and after the first "::".
 std::pair<std::string, std::string> split(const std::string& name) {
@@ -47,7 +47,7 @@ std::string defaultFrame(const XMLElement& element) {
 class Descent {
  public:
   Descent(int* depth, const std::string& title) : depth_(depth) {
-    if (*depth_ >= kDeepest) {
+    if (*depth_ >= kMaxDepth) {
       throw std::runtime_error(title + ": the poses of frames refer to each other in a circle.");
     }
     ++*depth_;

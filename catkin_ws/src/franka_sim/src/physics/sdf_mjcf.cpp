@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "physics/contact_settings.h"
+#include "physics/degree.h"
 #include "physics/mesh_loader.h"
 #include "physics/mjcf_inertial.h"
 #include "physics/xml_util.h"
@@ -18,8 +19,6 @@ namespace {
 
 using tinyxml2::XMLElement;
 using Kind = SdfShape::Kind;
-
-constexpr double kDegree = 3.14159265358979323846 / 180;  ///< light and camera angles
 
 std::string colour(const std::array<double, 3>& rgb) { return toText(rgb.data(), 3); }
 
@@ -334,7 +333,7 @@ class SdfWriter {
     geom->SetAttribute("mesh", known->second.c_str());
   }
 
-  /// Links of a model do not collide with each other unless it says <self_collide>.
+  /// Links of a model do not collide with each other unless it has <self_collide>.
   void writeExcludes(const SdfModel& model) {
     for (std::size_t a = 0; !model.self_collide && a < model.links.size(); ++a) {
       for (std::size_t b = a + 1; b < model.links.size(); ++b) {

@@ -77,7 +77,7 @@ class Reader {
     }
   }
 
-  /// @param frames of what stands around it
+  /// @param frames of the enclosing scope
   void readTopModel(const XMLElement& model, const SdfFrames& frames) {
     const std::string name = required(model, "name", title_);
     const Place place{name, frames.model(name), frames.pose(name), false};

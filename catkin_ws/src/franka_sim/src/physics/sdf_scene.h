@@ -91,7 +91,7 @@ struct SdfModel {
   bool self_collide{false};
 };
 
-/// What an SDF text describes, poses resolved into the world.
+/// The content of an SDF text, with poses in the world.
 struct SdfScene {
   std::array<double, 3> gravity{{0, 0, -9.81}};
   std::vector<SdfModel> models;

@@ -17,7 +17,7 @@ using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
 /// Limit for models that include each other.
-constexpr int kDeepest = 32;
+constexpr int kMaxDepth = 32;
 
 class Expander {
  public:
@@ -83,7 +83,7 @@ class Expander {
   XMLElement* included(const XMLElement& include, XMLDocument* into, const std::string& folder,
                        int depth) {
     const std::string uri = childText(include, "uri");
-    if (depth >= kDeepest) {
+    if (depth >= kMaxDepth) {
       throw std::runtime_error(title_ + ": models include each other without end, at '" + uri +
                                "'.");
     }
@@ -110,7 +110,7 @@ class Expander {
     if (found.empty()) {
       throw std::runtime_error(
           title_ + ": the included model '" + uri +
-          "' was not found. Its folder must stand beside the world or in GAZEBO_MODEL_PATH.");
+          "' was not found. Its folder must be beside the world or in GAZEBO_MODEL_PATH.");
     }
     return fs::is_directory(found) ? fileOfModel(found) : found;
   }

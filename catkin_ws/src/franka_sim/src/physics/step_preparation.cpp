@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "physics/quaternions.h"
+
 namespace franka_sim::physics {
 namespace {
 
@@ -34,12 +36,14 @@ std::optional<StepFault> findFault(const mjModel& model, const mjData& data) noe
   return position ? position : findFault(data.qvel, model.nv, StepFault::Where::kVelocity);
 }
 
+}  // namespace
+
 // Like mj_step2, but without the reset of a world with wrong accelerations. Merged models use the
 // Euler integrator.
-std::optional<StepFault> finishStep(const mjModel& model, mjData* data) noexcept {
+std::optional<StepFault> StepPreparation::finishStep(const mjModel& model, mjData* data) {
   mj_fwdActuation(&model, data);
   mj_fwdAcceleration(&model, data);
-  mj_fwdConstraint(&model, data);
+  solver_.solve(model, data);
   mj_sensorAcc(&model, data);
   if (const auto fault = findFault(data->qacc, model.nv, StepFault::Where::kAcceleration)) {
     return fault;
@@ -48,12 +52,10 @@ std::optional<StepFault> finishStep(const mjModel& model, mjData* data) noexcept
   return std::nullopt;
 }
 
-}  // namespace
-
 void StepPreparation::fit(const mjModel& model) {
+  solver_.fit(model);
   ready_ = false;
   qpos_.resize(model.nq);
-  unit_qpos_.resize(model.nq);
   qvel_.resize(model.nv);
   eq_data_.resize(mjNEQDATA * model.neq);
   eq_active_.resize(model.neq);
@@ -63,38 +65,39 @@ void StepPreparation::fit(const mjModel& model) {
 bool StepPreparation::isFor(const mjModel& model, const mjData& data) const noexcept {
   return ready_ && same(qpos_, data.qpos) && same(qvel_, data.qvel) &&
          same(eq_data_, model.eq_data) && same(eq_active_, model.eq_active) &&
-         same(gravity_, model.opt.gravity);
+         same(gravity_, model.opt.gravity) && timestep_ == model.opt.timestep;
 }
 
-void StepPreparation::prepare(const mjModel& model, mjData* data) noexcept {
-  if (isFor(model, *data) || findFault(model, *data)) {
+void StepPreparation::prepare(mjModel* model, mjData* data, CollisionScope& collisions) {
+  if (isFor(*model, *data) || findFault(*model, *data)) {
     return;
   }
   keep(qpos_, data->qpos);
   keep(qvel_, data->qvel);
-  keep(eq_data_, model.eq_data);
-  keep(eq_active_, model.eq_active);
-  keep(gravity_, model.opt.gravity);
-  mj_step1(&model, data);
-  // Restores the original positions, so that the preparation is not visible until the step.
-  keep(unit_qpos_, data->qpos);
-  std::copy(qpos_.begin(), qpos_.end(), data->qpos);
+  keep(eq_data_, model->eq_data);
+  keep(eq_active_, model->eq_active);
+  keep(gravity_, model->opt.gravity);
+  timestep_ = model->opt.timestep;
+  collisions.firstHalf(model, data);
+  // The preparation is not visible until the step.
+  copyQuaternions(*model, qpos_.data(), data->qpos);
   ready_ = true;
 }
 
-std::optional<StepFault> StepPreparation::step(const mjModel& model, mjData* data,
-                                               JointFrictions& frictions) noexcept {
-  if (isFor(model, *data)) {
-    std::copy(unit_qpos_.begin(), unit_qpos_.end(), data->qpos);
+std::optional<StepFault> StepPreparation::step(mjModel* model, mjData* data,
+                                               CollisionScope& collisions,
+                                               JointFrictions& frictions) {
+  if (isFor(*model, *data)) {
+    mj_normalizeQuat(model, data->qpos);
   } else {
-    if (const auto fault = findFault(model, *data)) {
+    if (const auto fault = findFault(*model, *data)) {
       return fault;
     }
-    mj_step1(&model, data);
+    collisions.firstHalf(model, data);
   }
   ready_ = false;
-  frictions.apply(model, data);
-  return finishStep(model, data);
+  frictions.apply(*model, data);
+  return finishStep(*model, data);
 }
 
 }  // namespace franka_sim::physics

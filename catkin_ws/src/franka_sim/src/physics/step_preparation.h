@@ -7,25 +7,34 @@
 #include <optional>
 #include <vector>
 
+#include "physics/collision_scope.h"
+#include "physics/equality_solver.h"
 #include "physics/joint_friction.h"
 
 namespace franka_sim::physics {
 
 /// A number that is not finite, or beyond MuJoCo's range. MuJoCo itself would reset the whole world
-/// and go on (2.2 has no option against that), so it is checked before MuJoCo does.
+/// and continue (2.2 has no option against that), so it is checked before MuJoCo does.
 struct StepFault {
-  enum class Where { kPosition, kVelocity, kAcceleration };
+  enum class Where {
+    kPosition,
+    kVelocity,
+    kAcceleration,
+    kEngine,  ///< an EngineError; no index and no value
+  };
   Where where;
-  int index;  ///< in qpos or qvel
-  double value;
+  int index{-1};  ///< in qpos or qvel
+  double value{0};
 };
 
 /// Computes in advance the half of a physics step that depends on positions and velocities alone:
 /// while a client works on its answer the simulator is idle.
 ///
 /// Results are the same to the last bit with and without preparation: it is used only if positions,
-/// velocities, holds and gravity have not changed since. After `fit` nothing allocates or throws.
-/// One thread at a time.
+/// velocities, holds, gravity and the length of the step have not changed since. Called by one
+/// thread at a time; while it prepares, others may read positions and velocities of joints with one
+/// degree of freedom. Throws nothing but EngineError. Real-time safe.
+/// Exception: `fit`.
 class StepPreparation {
  public:
   /// Call for a new model, or one whose state was overwritten.
@@ -33,20 +42,22 @@ class StepPreparation {
   /// Discards the preparation.
   void drop() noexcept { ready_ = false; }
   /// Does not change positions and velocities; contacts become those of the next step.
-  void prepare(const mjModel& model, mjData* data) noexcept;
+  void prepare(mjModel* model, mjData* data, CollisionScope& collisions);
   /// One physics step with friction in the joints, or the fault that prevents it: then time,
   /// positions and velocities are unchanged.
-  std::optional<StepFault> step(const mjModel& model, mjData* data,
-                                JointFrictions& frictions) noexcept;
+  std::optional<StepFault> step(mjModel* model, mjData* data, CollisionScope& collisions,
+                                JointFrictions& frictions);
 
  private:
   bool isFor(const mjModel& model, const mjData& data) const noexcept;
+  std::optional<StepFault> finishStep(const mjModel& model, mjData* data);
 
+  EqualitySolver solver_;
   bool ready_{false};
   // Inputs of the preparation.
   std::vector<double> qpos_, qvel_, eq_data_, gravity_;
   std::vector<unsigned char> eq_active_;
-  std::vector<double> unit_qpos_;  ///< qpos with its quaternions made unit ones, as a step does
+  double timestep_{0};
 };
 
 }  // namespace franka_sim::physics

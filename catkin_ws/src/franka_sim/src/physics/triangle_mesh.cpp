@@ -18,7 +18,7 @@ constexpr double kFlat = 1e-6;
 constexpr double kConvexTolerance = 0.01;             ///< of the longest extent
 constexpr double kGoldenAngle = 2.39996322972865332;  ///< pi (3 - sqrt 5)
 /// Faces times vertices that `isConvex` checks: some milliseconds.
-constexpr std::size_t kMostComparisons = 4000000;
+constexpr std::size_t kMaxComparisons = 4000000;
 
 /// Principal axes as columns, the one of the shortest extent first.
 Eigen::Matrix3d principalAxes(const TriangleMesh& mesh) {
@@ -131,7 +131,7 @@ Eigen::Vector3d extents(const TriangleMesh& mesh) {
 bool isConvex(const TriangleMesh& mesh) {
   const double tolerance = kConvexTolerance * extents(mesh)[2];
   const std::size_t looked_at =
-      std::max<std::size_t>(100, kMostComparisons / std::max<std::size_t>(mesh.vertices.size(), 1));
+      std::max<std::size_t>(100, kMaxComparisons / std::max<std::size_t>(mesh.vertices.size(), 1));
   const std::size_t step = std::max<std::size_t>(mesh.faces.size() / looked_at, 1);
   for (std::size_t f = 0; f < mesh.faces.size(); f += step) {
     const Eigen::Vector3d area = areaVector(mesh, mesh.faces[f]);

@@ -77,7 +77,7 @@ UrdfGeometry readGeometry(const XMLElement& parent, const std::string& where) {
     result.mesh = required(*shape, "filename", where);
     result.scale = vector3(*shape, "scale", {1, 1, 1}, where);
   } else {
-    fail(where, "<" + kind + "> is no geometry; known are box, cylinder, sphere and mesh.");
+    fail(where, "<" + kind + "> is not a geometry; known are box, cylinder, sphere and mesh.");
   }
   return result;
 }
@@ -269,7 +269,7 @@ void connect(UrdfRobot* robot, const std::string& where) {
     const UrdfJoint& joint = robot->joints[j];
     UrdfLink& child = robot->links[joint.child];
     if (child.parent_joint >= 0) {
-      fail(where, "link '" + child.name + "' hangs on two joints, '" +
+      fail(where, "link '" + child.name + "' has two parent joints, '" +
                       robot->joints[child.parent_joint].name + "' and '" + joint.name + "'.");
     }
     child.parent_joint = static_cast<int>(j);

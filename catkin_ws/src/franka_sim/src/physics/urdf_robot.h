@@ -62,7 +62,7 @@ struct UrdfRobot {
   int joint(const std::string& joint_name) const noexcept;
 };
 
-/// Reads a URDF text.
+/// Reads a URDF text with tinyxml2, because urdfdom loses the order of the file (decision 59).
 /// @throws std::runtime_error that names the robot, the element and the error: XML errors,
 /// duplicate names, unknown links, two roots or parents, loops, unsupported joint types, values
 /// that are not numbers, limits in the wrong order, inertias that are not positive.

@@ -2,9 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/physics/window.h>
 
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
 #include <stdexcept>
 
+#include "physics/engine_errors.h"
 #include "physics/glfw.h"
+#include "physics/mouse_push.h"
 #include "physics/scene_model.h"
 
 namespace franka_sim {
@@ -14,30 +20,82 @@ using physics::glfw;
 namespace {
 
 constexpr int kWidth = 1200, kHeight = 900;  ///< [pixel]
-constexpr int kMostGeoms = 4000;
+constexpr int kMaxGeoms = 4000;
 constexpr double kZoomStep = 0.05;
-constexpr double kContactDot = 0.004;       ///< [m]
-constexpr double kMetresPerNewton = 0.005;  ///< length of contact force arrows
+constexpr double kContactDot = 0.004;         ///< [m]
+constexpr double kMetresPerNewton = 0.005;    ///< length of contact force arrows
+constexpr double kPaceSpan = 0.5;             ///< over which the pace is measured [s]
+constexpr std::uint64_t kMaxPushTicks = 100;  ///< [ticks], for each picture
+constexpr float kOrange[4] = {0.95f, 0.45f, 0.1f, 1};
+constexpr float kGreen[4] = {0.1f, 0.75f, 0.3f, 1};
+
+// Two columns.
+constexpr const char* kHelpKeys =
+    "left button\nright button\nwheel\nCtrl + left button\nC\nF\nT\nR\nH";
+constexpr const char* kHelpTexts =
+    "turns\nshifts\nzooms\npushes a body\ncontacts and their forces\nframes of the bodies\n"
+    "translucent bodies\nview as at the start\nthis help";
 
 void toggle(mjtByte& flag) { flag = flag != 0 ? 0 : 1; }
+
+std::string formatted(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof(text), format, value);
+  return text;
+}
+
+/// The world's time over the clock's.
+class PaceMeter {
+ public:
+  /// Empty until it is known.
+  std::string text(double time) {
+    const Clock::time_point now = Clock::now();
+    const double passed = std::chrono::duration<double>(now - begin_).count();
+    if (!started_ || time < time_ || passed > 4 * kPaceSpan) {
+      text_.clear();
+    } else if (passed < kPaceSpan) {
+      return text_;
+    } else {
+      const double pace = (time - time_) / passed;
+      text_ = pace > 0 ? formatted("%.2f x real time", pace) : "time stands still";
+    }
+    started_ = true;
+    begin_ = now;
+    time_ = time;
+    return text_;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  bool started_{false};
+  Clock::time_point begin_;
+  double time_{0};
+  std::string text_;
+};
 
 }  // namespace
 
 struct Window::Impl {
+  const physics::Glfw& library{glfw()};  // without it there is nothing to destroy
   GLFWwindow* window{nullptr};
   physics::SceneModel drawn;
   mjvScene scene;
   mjrContext context;
   mjvCamera camera;
   mjvOption option;
-  bool shows_contacts{false};
+  physics::MousePush push;
+  PaceMeter pace;
+  bool shows_contacts{false}, shows_help{false};
   double x{0}, y{0};
 
   Impl() {
-    glfw();  // without the library there is nothing to destroy
     mjv_defaultScene(&scene);
     mjr_defaultContext(&context);
     mjv_defaultOption(&option);
+    lookFromTheFront();
+  }
+
+  void lookFromTheFront() {
     mjv_defaultCamera(&camera);
     camera.lookat[2] = 0.4;
     camera.distance = 2.2;
@@ -49,9 +107,9 @@ struct Window::Impl {
     if (window != nullptr) {
       mjr_freeContext(&context);
       mjv_freeScene(&scene);
-      glfw().destroyWindow(window);
+      library.destroyWindow(window);
     }
-    glfw().terminate();
+    library.terminate();
   }
 
   static Impl& of(GLFWwindow* window) {
@@ -62,6 +120,11 @@ struct Window::Impl {
     glfw().setWindowUserPointer(window, this);
     glfw().setCursorPosCallback(window,
                                 [](GLFWwindow* w, double x, double y) { of(w).moveMouse(x, y); });
+    glfw().setMouseButtonCallback(window, [](GLFWwindow* w, int button, int action, int modifiers) {
+      if (button == GLFW_MOUSE_BUTTON_LEFT) {
+        of(w).pressMouse(action == GLFW_PRESS && (modifiers & GLFW_MOD_CONTROL) != 0);
+      }
+    });
     glfw().setScrollCallback(window, [](GLFWwindow* w, double, double y) {
       of(w).moveCamera(mjMOUSE_ZOOM, 0, -kZoomStep * y);
     });
@@ -72,13 +135,24 @@ struct Window::Impl {
     });
   }
 
+  void pressMouse(bool pushes) {
+    push.release();
+    int width = 0, height = 0;
+    glfw().getWindowSize(window, &width, &height);
+    if (pushes && width > 0 && height > 0) {
+      push.grab(drawn, option, scene, static_cast<double>(width) / height, x / width, y / height);
+    }
+  }
+
   void moveMouse(double to_x, double to_y) {
     int width = 0, height = 0;
     glfw().getWindowSize(window, &width, &height);
     const double dx = (to_x - x) / height, dy = (to_y - y) / height;
     x = to_x;
     y = to_y;
-    if (glfw().getMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
+    if (push.holds()) {
+      push.move(drawn, scene, dx, dy);
+    } else if (glfw().getMouseButton(window, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS) {
       moveCamera(mjMOUSE_ROTATE_H, dx, 0);
       moveCamera(mjMOUSE_ROTATE_V, 0, dy);
     } else if (glfw().getMouseButton(window, GLFW_MOUSE_BUTTON_RIGHT) == GLFW_PRESS) {
@@ -99,35 +173,72 @@ struct Window::Impl {
       option.frame = option.frame == mjFRAME_NONE ? mjFRAME_BODY : mjFRAME_NONE;
     } else if (key == GLFW_KEY_T) {
       toggle(option.flags[mjVIS_TRANSPARENT]);
+    } else if (key == GLFW_KEY_R) {
+      lookFromTheFront();
+    } else if (key == GLFW_KEY_H || key == GLFW_KEY_F1) {
+      shows_help = !shows_help;
     }
   }
 
-  mjvGeom* nextGeom(int type, const std::array<double, 3>& at, const double* size) {
+  mjvGeom* nextGeom(int type, const double* at, const double* size, const float* colour) {
     if (scene.ngeom >= scene.maxgeom) {
       return nullptr;
     }
-    const float colour[4] = {0.95f, 0.45f, 0.1f, 1};
     mjvGeom* geom = &scene.geoms[scene.ngeom++];
-    mjv_initGeom(geom, type, size, at.data(), nullptr, colour);
+    mjv_initGeom(geom, type, size, at, nullptr, colour);
     geom->category = mjCAT_DECOR;
     return geom;
+  }
+
+  void drawArrow(const double* from, const double* to, double dot, const float* colour) {
+    const double size[3] = {dot, dot, dot};
+    nextGeom(mjGEOM_SPHERE, from, size, colour);
+    mjvGeom* arrow = nextGeom(mjGEOM_ARROW, from, nullptr, colour);
+    if (arrow != nullptr) {
+      mjv_makeConnector(arrow, mjGEOM_ARROW, dot, from[0], from[1], from[2], to[0], to[1], to[2]);
+    }
   }
 
   /// Draws a dot at each contact and an arrow for its force. The drawn model has visual shapes
   /// only, so contacts come from the simulation.
   void drawContacts(const std::vector<Contact>& contacts) {
     for (const Contact& contact : contacts) {
-      const double dot[3] = {kContactDot, kContactDot, kContactDot};
-      nextGeom(mjGEOM_SPHERE, contact.position, dot);
-      mjvGeom* arrow = nextGeom(mjGEOM_ARROW, contact.position, nullptr);
-      if (arrow != nullptr) {
-        const std::array<double, 3>& from = contact.position;
-        const std::array<double, 3>& f = contact.force;
-        mjv_makeConnector(arrow, mjGEOM_ARROW, kContactDot, from[0], from[1], from[2],
-                          from[0] + kMetresPerNewton * f[0], from[1] + kMetresPerNewton * f[1],
-                          from[2] + kMetresPerNewton * f[2]);
-      }
+      double to[3];
+      mju_addScl3(to, contact.position.data(), contact.force.data(), kMetresPerNewton);
+      drawArrow(contact.position.data(), to, kContactDot, kOrange);
     }
+  }
+
+  void drawPush(const BodyPush& by_mouse) {
+    drawArrow(by_mouse.point.data(), push.target(), 2 * kContactDot, kGreen);
+  }
+
+  void drawTexts(const mjrRect& area, const Scene& drawn_scene,
+                 const std::vector<std::string>& lines) {
+    std::string left = formatted("%.3f s", drawn_scene.time);
+    const std::string at_pace = pace.text(drawn_scene.time);
+    left += at_pace.empty() ? "" : "   " + at_pace;
+    for (const std::string& line : lines) {
+      left += "\n" + line;
+    }
+    if (!drawn_scene.fault.empty()) {
+      left += "\n" + drawn_scene.fault;
+    }
+    overlay(mjGRID_TOPLEFT, area, left.c_str(), nullptr);
+    if (shows_help) {
+      overlay(mjGRID_BOTTOMLEFT, area, kHelpKeys, kHelpTexts);
+    } else {
+      overlay(mjGRID_BOTTOMLEFT, area, "H", "help");
+    }
+    if (const std::optional<BodyPush> by_mouse = push.push()) {
+      const std::string text =
+          by_mouse->body + ": " + formatted("%.1f N", mju_norm3(by_mouse->force.data()));
+      overlay(mjGRID_TOPRIGHT, area, text.c_str(), nullptr);
+    }
+  }
+
+  void overlay(int place, const mjrRect& area, const char* left, const char* right) const {
+    mjr_overlay(mjFONT_NORMAL, place, area, left, right, &context);
   }
 
   void load(const std::string& mjcf) {
@@ -137,9 +248,9 @@ struct Window::Impl {
     mjModel* model = drawn.model();
     model->vis.quality.offsamples = 0;
     mjr_freeContext(&context);
-    mjr_makeContext(model, &context, mjFONTSCALE_100);
+    mjr_makeContext(model, &context, mjFONTSCALE_150);
     mjv_freeScene(&scene);
-    mjv_makeScene(model, &scene, kMostGeoms);
+    mjv_makeScene(model, &scene, kMaxGeoms);
   }
 };
 
@@ -162,22 +273,43 @@ Window::Window(const std::string& title) : impl_(std::make_unique<Impl>()) {
 
 Window::~Window() = default;
 
-bool Window::draw(const Scene& scene) {
+bool Window::draw(const Scene& scene, const std::vector<std::string>& lines) {
+  const physics::EngineErrorScope scope;
   glfw().makeContextCurrent(impl_->window);
   impl_->load(scene.mjcf);
   impl_->drawn.pose(scene);
+  impl_->push.update(impl_->drawn, scene.time);
   mjv_updateScene(impl_->drawn.model(), impl_->drawn.data(), &impl_->option, nullptr,
                   &impl_->camera, mjCAT_ALL, &impl_->scene);
   if (impl_->shows_contacts) {
     impl_->drawContacts(scene.contacts);
   }
+  if (const std::optional<BodyPush> by_mouse = push()) {
+    impl_->drawPush(*by_mouse);
+  }
   mjrRect area{0, 0, 0, 0};
   glfw().getFramebufferSize(impl_->window, &area.width, &area.height);
   mjr_setBuffer(mjFB_WINDOW, &impl_->context);
   mjr_render(area, &impl_->scene, &impl_->context);
+  impl_->drawTexts(area, scene, lines);
   glfw().swapBuffers(impl_->window);
   glfw().pollEvents();
   return glfw().windowShouldClose(impl_->window) == GLFW_FALSE;
+}
+
+std::optional<BodyPush> Window::push() const { return impl_->push.push(); }
+
+void PushByMouse::act(World& world, const std::optional<BodyPush>& push) {
+  const std::uint64_t now = world.ticks();
+  const std::uint64_t passed = now > ticks_ ? now - ticks_ : 0;  // a reset begins at 0 again
+  ticks_ = now;
+  if (push && passed > 0 && !world.stopped()) {
+    try {
+      world.pushAt(push->body, push->point, push->force, std::min(passed, kMaxPushTicks));
+    } catch (const std::runtime_error&) {  // NOLINT(bugprone-empty-catch)
+      // The body has been removed since the picture; the next picture does not show it.
+    }
+  }
 }
 
 }  // namespace franka_sim

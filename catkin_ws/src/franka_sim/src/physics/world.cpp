@@ -33,11 +33,20 @@ World::World(const std::string& file, ResourceResolver resolve)
 
 World::~World() = default;
 
+World::Access::Access(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
+
+World::Access::~Access() = default;
+
+World::Impl& World::Access::operator*() const noexcept {
+  impl_->finishPreparation();
+  return *impl_;
+}
+
 void World::addRobot(const RobotDescription& robot) {
   const std::string whose = " of the robot '" + robot.name + "'";
-  sizes::check(robot.base.position, sizes::kFarthest, "m", "The position" + whose);
+  sizes::check(robot.base.position, sizes::kMaxPosition, "m", "The position" + whose);
   for (const auto& [joint, position] : robot.initial_positions) {
-    sizes::check(position, sizes::kFarthest, "m or rad",
+    sizes::check(position, sizes::kMaxPosition, "m or rad",
                  "The initial position of joint '" + joint + "'" + whose);
   }
   const auto present = robots();
@@ -135,7 +144,18 @@ void World::step() noexcept { impl_->step(); }
 
 void World::prepareStep() noexcept { impl_->prepareStep(); }
 
+void World::setPreparesBeside(bool beside) { impl_->setPreparesBeside(beside); }
+
+void World::prepareBeside() noexcept { impl_->prepareBeside(); }
+
 std::uint64_t World::ticks() const noexcept { return impl_->ticks; }
+
+int World::substeps() const noexcept { return impl_->motor_side.substeps(); }
+
+void World::setSubsteps(Substeps substeps) noexcept {
+  impl_->substeps = substeps;
+  impl_->disturb();
+}
 
 double World::time() const noexcept { return static_cast<double>(impl_->ticks) * kTick; }
 
@@ -159,31 +179,32 @@ std::vector<Pose> World::framePoses() const {
   return poses;
 }
 
-void World::setBodyPose(const std::string& body, const Pose& pose) {
-  const int joint = impl_->freeJoint(body);
-  impl_->requireRuns();
-  sizes::check(pose.position, sizes::kFarthest, "m", "The position for body '" + body + "'");
-  const Eigen::Quaterniond turn(pose.orientation[0], pose.orientation[1], pose.orientation[2],
-                                pose.orientation[3]);
-  if (!(std::abs(turn.norm() - 1) < 1e-3)) {
-    throw std::runtime_error("The orientation for body '" + body + "' is no unit quaternion.");
+void World::checkBodyPose(const std::string& body, const Pose& pose) const {
+  impl_->freeJoint(body);
+  sizes::check(pose.position, sizes::kMaxPosition, "m", "The position for body '" + body + "'");
+  if (!hasUnitOrientation(pose)) {
+    throw std::runtime_error("The orientation for body '" + body + "' is not a unit quaternion.");
   }
+}
+
+void World::setBodyPose(const std::string& body, const Pose& pose) {
+  checkBodyPose(body, pose);
+  impl_->requireRuns();
+  const int joint = impl_->freeJoint(body);
   const Frame frame = impl_->frame(body);
-  Eigen::Isometry3d place = Eigen::Isometry3d::Identity();
-  place.translation() = vector(pose.position);
-  place.linear() = turn.normalized().matrix();
   const bool is_body = frame.pose.matrix().isIdentity(0);
-  place = is_body ? place : place * frame.pose.inverse();
+  const Eigen::Isometry3d place =
+      is_body ? toIsometry(pose) : toIsometry(pose) * frame.pose.inverse();
   double* qpos = impl_->data->qpos + impl_->model->jnt_qposadr[joint];
   Eigen::Vector3d::Map(qpos) = place.translation();
   const Eigen::Quaterniond unit =
-      is_body ? turn.normalized() : Eigen::Quaterniond(place.linear()).normalized();
+      is_body ? quaternion(pose).normalized() : Eigen::Quaterniond(place.linear()).normalized();
   qpos[3] = unit.w();
   qpos[4] = unit.x();
   qpos[5] = unit.y();
   qpos[6] = unit.z();
   mju_zero(impl_->data->qvel + impl_->model->jnt_dofadr[joint], 6);
-  impl_->kinematics_fresh = false;
+  impl_->disturb();
 }
 
 JointMeasurement World::joint(const std::string& joint) const {
@@ -196,7 +217,7 @@ void World::setJointPosition(const std::string& joint, double position) {
   const physics::JointSlot slot = impl_->slot(joint);
   const int id = mj_name2id(impl_->model.get(), mjOBJ_JOINT, joint.c_str());
   impl_->requireRuns();
-  sizes::check(position, sizes::kFarthest, "m or rad", "The position for joint '" + joint + "'");
+  sizes::check(position, sizes::kMaxPosition, "m or rad", "The position for joint '" + joint + "'");
   const double* range = impl_->model->jnt_range + 2 * id;
   if (impl_->model->jnt_limited[id] && (position < range[0] || position > range[1])) {
     throw std::runtime_error("Joint '" + joint + "' cannot be put at " + std::to_string(position) +
@@ -205,7 +226,7 @@ void World::setJointPosition(const std::string& joint, double position) {
   }
   impl_->data->qpos[slot.qpos] = position;
   impl_->data->qvel[slot.dof] = 0;
-  impl_->kinematics_fresh = false;
+  impl_->disturb();
   for (auto& [key, arm] : impl_->arms) {
     arm->jointWasMoved(joint);
   }
@@ -218,10 +239,10 @@ void World::push(const std::string& body, const std::array<double, 3>& force,
                  const std::array<double, 3>& torque, std::uint64_t ticks) {
   const Frame frame = impl_->frame(body);
   impl_->requireRuns();
-  sizes::check(force, sizes::kStrongest, "N", "The force on body '" + body + "'");
-  sizes::check(torque, sizes::kStrongest, "Nm", "The torque on body '" + body + "'");
+  sizes::check(force, sizes::kMaxForce, "N", "The force on body '" + body + "'");
+  sizes::check(torque, sizes::kMaxForce, "Nm", "The torque on body '" + body + "'");
   if (ticks > 0) {
-    impl_->pushes.push_back(
+    impl_->addPush(
         {body, frame.body, frame.pose.translation(), vector(force), vector(torque), ticks});
   }
 }
@@ -230,12 +251,12 @@ void World::pushAt(const std::string& body, const std::array<double, 3>& point,
                    const std::array<double, 3>& force, std::uint64_t ticks) {
   const Frame frame = impl_->frame(body);
   impl_->requireRuns();
-  sizes::check(point, sizes::kFarthest, "m", "The point of the push");
-  sizes::check(force, sizes::kStrongest, "N", "The force on body '" + body + "'");
+  sizes::check(point, sizes::kMaxPosition, "m", "The point of the push");
+  sizes::check(force, sizes::kMaxForce, "N", "The force on body '" + body + "'");
   if (ticks > 0) {
     const Frame origin{frame.body, Eigen::Isometry3d::Identity()};
-    impl_->pushes.push_back({body, frame.body, impl_->pose(origin).inverse() * vector(point),
-                             vector(force), Eigen::Vector3d::Zero(), ticks});
+    impl_->addPush({body, frame.body, impl_->pose(origin).inverse() * vector(point), vector(force),
+                    Eigen::Vector3d::Zero(), ticks});
   }
 }
 
@@ -246,6 +267,27 @@ std::vector<Contact> World::contacts() const {
                       contact.position, contact.force});
   }
   return result;
+}
+
+Touches World::touches(const std::string& body) const {
+  impl_->frame(body);
+  Touches touches;
+  for (const GeomContact& contact : impl_->contacts()) {
+    const bool first = impl_->geom_links[contact.geom1] == body;
+    if (!first && impl_->geom_links[contact.geom2] != body) {
+      continue;
+    }
+    const int robot = impl_->owners.robot_of_geom[first ? contact.geom2 : contact.geom1];
+    if (robot < 0) {
+      touches.others = true;
+      continue;
+    }
+    const std::string& name = impl_->robots[robot]->description.name;
+    if (std::find(touches.robots.begin(), touches.robots.end(), name) == touches.robots.end()) {
+      touches.robots.push_back(name);
+    }
+  }
+  return touches;
 }
 
 std::uint64_t World::stateHash() const noexcept { return impl_->hash(); }

@@ -53,6 +53,9 @@ std::string sentence(const mjModel& model, const StepFault& fault, double time) 
 }  // namespace
 
 const std::string& World::Impl::faultText() {
+  if (fault && fault->where == StepFault::Where::kEngine) {
+    return fault_text;
+  }
   if (fault && fault_text.empty()) {
     fault_text = sentence(*model, *fault, static_cast<double>(ticks) * kTick);
   }
@@ -65,7 +68,7 @@ void World::Impl::requireRuns() {
   }
 }
 
-void World::Impl::forgetFaults() noexcept {
+void World::Impl::clearFaults() noexcept {
   fault.reset();
   fault_text.clear();
   warned = {};
@@ -85,11 +88,11 @@ std::vector<std::string> World::takeWarnings() {
        "A body's inertia is close to singular: the physics is inexact. Give bodies that move "
        "masses [kg] and inertias [kg m^2] of real ones."},
       {mjWARN_CONTACTFULL,
-       "There are more contacts than the world has room for, and some have no effect. Raise "
-       "nconmax in <size> of the world file."},
+       "There are more contacts than the limit (nconmax), and some have no effect. Raise nconmax "
+       "in <size> of the world file."},
       {mjWARN_CNSTRFULL,
-       "There are more constraints (contacts, limits, friction) than the world has room for, and "
-       "some have no effect. Raise njmax in <size> of the world file."},
+       "There are more constraints (contacts, limits, friction) than the limit (njmax), and some "
+       "have no effect. Raise njmax in <size> of the world file."},
       {mjWARN_BADCTRL, "An actuator's command is not finite or too large: all actuators are off."},
   };
   std::vector<std::string> news;
@@ -112,6 +115,7 @@ std::vector<Overlap> World::overlaps(const std::string& robot) const {
                        });
   };
   const mjModel& model = *impl_->model;
+  const physics::EngineErrorScope scope;
   const physics::DataPtr data(mj_copyData(nullptr, &model, impl_->data.get()));
   mj_fwdPosition(&model, data.get());
   std::vector<Overlap> result;

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "physics/quaternions.h"
 #include "physics/state_carry.h"
 
 namespace franka_sim {
@@ -28,6 +29,10 @@ Eigen::Isometry3d poseOf(const mjData& data, int body) {
   const double* q = data.xquat + 4 * body;
   pose.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
   return pose;
+}
+
+bool isOfRobot(const physics::Ownership& owners, const mjContact& contact) {
+  return owners.robot_of_geom[contact.geom1] >= 0 || owners.robot_of_geom[contact.geom2] >= 0;
 }
 
 }  // namespace
@@ -71,6 +76,7 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
       list.empty() ? merged.title()
                    : merged.title() + " with robot '" + list.back()->description.name + "'";
   physics::ModelPtr new_model = physics::compile(merged.merge(list, false), title);
+  physics::ModelIdentity new_identity = physics::identityOf(*new_model, list);
   if (set_gravity) {
     std::copy(set_gravity->begin(), set_gravity->end(), new_model->opt.gravity);
   }
@@ -90,7 +96,8 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
   if (new_world) {
     world = std::move(new_world);
   }
-  ++generation;
+  generation = physics::uniqueModelNumber();
+  identity = std::move(new_identity);
   model.swap(new_model);
   data.swap(new_data);
   index();
@@ -122,11 +129,16 @@ void World::Impl::orderFrames() {
 void World::Impl::index() {
   visual_mjcf.clear();
   warned = {};
-  view = {model.get(), data.get(), &motor_side};
+  view = {model.get(), data.get(), &motor_side, preparation_thread.get()};
   kinematics_fresh = false;
   kept_qpos.assign(model->nq, 0.0);
   preparation.fit(*model);
+  owners = physics::Ownership(*model, robotOfBody());
+  clearance.fit(*model, owners);
+  object_rest.fit(*model, owners);
+  collisions.fit(*model, owners);
   contacts_kept = false;
+  objects_held = false;
   kept_contacts.reserve(model->nconmax);
   frames.clear();
   for (int b = 0; b < model->nbody; ++b) {
@@ -177,6 +189,20 @@ void World::Impl::index() {
   for (Push& push : pushes) {
     push.body = frames[push.body_name].body;
   }
+}
+
+std::vector<int> World::Impl::robotOfBody() const {
+  std::vector<int> robot_of_body(model->nbody, -1);
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    for (const physics::Segment& segment : robots[r]->segments) {
+      const std::string& link = robots[r]->urdf.links[segment.link].name;
+      const int body = mj_name2id(model.get(), mjOBJ_BODY, link.c_str());
+      if (body > 0) {
+        robot_of_body[body] = static_cast<int>(r);
+      }
+    }
+  }
+  return robot_of_body;
 }
 
 void World::Impl::bindPlants() {
@@ -258,16 +284,40 @@ void World::Impl::updateKinematics() noexcept {
   if (kinematics_fresh) {
     return;
   }
-  // mj_kinematics normalises quaternions in place; reading must not change the future.
-  std::copy_n(data->qpos, model->nq, kept_qpos.begin());
+  // mj_kinematics normalises quaternions in place; reading must not change later results.
+  physics::copyQuaternions(*model, data->qpos, kept_qpos.data());
   mj_kinematics(model.get(), data.get());
-  std::copy_n(kept_qpos.begin(), model->nq, data->qpos);
+  physics::copyQuaternions(*model, kept_qpos.data(), data->qpos);
   kinematics_fresh = true;
+}
+
+void World::Impl::disturb() noexcept {
+  kinematics_fresh = false;
+  clearance.disturb();
+  object_rest.disturb();
+  preparation.drop();
+}
+
+bool World::Impl::isObject(int body) const noexcept {
+  return owners.robot_of_body[body] < 0 && model->body_weldid[body] != 0;
+}
+
+bool World::Impl::pushesObjects() const noexcept {
+  return std::any_of(pushes.begin(), pushes.end(),
+                     [this](const Push& push) { return isObject(push.body); });
 }
 
 Eigen::Isometry3d World::Impl::pose(const Frame& frame) {
   updateKinematics();
   return poseOf(*data, frame.body) * frame.pose;
+}
+
+void World::Impl::addPush(const Push& push) {
+  pushes.push_back(push);
+  if (isObject(push.body)) {  // what was decided or prepared for the next tick holds it
+    object_rest.disturb();
+    preparation.drop();
+  }
 }
 
 void World::Impl::applyPushes() noexcept {
@@ -295,6 +345,12 @@ void World::Impl::retirePushes() noexcept {
   }
 }
 
+void World::Impl::stop(const physics::EngineError& error) noexcept {
+  data->pstack = 0;  // of a function that has not returned
+  fault_text = std::string(error.what()) + ". The world stands still until it is reset.";
+  stop(physics::StepFault{physics::StepFault::Where::kEngine});
+}
+
 void World::Impl::stop(const physics::StepFault& why) noexcept {
   fault = why;
   mju_zero(data->qvel, model->nv);
@@ -302,35 +358,62 @@ void World::Impl::stop(const physics::StepFault& why) noexcept {
   data->ncon = 0;
   pushes.clear();
   motor_side.reset(*data);
-  preparation.drop();
-  kinematics_fresh = false;
+  disturb();
   contacts_kept = false;
+  objects_held = false;
+}
+
+int World::Impl::startTick() {
+  clearance.startTick(model.get(), data.get());
+  object_rest.startTick(*data, clearance.areObjectsClear() && !pushesObjects(),
+                        [this]() -> const std::vector<GeomContact>& { return contacts(); });
+  collisions.leaveOut(clearance.isClear(), object_rest.held());
+  const bool one =
+      substeps == Substeps::kAdaptive && clearance.isClear() && frictions.longestStep() >= kTick;
+  const int count = one ? 1 : kSmallSteps;
+  model->opt.timestep = kTick / count;
+  return count;
 }
 
 void World::Impl::step() noexcept {
   if (fault) {
     return;
   }
+  try {
+    const physics::EngineErrorScope scope;
+    advance();
+  } catch (const physics::EngineError& error) {
+    stop(error);
+  }
+}
+
+void World::Impl::advance() {
+  const int count = startTick();
   motor_side.startTick(*model, *data);
-  for (int substep = 0; substep < kSubsteps; ++substep) {
+  object_rest.startSteps(*data, motor_side);
+  for (int substep = 0; substep < count; ++substep) {
     if (!pushes.empty()) {
       applyPushes();
     }
     for (auto& [joint, drive] : drives) {
-      drive->prepare(substep + 1, kSubsteps);
+      drive->prepare(substep + 1, count);
     }
-    if (const auto why = preparation.step(*model, data.get(), frictions)) {
+    if (const auto why = preparation.step(model.get(), data.get(), collisions, frictions)) {
       stop(*why);
       return;
     }
     motor_side.addSubstep(*model, *data, frictions);
+    object_rest.finishStep(data.get());
   }
-  motor_side.finishTick(*model, *data, kSubsteps, kTick);
+  motor_side.finishTick(*model, *data, count, kTick);
+  clearance.finishTick();
+  object_rest.finishTick(&motor_side);
   if (!pushes.empty()) {
     retirePushes();
   }
   kinematics_fresh = false;
   contacts_kept = false;
+  objects_held = object_rest.held();
   ++ticks;
 }
 
@@ -340,8 +423,29 @@ void World::Impl::prepareStep() noexcept {
   }
   contacts();
   contacts_kept = true;
-  preparation.prepare(*model, data.get());
-  kinematics_fresh = true;
+  try {
+    const physics::EngineErrorScope scope;
+    startTick();
+    preparation.prepare(model.get(), data.get(), collisions);
+    kinematics_fresh = true;
+  } catch (const physics::EngineError& error) {
+    stop(error);
+  }
+}
+
+void World::Impl::setPreparesBeside(bool beside) {
+  if (!beside) {
+    preparation_thread.reset();
+  } else if (!preparation_thread) {
+    preparation_thread = std::make_unique<physics::PreparationThread>([this] { prepareStep(); });
+  }
+  view.preparation_thread = preparation_thread.get();
+}
+
+void World::Impl::prepareBeside() noexcept {
+  if (preparation_thread) {
+    preparation_thread->request();
+  }
 }
 
 const std::vector<GeomContact>& World::Impl::contacts() noexcept {
@@ -351,7 +455,7 @@ const std::vector<GeomContact>& World::Impl::contacts() noexcept {
   kept_contacts.clear();
   for (int c = 0; c < data->ncon; ++c) {
     const mjContact& contact = data->contact[c];
-    if (contact.efc_address < 0) {
+    if (contact.efc_address < 0 || (objects_held && !isOfRobot(owners, contact))) {
       continue;
     }
     double local[6];
@@ -362,6 +466,10 @@ const std::vector<GeomContact>& World::Impl::contacts() noexcept {
     std::copy_n(contact.pos, 3, kept.position.begin());
     // Rows of `frame` are the contact's axes; the first points from geom 1 to geom 2.
     mju_rotVecMatT(kept.force.data(), local, contact.frame);
+  }
+  if (objects_held) {
+    const std::vector<GeomContact>& held = object_rest.state().contacts;
+    kept_contacts.insert(kept_contacts.end(), held.begin(), held.end());
   }
   return kept_contacts;
 }
@@ -376,11 +484,12 @@ void World::Impl::reset() {
     drive->reset();
   }
   pushes.clear();
-  forgetFaults();
+  clearFaults();
   motor_side.reset(*data);
   frictions.reset();
-  preparation.drop();
+  disturb();
   contacts_kept = false;
+  objects_held = false;
   kinematics_fresh = false;
   ticks = 0;
 }

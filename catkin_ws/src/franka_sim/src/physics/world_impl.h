@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim/physics/pose_conversions.h>
 #include <franka_sim/physics/world.h>
 
 #include <Eigen/Geometry>
@@ -12,23 +13,22 @@
 #include <string>
 #include <vector>
 
+#include "physics/collision_scope.h"
 #include "physics/compile.h"
+#include "physics/engine_errors.h"
+#include "physics/geom_contact.h"
 #include "physics/joint_friction.h"
 #include "physics/mjcf_world.h"
+#include "physics/model_identity.h"
 #include "physics/motor_side.h"
+#include "physics/object_rest.h"
+#include "physics/ownership.h"
 #include "physics/plants.h"
+#include "physics/preparation_thread.h"
+#include "physics/robot_clearance.h"
 #include "physics/step_preparation.h"
 
 namespace franka_sim {
-
-inline Eigen::Vector3d vector(const std::array<double, 3>& values) {
-  return Eigen::Vector3d::Map(values.data());
-}
-inline std::array<double, 3> array(const Eigen::Vector3d& v) { return {v.x(), v.y(), v.z()}; }
-inline Pose toPose(const Eigen::Isometry3d& pose) {
-  const Eigen::Quaterniond turn(pose.linear());
-  return {array(pose.translation()), {turn.w(), turn.x(), turn.y(), turn.z()}};
-}
 
 /// A force at a point fixed to a body, for a number of ticks.
 struct Push {
@@ -37,12 +37,6 @@ struct Push {
   Eigen::Vector3d point;          ///< MuJoCo body frame [m]
   Eigen::Vector3d force, torque;  ///< world axes [N] [Nm]
   std::uint64_t ticks_left;
-};
-
-/// A contact in a step, with the force that acted on the second geom.
-struct GeomContact {
-  int geom1, geom2;
-  std::array<double, 3> position, force;  ///< world axes [m] [N]
 };
 
 /// A link or body by its name: a MuJoCo body and a fixed pose in it.
@@ -79,9 +73,15 @@ struct World::Impl {
   std::vector<Push> pushes;
   std::uint64_t ticks{0};
   physics::StepPreparation preparation;
+  physics::Ownership owners;
+  physics::RobotClearance clearance;
+  physics::ObjectRest object_rest;
+  physics::CollisionScope collisions;
+  Substeps substeps{Substeps::kAdaptive};
   // Whether the last step's contacts are kept in kept_contacts, because the data holds those of the
   // next step.
   bool contacts_kept{false};
+  bool objects_held{false};  ///< in the last step: it computed no contacts of theirs
   std::vector<GeomContact> kept_contacts;
   bool kinematics_fresh{false};
   std::vector<double> kept_qpos;  ///< preallocated copy, so that reading allocates nothing
@@ -90,9 +90,11 @@ struct World::Impl {
   std::array<bool, mjNWARNING> warned{};    ///< MuJoCo's warnings that were taken
   std::string visual_mjcf;                  ///< for pictures; written on first use
 
-  /// Number of the model; a snapshot is valid for one.
-  std::uint64_t generation{0};
+  std::uint64_t generation{0};  ///< number of the model; no other one of this process has it
+  physics::ModelIdentity identity;
   std::optional<std::array<double, 3>> set_gravity;  ///< other than the world file's
+  /// Calls prepareStep(). The last member: it ends before the others do.
+  std::unique_ptr<physics::PreparationThread> preparation_thread;
 
   /// Rebuilds the merged model of the given robots, with the present state carried over by name.
   /// Strong guarantee. @param new_world replaces the present one, unless null
@@ -104,10 +106,20 @@ struct World::Impl {
   void checkNewBody(const std::string& body, const std::string& of) const;
   void step() noexcept;
   void prepareStep() noexcept;
+  void setPreparesBeside(bool beside);
+  void prepareBeside() noexcept;
+  void finishPreparation() noexcept {
+    if (preparation_thread) {
+      preparation_thread->finish();
+    }
+  }
+  /// Decides about the next tick and sets the length of its physics steps; returns their number.
+  int startTick();
   const std::vector<GeomContact>& contacts() noexcept;  ///< of the last step
+  bool isObject(int body) const noexcept;               ///< one that can move
   const std::string& faultText();
   void requireRuns();  ///< throws the fault's sentence
-  void forgetFaults() noexcept;
+  void clearFaults() noexcept;
   void reset();
   std::uint64_t hash() const noexcept;
 
@@ -116,6 +128,9 @@ struct World::Impl {
   int freeJoint(const std::string& body) const;             ///< joint id; throws
   Eigen::Isometry3d pose(const Frame& frame);
   void updateKinematics() noexcept;
+  void addPush(const Push& push);
+  /// Call after a change of the state from outside.
+  void disturb() noexcept;
   bool has(const std::string& joint) const noexcept;
   const physics::RobotModel& robot(const std::string& name) const;  ///< throws
 
@@ -123,9 +138,14 @@ struct World::Impl {
   void placeInitially(const mjModel& m, mjData* d,
                       const std::vector<std::unique_ptr<physics::RobotModel>>& all) const;
   void index();
+  /// Per MuJoCo body the index of its robot, or -1.
+  std::vector<int> robotOfBody() const;
   void orderFrames();
   void bindPlants();
   void stop(const physics::StepFault& why) noexcept;
+  void stop(const physics::EngineError& error) noexcept;
+  void advance();
+  bool pushesObjects() const noexcept;
   void applyPushes() noexcept;
   void retirePushes() noexcept;
 };

@@ -66,7 +66,7 @@ WorldModel modelOfBody(const std::string& name, const Frame& frame, const World:
   bodies.erase(0);
   if (model.links.empty()) {
     for (const auto& [link, place] : world.frames) {
-      // A static body belongs to the world; several of them are no single model.
+      // A static body belongs to the world; several of them are not a single model.
       if (link == name || (frame.body != 0 && !link.empty() && place.body != 0 &&
                            world.model->body_rootid[place.body] == frame.body)) {
         model.links.push_back(link);

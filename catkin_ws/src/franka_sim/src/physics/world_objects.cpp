@@ -30,7 +30,7 @@ void World::addObject(const std::string& name, const std::string& text, const Po
                              "' cannot be put into the simulated world: a robot "
                              "has that name; choose another one.");
   }
-  sizes::check(pose.position, sizes::kFarthest, "m",
+  sizes::check(pose.position, sizes::kMaxPosition, "m",
                "The position in the pose of object '" + name + "'");
   auto new_world = impl_->world->with(name, text, pose);
   auto same_robots = impl_->copyRobots();
@@ -111,9 +111,10 @@ std::vector<WorldCamera> World::cameras() const {
 }
 
 void World::setGravity(const std::array<double, 3>& gravity) {
-  sizes::check(gravity, sizes::kGravity, "m/s^2", "Gravity");
+  sizes::check(gravity, sizes::kMaxGravity, "m/s^2", "Gravity");
   impl_->set_gravity = gravity;
   std::copy(gravity.begin(), gravity.end(), impl_->model->opt.gravity);
+  impl_->disturb();
 }
 
 Twist World::bodyTwist(const std::string& body) const { return bodyStates({body}).front().twist; }
@@ -121,8 +122,9 @@ Twist World::bodyTwist(const std::string& body) const { return bodyStates({body}
 void World::setBodyTwist(const std::string& body, const Twist& twist) {
   const int joint = impl_->freeJoint(body);
   impl_->requireRuns();
-  sizes::check(twist.linear, sizes::kFastest, "m/s", "The linear velocity of body '" + body + "'");
-  sizes::check(twist.angular, sizes::kFastest, "rad/s",
+  sizes::check(twist.linear, sizes::kMaxVelocity, "m/s",
+               "The linear velocity of body '" + body + "'");
+  sizes::check(twist.angular, sizes::kMaxVelocity, "rad/s",
                "The angular velocity of body '" + body + "'");
   const Frame frame = impl_->frame(body);
   const Eigen::Isometry3d pose = impl_->pose(frame);
@@ -132,94 +134,16 @@ void World::setBodyTwist(const std::string& body, const Twist& twist) {
   const Eigen::Vector3d lever = body_pose.translation() - pose.translation();
   Eigen::Vector3d::Map(qvel) = vector(twist.linear) + vector(twist.angular).cross(lever);
   Eigen::Vector3d::Map(qvel + 3) = body_pose.linear().transpose() * vector(twist.angular);
+  impl_->disturb();
 }
 
 void World::setJointVelocity(const std::string& joint, double velocity) {
   const physics::JointSlot slot = impl_->slot(joint);
   impl_->requireRuns();
-  sizes::check(velocity, sizes::kFastest, "m/s or rad/s", "The velocity for joint '" + joint + "'");
+  sizes::check(velocity, sizes::kMaxVelocity, "m/s or rad/s",
+               "The velocity for joint '" + joint + "'");
   impl_->data->qvel[slot.dof] = velocity;
-}
-
-struct Snapshot::Content {
-  std::uint64_t generation, ticks;
-  physics::DataPtr data;
-  physics::MotorSide motor_side;
-  physics::JointFrictions frictions;
-  std::vector<Push> pushes;
-  bool contacts_kept;
-  std::vector<GeomContact> contacts;
-  std::vector<double> eq_data;
-  std::vector<unsigned char> eq_active;
-  std::array<double, 3> gravity;
-  std::map<std::string, physics::MujocoArm> arms;
-  std::map<std::string, physics::MujocoDrive> drives;
-};
-
-Snapshot World::snapshot() const {
-  impl_->requireRuns();
-  const mjModel& model = *impl_->model;
-  auto content = std::make_shared<Snapshot::Content>();
-  content->generation = impl_->generation;
-  content->ticks = impl_->ticks;
-  content->data.reset(mj_copyData(nullptr, &model, impl_->data.get()));
-  if (!content->data) {
-    throw std::runtime_error("There is not enough memory for a snapshot of the simulated world.");
-  }
-  content->motor_side = impl_->motor_side;
-  content->frictions = impl_->frictions;
-  content->pushes = impl_->pushes;
-  content->contacts_kept = impl_->contacts_kept;
-  content->contacts = impl_->kept_contacts;
-  content->eq_data.assign(model.eq_data, model.eq_data + mjNEQDATA * model.neq);
-  content->eq_active.assign(model.eq_active, model.eq_active + model.neq);
-  content->gravity = gravity();
-  for (const auto& [key, arm] : impl_->arms) {
-    content->arms.emplace(key, *arm);
-  }
-  for (const auto& [joint, drive] : impl_->drives) {
-    content->drives.emplace(joint, *drive);
-  }
-  return Snapshot(content);
-}
-
-void World::restore(const Snapshot& snapshot) {
-  const Snapshot::Content* content = snapshot.content();
-  if (content == nullptr || content->generation != impl_->generation) {
-    throw std::runtime_error(
-        "The snapshot cannot be restored: a robot or object came or went since it was taken. Take "
-        "another one.");
-  }
-  mjModel& model = *impl_->model;
-  impl_->forgetFaults();
-  setGravity(content->gravity);
-  mj_copyData(impl_->data.get(), &model, content->data.get());
-  std::copy(content->eq_data.begin(), content->eq_data.end(), model.eq_data);
-  std::copy(content->eq_active.begin(), content->eq_active.end(), model.eq_active);
-  impl_->motor_side = content->motor_side;
-  impl_->frictions = content->frictions;
-  impl_->pushes = content->pushes;
-  impl_->preparation.drop();
-  impl_->contacts_kept = content->contacts_kept;
-  impl_->kept_contacts = content->contacts;
-  impl_->ticks = content->ticks;
-  impl_->kinematics_fresh = false;
-  for (auto& [key, arm] : impl_->arms) {
-    const auto then = content->arms.find(key);
-    if (then != content->arms.end()) {
-      *arm = then->second;
-    } else {
-      arm->reset();
-    }
-  }
-  for (auto& [joint, drive] : impl_->drives) {
-    const auto then = content->drives.find(joint);
-    if (then != content->drives.end()) {
-      *drive = then->second;
-    } else {
-      drive->reset();
-    }
-  }
+  impl_->disturb();
 }
 
 }  // namespace franka_sim

@@ -36,7 +36,7 @@ std::string optional(const tinyxml2::XMLElement& element, const char* attribute)
 
 /// The text of a child element, empty if there is none.
 std::string childText(const tinyxml2::XMLElement& element, const char* name);
-/// Whether a child element says true or 1; `fallback` if there is none.
+/// Whether a child element contains true or 1; `fallback` if there is none.
 bool isTrue(const tinyxml2::XMLElement& element, const char* name, bool fallback = false);
 /// The numbers in a child element; `fallback` if there is none.
 /// @throws std::runtime_error unless it has exactly `fallback.size()` finite numbers.

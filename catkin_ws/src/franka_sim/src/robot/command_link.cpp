@@ -18,9 +18,9 @@ void CommandLink::setLoss(double probability, std::uint64_t seed) {
 }
 
 void CommandLink::setDelay(double ticks) {
-  if (!(ticks >= 0.0 && ticks <= kLongestDelay) || ticks != std::floor(ticks)) {
+  if (!(ticks >= 0.0 && ticks <= kMaxDelay) || ticks != std::floor(ticks)) {
     throw std::invalid_argument("Commands are delayed by a whole number of ticks from 0 to " +
-                                std::to_string(kLongestDelay) + ".");
+                                std::to_string(kMaxDelay) + ".");
   }
   delay_ = static_cast<unsigned>(ticks);
   clear();

@@ -91,7 +91,7 @@ const std::array<double, 7>& ControlLaws::torques(const ControlTask& task,
   } else if (task.law_switch == LawSwitch::kFromZero) {
     blend_.lawStartsFromZero();
   }
-  const ControlUnitParameters& parameters = configuration_.parameters();
+  const ControlUnitParameters& parameters = configuration_->parameters();
   law_ = saturate(law(task, state, estimate), parameters.max_torque);
   motor_torques_ = blend_.apply(law_);
   if (task.mode != RobotMode::kMove && state.ddq_d != std::array<double, 7>{}) {
@@ -114,7 +114,7 @@ const std::array<double, 7>& ControlLaws::rest() noexcept {
 std::array<double, 7> ControlLaws::law(const ControlTask& task,
                                        const franka_core::RobotState& state,
                                        const Estimate& estimate) const noexcept {
-  const ControlUnitParameters& parameters = configuration_.parameters();
+  const ControlUnitParameters& parameters = configuration_->parameters();
   const auto joint_impedance = [&](const std::array<double, 7>& stiffness) {
     return JointImpedance(stiffness, parameters.rotor_inertia)
         .torque(state.q_d, state.dq_d, state.q, estimate.dq, estimate.dynamics.mass,
@@ -134,7 +134,7 @@ std::array<double, 7> ControlLaws::law(const ControlTask& task,
       return follow(measuredInput(parameters, state, estimate), state,
                     parameters.cartesian_stiffness);
     default:
-      return joint_impedance(configuration_.jointStiffness());
+      return joint_impedance(configuration_->jointStiffness());
   }
 }
 

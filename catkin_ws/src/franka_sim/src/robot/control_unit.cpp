@@ -34,7 +34,8 @@ constexpr bool kConfigures =
 
 }  // namespace
 
-// The parts refer to each other, so they must not move in memory.
+// The parts point to each other, so they must not move in memory; assigned to other parts, they
+// keep what they point to (FixedPointer).
 struct ControlUnit::Parts {
   explicit Parts(const ControlUnitParameters& parameters)
       : configuration(parameters),
@@ -92,6 +93,15 @@ ControlUnit::~ControlUnit() = default;
 ControlUnit::ControlUnit(ControlUnit&& other) noexcept = default;
 ControlUnit& ControlUnit::operator=(ControlUnit&& other) noexcept = default;
 
+ControlUnit::ControlUnit(const ControlUnit& other) : ControlUnit(other.configuration()) {
+  *parts_ = *other.parts_;
+}
+
+ControlUnit& ControlUnit::operator=(const ControlUnit& other) noexcept {
+  *parts_ = *other.parts_;
+  return *this;
+}
+
 const franka_core::RobotState& ControlUnit::observe(const ArmMeasurement& measurement) noexcept {
   parts_->estimator.update(measurement, parts_->supervisor.beginTick());
   parts_->supervisor.judge(parts_->laws.motorTorques());
@@ -113,6 +123,10 @@ const std::array<double, 7>& ControlUnit::actuate(
 }
 
 const franka_core::RobotState& ControlUnit::state() const noexcept { return parts_->state; }
+
+const franka_core::ArmDynamics& ControlUnit::dynamics() const noexcept {
+  return parts_->estimator.estimate().dynamics;
+}
 
 std::optional<Status> ControlUnit::request(const UnitRequest& request) noexcept {
   return std::visit([this](const auto& what) { return parts_->handle(what); }, request);

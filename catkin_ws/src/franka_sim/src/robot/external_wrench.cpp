@@ -15,12 +15,12 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Vector7 = Eigen::Matrix<double, 7, 1>;
 
-constexpr double kSmallestSingularValue = 0.02;  // (decision 5)
+constexpr double kMinSingularValue = 0.02;  // (decision 5)
 
 // A symmetric matrix minus s^2 I is positive definite if and only if its eigenvalues exceed s^2.
 bool isSingular(const Matrix6& gram) noexcept {
   Matrix6 shifted = gram;
-  shifted.diagonal().array() -= kSmallestSingularValue * kSmallestSingularValue;
+  shifted.diagonal().array() -= kMinSingularValue * kMinSingularValue;
   return shifted.llt().info() != Eigen::Success;
 }
 
@@ -34,7 +34,8 @@ void ExternalWrench::update(const Transform& O_T_EE, const std::array<double, 42
   Eigen::Map<Eigen::Matrix3d>(O_R_K_.data()).noalias() = O_R_EE * K.topLeftCorner<3, 3>();
 
   // The origin of K moves with the end effector: v_K = v_EE + w x r.
-  Jacobian jacobian = Eigen::Map<const Jacobian>(J_EE.data());
+  jacobian_ = J_EE;
+  Eigen::Map<Jacobian> jacobian(jacobian_.data());
   const Eigen::Vector3d r = O_R_EE * K.topRightCorner<3, 1>();
   for (int i = 0; i < 7; i++) {
     const Eigen::Vector3d w = jacobian.block<3, 1>(3, i);
@@ -44,16 +45,19 @@ void ExternalWrench::update(const Transform& O_T_EE, const std::array<double, 42
   const Matrix6 gram = jacobian.lazyProduct(jacobian.transpose());
   singular_ = isSingular(gram);
   if (!singular_) {
-    Eigen::Map<Jacobian>(inverse_.data()) = gram.llt().solve(jacobian);
+    Eigen::Map<Matrix6>(factor_.data()) = gram.llt().matrixLLT();
   }
 }
 
 std::array<double, 6> ExternalWrench::inBase(const std::array<double, 7>& tau) const noexcept {
   std::array<double, 6> wrench{};
   if (!singular_) {
-    Eigen::Map<Vector6>(wrench.data()).noalias() =
-        Eigen::Map<const Jacobian>(inverse_.data())
+    const Eigen::Map<const Matrix6> factor(factor_.data());
+    Eigen::Map<Vector6> F(wrench.data());
+    F = Eigen::Map<const Jacobian>(jacobian_.data())
             .lazyProduct(Eigen::Map<const Vector7>(tau.data()));
+    factor.triangularView<Eigen::Lower>().solveInPlace(F);
+    factor.transpose().triangularView<Eigen::Upper>().solveInPlace(F);
   }
   return wrench;
 }

@@ -8,13 +8,12 @@ namespace franka_sim {
 
 namespace {
 
-constexpr double kLargestIntegral = 10.0;  // [N], chosen here: prevents windup of a stuck finger
+constexpr double kMaxIntegral = 10.0;  // [N], chosen here: prevents windup of a stuck finger
 
 }  // namespace
 
 double FingerForce::update(double error, double rate_error, double period) noexcept {
-  integral_ =
-      std::clamp(integral_ + gains_.i * error * period, -kLargestIntegral, kLargestIntegral);
+  integral_ = std::clamp(integral_ + gains_.i * error * period, -kMaxIntegral, kMaxIntegral);
   return gains_.p * error + integral_ + (gains_.d + kDriveDamping) * rate_error;
 }
 

@@ -13,10 +13,10 @@ namespace franka_sim {
 namespace {
 
 constexpr double kForceRise = 0.05;  // [s] until a grasp reaches its full force (chosen here)
-/// The desired width may lead by this [m] before fingers that stand still mean an obstacle (chosen
+/// Allowed lead of the desired width [m]; beyond it, fingers at standstill mean an obstacle (chosen
 /// here: free fingers follow much earlier).
-constexpr double kReportingLag = 1e-3;
-constexpr double kSlowest = 1e-5;  // [m/s]: slower counts as standing still (chosen here)
+constexpr double kMaxLead = 1e-3;
+constexpr double kMinSpeed = 1e-5;  // [m/s]: slower counts as standing still (chosen here)
 constexpr double kPressingDamping =
     20.0;  // [N s/m] at most: stable at 1 kHz for fingers from 0.015 kg on
 
@@ -222,11 +222,11 @@ bool GripperUnit::resting(double period) noexcept {
     standstill_.countFromNow();
   } else {
     // A slow command must not count as standstill.
-    threshold = std::min(threshold, std::max(0.25 * speed_, kSlowest));
+    threshold = std::min(threshold, std::max(0.25 * speed_, kMinSpeed));
   }
   // Motion of the fingers when an object is released is not yet the commanded motion.
   const bool commanded =
-      pressing_ || ramp_.arrived() || std::abs(ramp_.width() - width()) > kReportingLag;
+      pressing_ || ramp_.arrived() || std::abs(ramp_.width() - width()) > kMaxLead;
   return standstill_.update(measured_.dq[0] + measured_.dq[1], threshold, period, commanded);
 }
 

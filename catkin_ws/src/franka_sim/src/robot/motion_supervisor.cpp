@@ -32,9 +32,9 @@ constexpr int kClosingTicks = 100;
 
 MotionSupervisor::MotionSupervisor(const Configuration& configuration, StateEstimator& estimator,
                                    franka_core::RobotState& state) noexcept
-    : configuration_(configuration),
-      estimator_(estimator),
-      state_(state),
+    : configuration_(&configuration),
+      estimator_(&estimator),
+      state_(&state),
       safety_(configuration, estimator, state),
       generator_(motionLimitsOfProtocol(configuration.parameters().protocol_version)),
       torque_command_(configuration.parameters().max_torque) {
@@ -50,7 +50,7 @@ bool MotionSupervisor::controlledOutside() const noexcept {
 }
 
 const CollisionThresholds& MotionSupervisor::thresholds() const noexcept {
-  const ControlUnitParameters& parameters = configuration_.parameters();
+  const ControlUnitParameters& parameters = configuration_->parameters();
   return in_acceleration_ ? parameters.acceleration : parameters.nominal;
 }
 
@@ -62,9 +62,9 @@ const CollisionThresholds& MotionSupervisor::beginTick() noexcept {
 }
 
 void MotionSupervisor::judge(const std::array<double, 7>& motor_torques) noexcept {
-  const Estimate& estimate = estimator_.estimate();
+  const Estimate& estimate = estimator_->estimate();
   if (estimate.first) {
-    beginHere();
+    initializeFromMeasurement();
   } else if (mode() == RobotMode::kGuiding) {
     holdHere();
   }
@@ -76,11 +76,11 @@ void MotionSupervisor::judge(const std::array<double, 7>& motor_torques) noexcep
     }
     react();
   }
-  state_.control_command_success_rate = losses_.rate();
+  state_->control_command_success_rate = losses_.rate();
 }
 
 // Sets the stored poses of the present mode to the present pose.
-void MotionSupervisor::beginHere() noexcept {
+void MotionSupervisor::initializeFromMeasurement() noexcept {
   holdHere();
   guideFromHere();
   if (isMoving()) {
@@ -94,21 +94,22 @@ void MotionSupervisor::updateDesired() noexcept {
     return;
   }
   desired_stale_ = false;
-  const franka_core::ArmModel& model = configuration_.parameters().model;
-  state_.O_T_EE_d = model.pose(ArmFrame::kEndEffector, state_.q_d, state_.F_T_EE, state_.EE_T_K);
-  state_.O_T_EE_c = state_.O_T_EE_d;
-  state_.O_dP_EE_d.fill(0.0);
-  if (state_.dq_d != std::array<double, 7>{}) {
-    state_.O_dP_EE_d =
-        twist(model.zeroJacobian(ArmFrame::kEndEffector, state_.q_d, state_.F_T_EE, state_.EE_T_K),
-              state_.dq_d);
+  const franka_core::ArmModel& model = configuration_->parameters().model;
+  state_->O_T_EE_d =
+      model.pose(ArmFrame::kEndEffector, state_->q_d, state_->F_T_EE, state_->EE_T_K);
+  state_->O_T_EE_c = state_->O_T_EE_d;
+  state_->O_dP_EE_d.fill(0.0);
+  if (state_->dq_d != std::array<double, 7>{}) {
+    state_->O_dP_EE_d = twist(
+        model.zeroJacobian(ArmFrame::kEndEffector, state_->q_d, state_->F_T_EE, state_->EE_T_K),
+        state_->dq_d);
   }
-  state_.O_dP_EE_c = state_.O_dP_EE_d;
-  state_.O_ddP_EE_c.fill(0.0);
-  state_.elbow_d = elbowOf(state_.q_d);
-  state_.elbow_c = state_.elbow_d;
-  state_.delbow_c = {{state_.dq_d[2], 0.0}};
-  state_.ddelbow_c = {{state_.ddq_d[2], 0.0}};
+  state_->O_dP_EE_c = state_->O_dP_EE_d;
+  state_->O_ddP_EE_c.fill(0.0);
+  state_->elbow_d = elbowOf(state_->q_d);
+  state_->elbow_c = state_->elbow_d;
+  state_->delbow_c = {{state_->dq_d[2], 0.0}};
+  state_->ddelbow_c = {{state_->ddq_d[2], 0.0}};
 }
 
 // --- second half ---------------------------------------------------------------------------------
@@ -164,7 +165,7 @@ void MotionSupervisor::advanceMotion(const franka_core::RobotCommand* command) n
 }
 
 bool MotionSupervisor::advanceGenerator(const franka_core::RobotCommand* command) noexcept {
-  const MotionStep step = generator_.step(command, configuration_.parameters().model);
+  const MotionStep step = generator_.step(command, configuration_->parameters().model);
   if (step.errors) {
     safety_.raise(step.errors);
     return false;
@@ -182,7 +183,7 @@ bool MotionSupervisor::takeTorque(const franka_core::RobotCommand& command) noex
 
 void MotionSupervisor::finishMotion() noexcept {
   if (hasReflexes() && generates() && !controlledOutside() &&
-      deviates(state_, move_.max_goal_deviation)) {
+      deviates(*state_, move_.max_goal_deviation)) {
     safety_.raise(RobotError::kMaxGoalPoseDeviationViolation);
     react();
     return;
@@ -193,7 +194,7 @@ void MotionSupervisor::finishMotion() noexcept {
 void MotionSupervisor::advanceRest() noexcept {
   const bool reflex = mode() == RobotMode::kReflex || mode() == RobotMode::kAutomaticErrorRecovery;
   const RestSequence::Step step =
-      rest_.step(reflex, state_.q, estimator_.estimate().dq, brakingRate());
+      rest_.step(reflex, state_->q, estimator_->estimate().dq, brakingRate());
   switch (step) {
     case RestSequence::Step::kNone:
       break;
@@ -240,7 +241,7 @@ void MotionSupervisor::advanceBrakes() noexcept {
 }
 
 bool MotionSupervisor::standsStill() const noexcept {
-  const std::array<double, 7>& dq = estimator_.estimate().dq;
+  const std::array<double, 7>& dq = estimator_->estimate().dq;
   return std::all_of(dq.begin(), dq.end(), [](double v) { return std::abs(v) < kStandstill; });
 }
 
@@ -251,46 +252,46 @@ void MotionSupervisor::holdHere() noexcept {
   rest_.finish();
 }
 
-void MotionSupervisor::followArm() noexcept { showJoints(state_.q, {}, {}); }
+void MotionSupervisor::followArm() noexcept { showJoints(state_->q, {}, {}); }
 
 void MotionSupervisor::showJoints(const std::array<double, 7>& q, const std::array<double, 7>& dq,
                                   const std::array<double, 7>& ddq) noexcept {
-  state_.q_d = q;
-  state_.dq_d = dq;
-  state_.ddq_d = ddq;
+  state_->q_d = q;
+  state_->dq_d = dq;
+  state_->ddq_d = ddq;
   desired_stale_ = true;
 }
 
 void MotionSupervisor::guideFromHere() noexcept {
-  guiding_.O_T_EE = state_.O_T_EE;
-  guiding_.q = state_.q;
+  guiding_.O_T_EE = state_->O_T_EE;
+  guiding_.q = state_->q;
 }
 
 void MotionSupervisor::showDesired(const DesiredMotion& desired) noexcept {
-  state_.q_d = desired.q_d;
-  state_.dq_d = desired.dq_d;
-  state_.ddq_d = desired.ddq_d;
-  state_.O_T_EE_d = desired.O_T_EE_d;
-  state_.O_T_EE_c = desired.O_T_EE_c;
-  state_.O_dP_EE_d = desired.O_dP_EE_d;
-  state_.O_dP_EE_c = desired.O_dP_EE_c;
-  state_.O_ddP_EE_c = desired.O_ddP_EE_c;
-  state_.elbow_d = desired.elbow_d;
-  state_.elbow_c = desired.elbow_c;
-  state_.delbow_c = desired.delbow_c;
-  state_.ddelbow_c = desired.ddelbow_c;
+  state_->q_d = desired.q_d;
+  state_->dq_d = desired.dq_d;
+  state_->ddq_d = desired.ddq_d;
+  state_->O_T_EE_d = desired.O_T_EE_d;
+  state_->O_T_EE_c = desired.O_T_EE_c;
+  state_->O_dP_EE_d = desired.O_dP_EE_d;
+  state_->O_dP_EE_c = desired.O_dP_EE_c;
+  state_->O_ddP_EE_c = desired.O_ddP_EE_c;
+  state_->elbow_d = desired.elbow_d;
+  state_->elbow_c = desired.elbow_c;
+  state_->delbow_c = desired.delbow_c;
+  state_->ddelbow_c = desired.ddelbow_c;
   accelerating_ = desired.accelerating && !controlledOutside();  // (decision 15)
   desired_stale_ = false;
 }
 
 void MotionSupervisor::showModes() noexcept {
-  state_.robot_mode = mode();
-  state_.motion_generator_mode =
+  state_->robot_mode = mode();
+  state_->motion_generator_mode =
       isMoving() ? move_.motion_generator_mode : MotionGeneratorMode::kIdle;
-  state_.controller_mode = isMoving() ? move_.controller_mode : ControllerMode::kOther;
-  state_.control_command_success_rate = losses_.rate();
+  state_->controller_mode = isMoving() ? move_.controller_mode : ControllerMode::kOther;
+  state_->control_command_success_rate = losses_.rate();
   if (!isMoving()) {
-    state_.tau_J_d.fill(0.0);
+    state_->tau_J_d.fill(0.0);
   }
 }
 

@@ -19,7 +19,7 @@ namespace {
 
 // A generator needs an internal controller that follows it, or an external one; without a
 // generator, the controller must be external.
-bool goTogether(const codec::MoveRequest& request) noexcept {
+bool areCompatible(const codec::MoveRequest& request) noexcept {
   if (request.motion_generator_mode == MotionGeneratorMode::kIdle ||
       request.controller_mode == ControllerMode::kOther) {
     return false;
@@ -50,11 +50,11 @@ MotionSupervisor::Answer MotionSupervisor::handle(const OperatorMove& request) n
 
 MotionSupervisor::Answer MotionSupervisor::startMotion(const codec::MoveRequest& request) noexcept {
   const bool with_generator = request.motion_generator_mode != MotionGeneratorMode::kNone;
-  if (!estimator_.started() || mode() != RobotMode::kIdle ||
+  if (!estimator_->started() || mode() != RobotMode::kIdle ||
       (with_generator && rest_.isBraking())) {
     return Status::kCommandNotPossibleRejected;
   }
-  if (!goTogether(request) || !isDeviation(request.max_path_deviation) ||
+  if (!areCompatible(request) || !isDeviation(request.max_path_deviation) ||
       !isDeviation(request.max_goal_deviation)) {
     return Status::kInvalidArgumentRejected;
   }
@@ -72,7 +72,7 @@ MotionSupervisor::Answer MotionSupervisor::startMotion(const codec::MoveRequest&
   atRest();  // a torque motion may start while the arm still brakes
   move_ = request;
   answers_.motionBegins();
-  state_.reflex_reason.fill(false);
+  state_->reflex_reason.fill(false);
   change(ModeEvent::kMotionStarted);
   return Status::kMotionStarted;
 }
@@ -80,11 +80,11 @@ MotionSupervisor::Answer MotionSupervisor::startMotion(const codec::MoveRequest&
 MotionStartResult MotionSupervisor::startGenerator(const codec::MoveRequest& request) noexcept {
   MotionStart start;
   start.mode = request.motion_generator_mode;
-  start.q_d = state_.q_d;
-  start.F_T_EE = state_.F_T_EE;
+  start.q_d = state_->q_d;
+  start.F_T_EE = state_->F_T_EE;
   start.asynchronous = request.use_async_motion_generator;
   start.maximum_velocity = request.maximum_velocity;
-  return generator_.start(start, configuration_.parameters().model);
+  return generator_.start(start, configuration_->parameters().model);
 }
 
 MotionSupervisor::Answer MotionSupervisor::handle(const codec::StopMoveRequest& /*r*/) noexcept {
@@ -111,7 +111,7 @@ MotionSupervisor::Answer MotionSupervisor::handle(
 }
 
 MotionSupervisor::Answer MotionSupervisor::recover() noexcept {
-  if (beyondJointLimits(limits().arm, state_.q)) {
+  if (beyondJointLimits(limits().arm, state_->q)) {
     return Status::kManualErrorRecoveryRequiredRejected;
   }
   answers_.recoveryBegins();
@@ -123,7 +123,7 @@ MotionSupervisor::Answer MotionSupervisor::recover() noexcept {
 
 // Refused by the FCI outside Idle; ros_control may request it at any time.
 MotionSupervisor::Answer MotionSupervisor::recoverWithoutReflex() noexcept {
-  if (configuration_.parameters().rules != InterfaceRules::kFci) {
+  if (configuration_->parameters().rules != InterfaceRules::kFci) {
     clearErrors();
     return Status::kSuccess;
   }
@@ -177,7 +177,7 @@ MotionSupervisor::Answer MotionSupervisor::handle(const FciActivation& request) 
 // --- configuration -------------------------------------------------------------------------------
 
 bool MotionSupervisor::acceptsSetters() const noexcept {
-  return !isMoving() || acceptsSettersInMotion(configuration_.parameters().rules);
+  return !isMoving() || acceptsSettersInMotion(configuration_->parameters().rules);
 }
 
 MotionSupervisor::Answer MotionSupervisor::handle(
@@ -210,7 +210,7 @@ MotionSupervisor::Answer MotionSupervisor::handle(const SetVirtualWall& request)
 
 void MotionSupervisor::limitsChange() noexcept {
   generator_ =
-      MotionGenerator(motionLimitsOfProtocol(configuration_.parameters().protocol_version));
+      MotionGenerator(motionLimitsOfProtocol(configuration_->parameters().protocol_version));
 }
 
 UnitStatus MotionSupervisor::status() const noexcept {
@@ -220,7 +220,7 @@ UnitStatus MotionSupervisor::status() const noexcept {
   status.fci_active = fci_active_;
   status.settling = !rest_.isFinished() || mode() == RobotMode::kAutomaticErrorRecovery ||
                     modes_.closesBrakes() != brakes_closed_;
-  const std::array<double, 7>& dq = estimator_.estimate().dq;
+  const std::array<double, 7>& dq = estimator_->estimate().dq;
   status.resting =
       std::all_of(dq.begin(), dq.end(), [](double v) { return std::abs(v) <= kResting; });
   status.answers_at_rest = answers_.waitForRest();
@@ -236,7 +236,7 @@ void MotionSupervisor::restart() noexcept {
     endMotion(ModeEvent::kMotionEnded, Status::kAborted, false);
   }
   atRest();
-  forgetMotion();
+  clearMotionData();
   law_switch_ = LawSwitch::kNone;
   still_ticks_ = 0;
   brakes_closed_ = modes_.closesBrakes();
@@ -246,8 +246,8 @@ void MotionSupervisor::restart() noexcept {
 
 // Errors end a running motion.
 void MotionSupervisor::react() noexcept {
-  if (anyError(state_) && (isMoving() || mode() == RobotMode::kIdle)) {
-    state_.reflex_reason = state_.errors;
+  if (anyError(*state_) && (isMoving() || mode() == RobotMode::kIdle)) {
+    state_->reflex_reason = state_->errors;
     endMotion(ModeEvent::kError, Status::kReflexAborted, false);
   }
 }
@@ -285,14 +285,14 @@ bool MotionSupervisor::change(ModeEvent event) noexcept {
     return false;
   }
   law_switch_ = LawSwitch::kBlend;
-  forgetMotion();
+  clearMotionData();
   enter(before);
   showModes();
   return true;
 }
 
 // Commands, losses and accelerations belong to one motion.
-void MotionSupervisor::forgetMotion() noexcept {
+void MotionSupervisor::clearMotionData() noexcept {
   phase_.restart();
   accelerating_ = false;
   losses_.restart();
@@ -340,7 +340,7 @@ void MotionSupervisor::stopAndClose() noexcept {
   }
 }
 
-// A stop that is taken back while the arm still brakes goes on until the brakes are closed.
+// A stop that is released while the arm still brakes continues until the brakes are closed.
 void MotionSupervisor::leaveStop(ModeEvent event) noexcept {
   const bool braking = modes_.closesBrakes() && !brakes_closed_;
   if (!braking && change(event)) {
@@ -357,37 +357,37 @@ void MotionSupervisor::enterMove() noexcept {
     law_switch_ = LawSwitch::kFromZero;
   }
   safety_.motionBegins();
-  filter_.begin(state_);
+  filter_.begin(*state_);
 }
 
 // Leaves Idle again if the user stop is still pressed or an error remains.
 void MotionSupervisor::settle() noexcept {
   if (hasReflexes()) {
     // The shock of closing brakes and the forces of guiding are not collisions.
-    estimator_.clearContacts();
+    estimator_->clearContacts();
   }
   if (user_stop_) {
     change(ModeEvent::kUserStopPressed);
-  } else if (anyError(state_)) {
+  } else if (anyError(*state_)) {
     change(ModeEvent::kError);
   }
 }
 
 void MotionSupervisor::clearErrors() noexcept {
-  state_.errors.fill(false);
+  state_->errors.fill(false);
   safety_.clearCollisions();
-  estimator_.clearContacts();
+  estimator_->clearContacts();
 }
 
 // Brakes the desired motion; without one, the measured motion.
 void MotionSupervisor::brake() noexcept {
-  const bool desired = state_.motion_generator_mode != MotionGeneratorMode::kIdle &&
-                       state_.motion_generator_mode != MotionGeneratorMode::kNone &&
-                       state_.controller_mode != ControllerMode::kExternalController;
+  const bool desired = state_->motion_generator_mode != MotionGeneratorMode::kIdle &&
+                       state_->motion_generator_mode != MotionGeneratorMode::kNone &&
+                       state_->controller_mode != ControllerMode::kExternalController;
   if (desired || rest_.isBraking()) {
-    rest_.brake(state_.q_d, state_.dq_d, brakingRate());
+    rest_.brake(state_->q_d, state_->dq_d, brakingRate());
   } else {
-    rest_.brake(state_.q, estimator_.estimate().dq, brakingRate());
+    rest_.brake(state_->q, estimator_->estimate().dq, brakingRate());
   }
 }
 

@@ -77,7 +77,7 @@ void requirePayload(const franka_core::Payload& payload, const std::string& suff
 }
 
 void requireTransform(const Transform& transform, const std::string& name) {
-  require(isFrame(transform), name, "is no frame on the arm: " + frameFault(transform));
+  require(isFrame(transform), name, "is not a frame on the arm: " + frameFault(transform));
 }
 
 }  // namespace
@@ -155,8 +155,6 @@ void checkParameters(const ControlUnitParameters& parameters) {
           "must hold three numbers from 10 to 3000 N/m and three from 1 to 300 Nm/rad");
   require(parameters.protocol_version >= 3 && parameters.protocol_version <= 10, "protocol_version",
           "is " + std::to_string(parameters.protocol_version) + " but must be 3 to 10");
-  require(parameters.substeps >= 1, "substeps",
-          "is " + std::to_string(parameters.substeps) + " but must be 1 or more");
   require(std::all_of(parameters.gravity.begin(), parameters.gravity.end(),
                       [](double g) { return std::abs(g) <= kMaxGravity; }),
           "gravity_vector", "must hold three numbers of at most 100 m/s^2");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/robot/realism.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <sstream>
@@ -58,7 +59,7 @@ bool applyPart(const std::string& name, const std::string& value, Realism& reali
 
 bool applyChange(const std::string& name, const std::string& value, Realism& realism) {
   std::uint64_t number = 0;
-  if (name == "delay" && readNumber(value, kLongestCommandDelay, number)) {
+  if (name == "delay" && readNumber(value, kMaxCommandDelay, number)) {
     realism.delay = static_cast<unsigned>(number);
     return true;
   }
@@ -73,6 +74,15 @@ bool applyChange(const std::string& name, const std::string& value, Realism& rea
 }
 
 }  // namespace
+
+bool behaveAlike(const Realism& one, const Realism& other) {
+  const bool same_parts = std::all_of(kParts.begin(), kParts.end(), [&](const Part& part) {
+    return one.*part.member == other.*part.member;
+  });
+  const bool draws = one.noise || one.model_error;
+  return same_parts && one.delay == other.delay && one.file == other.file &&
+         (!draws || one.seed == other.seed);
+}
 
 Realism readRealism(const std::string& text, const char* profile) {
   Realism realism;

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kSelfTestPeriod = 86400.0;  // [s] (decision 54)
 
-// Translations, rotations and elbow that a person may move.
+// Translations, rotations and elbow that the operator may move.
 std::array<bool, 7> axesOf(GuidingMode mode, const std::array<bool, 7>& chosen) noexcept {
   switch (mode) {
     case GuidingMode::kTranslation:
@@ -39,27 +39,19 @@ bool any(const std::array<bool, 7>& joints) noexcept {
 void SafetyController::start(SafetyRules rules) noexcept {
   rules_ = rules;
   state_ = SafetyState{};
-  brakes_ = BrakeMotion::kNone;
-  unit_.request(UserStop{false});
-  unit_.request(FciActivation{!ruled()});
-  unit_.request(Brakes{ruled()});
+  moveBrakes(BrakeMotion::kNone);
+  unit_->request(UserStop{false});
+  unit_->request(FciActivation{!ruled()});
+  unit_->request(Brakes{ruled()});
   state_.brakes_closed.fill(ruled());
 }
 
-void SafetyController::setPower(bool on) noexcept {
-  if (on == state_.power) {
-    return;
-  }
-  if (on) {
-    start(rules_);
-    return;
-  }
+void SafetyController::switchOff() noexcept {
   deactivateFci();
-  unit_.request(Guiding{false});
-  unit_.request(Brakes{true});
+  unit_->request(Guiding{false});
+  unit_->request(Brakes{true});
   state_.brakes_closed.fill(true);
-  state_.brakes_moving = false;
-  brakes_ = BrakeMotion::kNone;
+  moveBrakes(BrakeMotion::kNone);
   state_.self_test = false;
   state_.power = false;
 }
@@ -86,35 +78,39 @@ Refusal SafetyController::refusalOfMotors() const noexcept {
                                                    : Refusal::kNone;
 }
 
+void SafetyController::moveBrakes(BrakeMotion motion) noexcept {
+  brakes_ = motion;
+  since_ = 0.0;
+  state_.brakes_moving = motion != BrakeMotion::kNone;
+}
+
 Refusal SafetyController::unlock() noexcept {
   const Refusal refusal = refusalOfMotors();
   if (refusal != Refusal::kNone) {
     return refusal;
   }
   if (!ruled()) {
-    unit_.request(Brakes{false});
+    unit_->request(Brakes{false});
   } else if (brakesClosed() && brakes_ != BrakeMotion::kOpening) {
-    brakes_ = BrakeMotion::kOpening;
-    since_ = 0.0;
-    state_.brakes_moving = true;
+    moveBrakes(BrakeMotion::kOpening);
   }
   return Refusal::kNone;
 }
 
 void SafetyController::lock() noexcept {
-  deactivateFci();
+  if (ruled()) {
+    deactivateFci();
+  }
   closeBrakes();
 }
 
 // The motors bring the arm to rest before the unit closes its brakes.
 void SafetyController::closeBrakes() noexcept {
-  unit_.request(Brakes{true});
+  unit_->request(Brakes{true});
   const bool all = std::all_of(state_.brakes_closed.begin(), state_.brakes_closed.end(),
                                [](bool closed) { return closed; });
   if (ruled() && !all && brakes_ != BrakeMotion::kClosing) {
-    brakes_ = BrakeMotion::kClosing;
-    since_ = 0.0;
-    state_.brakes_moving = true;
+    moveBrakes(BrakeMotion::kClosing);
   }
 }
 
@@ -123,7 +119,7 @@ void SafetyController::advanceBrakes() noexcept {
     return;
   }
   const bool closing = brakes_ == BrakeMotion::kClosing;
-  if (closing && !unit_.status().brakes_closed) {
+  if (closing && !unit_->status().brakes_closed) {
     return;  // the arm still brakes
   }
   since_ += kTick;
@@ -134,10 +130,9 @@ void SafetyController::advanceBrakes() noexcept {
   if (moved < state_.brakes_closed.size()) {
     return;
   }
-  brakes_ = BrakeMotion::kNone;
-  state_.brakes_moving = false;
+  moveBrakes(BrakeMotion::kNone);
   if (!closing) {
-    unit_.request(Brakes{false});
+    unit_->request(Brakes{false});
   }
 }
 
@@ -154,17 +149,17 @@ Refusal SafetyController::activateFci() noexcept {
       refusal = Refusal::kWrongOperatingMode;
     } else if (stopPressed()) {
       refusal = Refusal::kEmergencyStopPressed;
-    } else if (!fciActive() && unit_.state().robot_mode == RobotMode::kMove) {
+    } else if (!fciActive() && unit_->state().robot_mode == RobotMode::kMove) {
       refusal = Refusal::kMotionActive;
     }
   }
   if (refusal == Refusal::kNone) {
-    unit_.request(FciActivation{true});
+    unit_->request(FciActivation{true});
   }
   return refusal;
 }
 
-void SafetyController::deactivateFci() noexcept { unit_.request(FciActivation{false}); }
+void SafetyController::deactivateFci() noexcept { unit_->request(FciActivation{false}); }
 
 Refusal SafetyController::setOperatingMode(OperatingMode mode) noexcept {
   if (mode == state_.mode) {
@@ -193,9 +188,9 @@ Refusal SafetyController::allowsOperatorMotion() const noexcept {
   if (stopPressed()) {
     return Refusal::kEmergencyStopPressed;
   }
-  const bool client = ruled() && fciActive();  // the FCI has the arm for itself
-  return client || unit_.state().robot_mode == RobotMode::kMove ? Refusal::kMotionActive
-                                                                : Refusal::kNone;
+  const bool client = ruled() && fciActive();  // the FCI has exclusive control of the arm
+  return client || unit_->state().robot_mode == RobotMode::kMove ? Refusal::kMotionActive
+                                                                 : Refusal::kNone;
 }
 
 bool SafetyController::handServed() const noexcept {
@@ -219,6 +214,14 @@ void SafetyController::press(SafetyInput input, bool pressed) noexcept {
   }
 }
 
+void SafetyController::pressUserStop(bool pressed) noexcept {
+  if (ruled()) {
+    press(fr3_ ? SafetyInput::kX31 : SafetyInput::kX4, pressed);
+  } else {
+    unit_->request(UserStop{pressed});
+  }
+}
+
 bool SafetyController::stopPressed() const noexcept {
   return fr3_ ? state_.pressed(SafetyInput::kX31) || state_.pressed(SafetyInput::kX32) ||
                     state_.pressed(SafetyInput::kX33)
@@ -228,10 +231,10 @@ bool SafetyController::stopPressed() const noexcept {
 // A Panda may be guided while its activation device is pressed; the unit cannot guide while it is
 // stopped.
 void SafetyController::applyStops() noexcept {
-  const bool guided = !fr3_ && unit_.state().robot_mode == RobotMode::kGuiding;
+  const bool guided = !fr3_ && unit_->state().robot_mode == RobotMode::kGuiding;
   const bool stop = (stopPressed() && !guided) || (!fr3_ && state_.conflicting_inputs);
-  if (stop != unit_.status().user_stop_pressed) {
-    unit_.request(UserStop{stop});
+  if (stop != unit_->status().user_stop_pressed) {
+    unit_->request(UserStop{stop});
   }
   if (guided && !stopPressed()) {
     guide(false);
@@ -242,7 +245,7 @@ Refusal SafetyController::guide(bool active) noexcept {
   state_.inputs[static_cast<std::size_t>(SafetyInput::kGuidingButton)] = active;
   if (!active) {
     state_.conflicting_inputs = state_.conflicting_inputs && !fr3_;
-    unit_.request(Guiding{false});
+    unit_->request(Guiding{false});
     if (ruled()) {
       applyStops();
     }
@@ -258,11 +261,11 @@ Refusal SafetyController::guide(bool active) noexcept {
       state_.conflicting_inputs = true;
       refusal = Refusal::kWrongOperatingMode;
     } else {
-      unit_.request(UserStop{false});
+      unit_->request(UserStop{false});
     }
   }
   if (refusal == Refusal::kNone) {
-    unit_.request(Guiding{true});
+    unit_->request(Guiding{true});
   } else if (ruled()) {
     applyStops();
   }
@@ -275,7 +278,7 @@ Refusal SafetyController::setGuidingMode(GuidingMode mode,
   franka_core::fci::SetGuidingModeRequest request;
   std::copy_n(free.begin(), request.guiding_mode.size(), request.guiding_mode.begin());
   request.nullspace = free.back();
-  if (unit_.request(request) != Status::kSuccess) {
+  if (unit_->request(request) != Status::kSuccess) {
     return Refusal::kMotionActive;
   }
   state_.guiding_mode = mode;
@@ -291,9 +294,8 @@ Refusal SafetyController::startSelfTest() noexcept {
     return refusal;
   }
   deactivateFci();
-  unit_.request(Brakes{true});
-  brakes_ = BrakeMotion::kNone;
-  state_.brakes_moving = false;
+  unit_->request(Brakes{true});
+  moveBrakes(BrakeMotion::kNone);
   state_.brakes_closed.fill(true);
   state_.self_test = true;
   state_.self_test_left = self_test_time_;
@@ -309,8 +311,8 @@ void SafetyController::advanceSelfTest() noexcept {
   state_.self_test_left = 0.0;
   state_.self_test_due = kSelfTestPeriod;
   if (!ruled()) {
-    unit_.request(Brakes{false});
-    unit_.request(FciActivation{true});
+    unit_->request(Brakes{false});
+    unit_->request(FciActivation{true});
   }
 }
 
@@ -379,12 +381,12 @@ void SafetyController::step() noexcept {
     advanceBrakes();
   }
   if (!ruled()) {
-    state_.brakes_closed.fill(unit_.status().brakes_closed);
+    state_.brakes_closed.fill(unit_->status().brakes_closed);
   }
 }
 
 Light SafetyController::light() const noexcept {
-  const RobotMode mode = unit_.state().robot_mode;
+  const RobotMode mode = unit_->state().robot_mode;
   const bool failed = anyRecoverable() || any(state_.demanded[0]) || any(state_.demanded[1]) ||
                       mode == RobotMode::kReflex || mode == RobotMode::kAutomaticErrorRecovery;
   if (!state_.power || state_.self_test) {
@@ -424,7 +426,7 @@ constexpr std::array<RefusalWords, 10> kRefusals{{
     {"SelfTestRunning", "The self-test runs; wait for its end."},
     {"RecoverableErrorActive", "An error of the safety controller is active; acknowledge it."},
     {"JointRecoveryRequired",
-     "A joint must be recovered by a person: press the enabling device X4, then acknowledge."},
+     "A joint needs manual recovery: press the enabling device X4, then acknowledge."},
     {"WrongOperatingMode", "The operating mode, or the activation device, does not allow this."},
     {"MotionActive", "A motion runs, or the FCI is active; end it first."},
     {"NoAckRequired", "There is nothing to acknowledge."},

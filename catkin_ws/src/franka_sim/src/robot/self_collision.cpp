@@ -13,7 +13,7 @@ namespace franka_sim {
 namespace {
 
 constexpr double kHalfRoot = 0.70710678118654752440;  // cos and sin of 45 degrees
-constexpr double kJitter = 1e-4;  // [m], chosen here: allowed growth of an overlap at rest
+constexpr double kOverlapJitter = 1e-4;  // [m], chosen here: allowed growth of an overlap at rest
 
 struct Ends {
   Eigen::Vector3d from, to;
@@ -23,6 +23,10 @@ constexpr bool canMeet(int a, int b) noexcept {
   const int low = a < b ? a : b;
   const int high = a < b ? b : a;
   return high - low >= 2 && !(low == 1 && high == 3);
+}
+
+double translationOf(const std::array<double, 16>& transform) noexcept {
+  return Eigen::Vector3d(&transform[12]).norm();
 }
 
 // The capsules in O.
@@ -115,6 +119,36 @@ void SelfCollision::measure(const franka_core::ArmModel& model,
   }
 }
 
+void SelfCollision::fitReaches(const franka_core::ArmModel& model) noexcept {
+  reaches_.fill(0.0);
+  for (const Capsule& capsule : kCapsules) {
+    double reach = std::max(Eigen::Vector3d(capsule.from.data()).norm(),
+                            Eigen::Vector3d(capsule.to.data()).norm());
+    int link = capsule.link;
+    if (link == kHandLink) {
+      reach += translationOf(model.flange());
+      link = 7;
+    }
+    for (auto joint = static_cast<std::size_t>(link); joint-- > 0;) {
+      reaches_[joint] = std::max(reaches_[joint], reach);
+      reach += translationOf(model.links()[joint].origin);
+    }
+  }
+}
+
+void SelfCollision::keepFreeWay(const std::array<double, 7>& q) noexcept {
+  free_q_ = q;
+  free_way_ = *std::min_element(distance_.begin(), distance_.end()) - kOverlapJitter;
+}
+
+bool SelfCollision::isWithinFreeWay(const std::array<double, 7>& q) const noexcept {
+  double way = 0.0;
+  for (std::size_t i = 0; i < q.size(); i++) {
+    way += reaches_[i] * std::abs(q[i] - free_q_[i]);
+  }
+  return way < free_way_;
+}
+
 SelfCollision::Pair SelfCollision::closest(const franka_core::ArmModel& model,
                                            const std::array<double, 7>& q) noexcept {
   measure(model, q);
@@ -132,23 +166,29 @@ SelfCollision::Pair SelfCollision::closest(const franka_core::ArmModel& model,
 
 void SelfCollision::begin(const franka_core::ArmModel& model,
                           const std::array<double, 7>& q) noexcept {
+  fitReaches(model);
   measure(model, q);
   for (std::size_t pair = 0; pair < kPairs; pair++) {
-    allowed_[pair] = std::min(0.0, distance_[pair] - kJitter);
+    allowed_[pair] = std::min(0.0, distance_[pair] - kOverlapJitter);
   }
+  keepFreeWay(q);
 }
 
 bool SelfCollision::violated(const franka_core::ArmModel& model,
                              const std::array<double, 7>& q) noexcept {
+  if (isWithinFreeWay(q)) {
+    return false;
+  }
   measure(model, q);
+  keepFreeWay(q);
   std::size_t pair = 0;
   for (std::size_t i = 0; i < kCapsuleCount; i++) {
     for (std::size_t j = i + 1; j < kCapsuleCount; j++, pair++) {
       if (distance_[pair] < allowed_[pair]) {
-        culprit_ = {kCapsules[i].link, kCapsules[j].link, distance_[pair]};
+        overlapping_pair_ = {kCapsules[i].link, kCapsules[j].link, distance_[pair]};
         return true;
       }
-      allowed_[pair] = std::min(0.0, std::max(allowed_[pair], distance_[pair] - kJitter));
+      allowed_[pair] = std::min(0.0, std::max(allowed_[pair], distance_[pair] - kOverlapJitter));
     }
   }
   return false;

@@ -38,22 +38,22 @@ void StateEstimator::update(const ArmMeasurement& measurement,
   estimate_.measured = good && continuous_;
   started_ = true;
   continuous_ = good;
-  const ArmMeasurement now = good ? measurement : restingAt(state_.q);
+  const ArmMeasurement now = good ? measurement : restingAt(state_->q);
   const std::array<double, 7> dq_before = estimate_.measured ? estimate_.dq : now.dq;
 
-  const ControlUnitParameters& parameters = configuration_.parameters();
-  state_.message_id++;
-  state_.q = now.q;
+  const ControlUnitParameters& parameters = configuration_->parameters();
+  state_->message_id++;
+  state_->q = now.q;
   estimate_.dq = now.dq;
-  state_.dq = noise_.velocities(now.dq);
-  parameters.model.computeDynamics(ArmFrame::kEndEffector, now.q, now.dq, state_.F_T_EE,
-                                   state_.EE_T_K, configuration_.payload(), parameters.gravity,
+  state_->dq = noise_.velocities(now.dq);
+  parameters.model.computeDynamics(ArmFrame::kEndEffector, now.q, now.dq, state_->F_T_EE,
+                                   state_->EE_T_K, configuration_->payload(), parameters.gravity,
                                    estimate_.dynamics);
-  state_.O_T_EE = estimate_.dynamics.pose;
-  state_.elbow = elbowOf(now.q);
+  state_->O_T_EE = estimate_.dynamics.pose;
+  state_->elbow = elbowOf(now.q);
   estimate_.O_dP_EE = twist(estimate_.dynamics.zero_jacobian, now.dq);
   if (estimate_.first) {
-    state_.tau_J = estimate_.dynamics.gravity;
+    state_->tau_J = estimate_.dynamics.gravity;
   }
   updateTorques(now);
   updateContacts(thresholds);
@@ -65,39 +65,40 @@ void StateEstimator::updateTorques(const ArmMeasurement& measurement) noexcept {
   const std::array<double, 7> tau_J = noise_.torques(estimate_.tau_J);
   std::array<double, 7> difference;
   for (std::size_t i = 0; i < 7; i++) {
-    difference[i] = (tau_J[i] - state_.tau_J[i]) / kTick;
+    difference[i] = (tau_J[i] - state_->tau_J[i]) / kTick;
   }
-  state_.tau_J = tau_J;
-  state_.dtau_J = dtau_J_filter_.update(difference);
+  state_->tau_J = tau_J;
+  state_->dtau_J = dtau_J_filter_.update(difference);
   for (std::size_t i = 0; i < 7; i++) {
-    state_.theta[i] = state_.q[i] + state_.tau_J[i] / kJointElasticity;
-    state_.dtheta[i] = state_.dq[i] + state_.dtau_J[i] / kJointElasticity;
+    state_->theta[i] = state_->q[i] + state_->tau_J[i] / kJointElasticity;
+    state_->dtheta[i] = state_->dq[i] + state_->dtau_J[i] / kJointElasticity;
   }
   if (estimate_.measured) {
-    const ControlUnitParameters& parameters = configuration_.parameters();
-    estimate_.tau_ext =
-        external_torque_.update(parameters.model, configuration_.payload(), parameters.gravity,
-                                {measurement.q, measurement.dq, tau_J});
+    const ControlUnitParameters& parameters = configuration_->parameters();
+    estimate_.tau_ext = external_torque_.update(
+        parameters.model, configuration_->payload(), parameters.gravity,
+        {measurement.q, measurement.dq, tau_J, measurement.substeps}, estimate_.dynamics);
   } else {
     estimate_.tau_ext.fill(0.0);
-    external_torque_.restart(measurement);
+    external_torque_.restart(configuration_->payload(), measurement, estimate_.dynamics);
   }
-  state_.tau_ext_hat_filtered = tau_ext_filter_.update(estimate_.tau_ext);
+  state_->tau_ext_hat_filtered = tau_ext_filter_.update(estimate_.tau_ext);
 }
 
 void StateEstimator::updateContacts(const CollisionThresholds& thresholds) noexcept {
-  external_wrench_.update(estimate_.dynamics.pose, estimate_.dynamics.zero_jacobian, state_.EE_T_K);
-  state_.O_F_ext_hat_K = external_wrench_.inBase(state_.tau_ext_hat_filtered);
-  state_.K_F_ext_hat_K = external_wrench_.inStiffness(state_.O_F_ext_hat_K);
+  external_wrench_.update(estimate_.dynamics.pose, estimate_.dynamics.zero_jacobian,
+                          state_->EE_T_K);
+  state_->O_F_ext_hat_K = external_wrench_.inBase(state_->tau_ext_hat_filtered);
+  state_->K_F_ext_hat_K = external_wrench_.inStiffness(state_->O_F_ext_hat_K);
 
-  const bool in_base = judgesWrenchInBase(configuration_.parameters().rules);
-  if (!configuration_.hasReflexes()) {
+  const bool in_base = judgesWrenchInBase(configuration_->parameters().rules);
+  if (!configuration_->hasReflexes()) {
     // Without reflexes: the manual's formulas, applied to the published values (decision 48).
-    const std::array<double, 6>& shown = in_base ? state_.O_F_ext_hat_K : state_.K_F_ext_hat_K;
-    state_.joint_contact = above(state_.tau_ext_hat_filtered, thresholds.lower_torque);
-    state_.joint_collision = above(state_.tau_ext_hat_filtered, thresholds.upper_torque);
-    state_.cartesian_contact = above(shown, thresholds.lower_force);
-    state_.cartesian_collision = above(shown, thresholds.upper_force);
+    const std::array<double, 6>& shown = in_base ? state_->O_F_ext_hat_K : state_->K_F_ext_hat_K;
+    state_->joint_contact = above(state_->tau_ext_hat_filtered, thresholds.lower_torque);
+    state_->joint_collision = above(state_->tau_ext_hat_filtered, thresholds.upper_torque);
+    state_->cartesian_contact = above(shown, thresholds.lower_force);
+    state_->cartesian_collision = above(shown, thresholds.upper_force);
     return;
   }
   // The robot's reflexes use the unfiltered values, which have no delay.
@@ -107,10 +108,10 @@ void StateEstimator::updateContacts(const CollisionThresholds& thresholds) noexc
   }
   joint_contacts_.update(estimate_.tau_ext, thresholds.lower_torque, thresholds.upper_torque);
   cartesian_contacts_.update(estimate_.wrench, thresholds.lower_force, thresholds.upper_force);
-  state_.joint_contact = joint_contacts_.contact();
-  state_.joint_collision = joint_contacts_.collision();
-  state_.cartesian_contact = cartesian_contacts_.contact();
-  state_.cartesian_collision = cartesian_contacts_.collision();
+  state_->joint_contact = joint_contacts_.contact();
+  state_->joint_collision = joint_contacts_.collision();
+  state_->cartesian_contact = cartesian_contacts_.contact();
+  state_->cartesian_collision = cartesian_contacts_.collision();
 }
 
 void StateEstimator::updateAccelerometers(const std::array<double, 7>& dq_before) noexcept {
@@ -118,18 +119,18 @@ void StateEstimator::updateAccelerometers(const std::array<double, 7>& dq_before
   for (std::size_t i = 0; i < 7; i++) {
     ddq[i] = (estimate_.dq[i] - dq_before[i]) / kTick;
   }
-  const ControlUnitParameters& parameters = configuration_.parameters();
+  const ControlUnitParameters& parameters = configuration_->parameters();
   const LinkAccelerations readings =
-      linkAccelerations(parameters.model, state_.q, estimate_.dq, ddq, parameters.gravity);
-  state_.accelerometer_top = readings.top;
-  state_.accelerometer_bottom = readings.bottom;
+      linkAccelerations(parameters.model, state_->q, estimate_.dq, ddq, parameters.gravity);
+  state_->accelerometer_top = readings.top;
+  state_->accelerometer_bottom = readings.bottom;
 }
 
 void StateEstimator::clearContacts() noexcept {
   joint_contacts_.clear();
   cartesian_contacts_.clear();
-  state_.joint_collision.fill(0.0);
-  state_.cartesian_collision.fill(0.0);
+  state_->joint_collision.fill(0.0);
+  state_->cartesian_collision.fill(0.0);
 }
 
 void StateEstimator::restart() noexcept {

@@ -13,7 +13,7 @@ using franka_core::fci::CartesianLimit;
 
 namespace {
 
-constexpr double kJitter = 1e-4;  // [m], chosen here: allowed growth of the depth at rest
+constexpr double kDepthJitter = 1e-4;  // [m], chosen here: allowed growth of the depth at rest
 
 }  // namespace
 
@@ -51,7 +51,7 @@ double VirtualWalls::depth(const CartesianLimit& wall,
 
 void VirtualWalls::begin(const std::array<double, 16>& O_T_EE) noexcept {
   for (std::size_t i = 0; i < kCount; i++) {
-    allowed_[i] = walls_[i].active ? std::max(0.0, depth(walls_[i], O_T_EE) + kJitter) : 0.0;
+    allowed_[i] = walls_[i].active ? std::max(0.0, depth(walls_[i], O_T_EE) + kDepthJitter) : 0.0;
   }
 }
 
@@ -64,7 +64,7 @@ bool VirtualWalls::violated(const std::array<double, 16>& O_T_EE) noexcept {
     if (now > allowed_[i]) {
       return true;
     }
-    allowed_[i] = std::max(0.0, std::min(allowed_[i], now + kJitter));
+    allowed_[i] = std::max(0.0, std::min(allowed_[i], now + kDepthJitter));
   }
   return false;
 }

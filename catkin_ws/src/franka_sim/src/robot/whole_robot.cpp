@@ -1,10 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/fci/state_codec.h>
+#include <franka_sim/robot/protocols.h>
 #include <franka_sim/robot/tick.h>
 #include <franka_sim/robot/whole_robot.h>
 
-#include <cstring>
+#include <cstddef>
 #include <utility>
 
 namespace franka_sim {
@@ -14,7 +15,8 @@ namespace {
 // Force laws of the fingers: gains of the original's FrankaGripperSim (decision 29).
 constexpr FingerGains kFingerGains{100.0, 0.0, 1.0};
 
-constexpr unsigned kOldestFr3Version = 6;
+// A state's datagram begins with its id (protocol 4.1).
+constexpr std::size_t kMessageIdSize = 8;
 
 }  // namespace
 
@@ -22,17 +24,26 @@ WholeRobot::WholeRobot(const ControlUnitParameters& unit, ArmPlant& arm,
                        const std::optional<Hand>& hand,
                        const std::optional<VacuumGripperParameters>& vacuum, unsigned command_delay)
     : unit_(unit),
-      arm_(arm),
-      safety_(unit_, unit.protocol_version >= kOldestFr3Version),
-      operator_motion_(unit_) {
+      arm_(&arm),
+      safety_(unit_, unit.protocol_version >= protocolsOf("fr3").oldest),
+      operator_motion_(unit_),
+      hand_plant_(hand ? hand->plant : nullptr) {
   link_.setDelay(command_delay);
   if (hand) {
-    hand_plant_ = hand->plant;
     hand_.emplace(hand->parameters);
   }
   if (vacuum) {
     vacuum_.emplace(*vacuum);
   }
+}
+
+WholeRobot::WholeRobot(const WholeRobot& other)
+    : unit_(other.unit_),
+      arm_(other.arm_.get()),
+      safety_(unit_, other.safety_.isFr3()),
+      operator_motion_(unit_),
+      hand_plant_(other.hand_plant_.get()) {
+  *this = other;
 }
 
 void WholeRobot::halt() noexcept {
@@ -66,22 +77,26 @@ void WholeRobot::renew() {
 void WholeRobot::start(SafetyRules rules) noexcept {
   safety_.start(rules);
   if (hand_ && rules == SafetyRules::kDesk) {
-    hand_->forgetHoming();
+    hand_->invalidateHoming();
   }
 }
 
 void WholeRobot::setPower(bool on) {
-  const bool starts = on && !safety_.state().power;
-  safety_.setPower(on);
-  if (starts) {
+  if (on == safety_.state().power) {
+    return;
+  }
+  if (on) {
     renew();
-  } else if (!on && hand_) {
+    return;
+  }
+  safety_.switchOff();
+  if (hand_) {
     hand_->stop();
   }
 }
 
 void WholeRobot::observe() noexcept {
-  unit_.observe(arm_.measure());
+  unit_.observe(arm_->measure());
   if (hand_) {
     // The hand's state is shown even while time stands still.
     hand_->observe(hand_plant_->measure());
@@ -99,8 +114,8 @@ void WholeRobot::actuate(const franka_core::RobotCommand* command) noexcept {
     updateHash();
   }
   const std::array<double, 7>& torque = unit_.actuate(passed);
-  arm_.setBrakes(unit_.status().brakes_closed);
-  arm_.applyTorques(torque);
+  arm_->setBrakes(unit_.status().brakes_closed);
+  arm_->applyTorques(torque);
   if (hand_) {
     hand_plant_->applyForces(hand_->step(hand_plant_->measure(), kTick));
   }
@@ -110,21 +125,10 @@ void WholeRobot::actuate(const franka_core::RobotCommand* command) noexcept {
 }
 
 void WholeRobot::updateHash() noexcept {
-  franka_core::RobotState state = unit_.state();
-  state.message_id = 0;
   franka_core::fci::StateBuffer bytes;
-  if (franka_core::fci::encodeState(9, state, bytes) != franka_core::fci::CodecError::kNone) {
-    return;
-  }
-  // Eight bytes at a time; the remaining bytes one by one.
-  std::size_t i = 0;
-  for (; i + sizeof(std::uint64_t) <= bytes.size(); i += sizeof(std::uint64_t)) {
-    std::uint64_t word;
-    std::memcpy(&word, &bytes[i], sizeof(word));
-    hash_.addWord(word, 32);
-  }
-  for (; i < bytes.size(); i++) {
-    hash_.addByte(bytes[i]);
+  if (franka_core::fci::encodeState(9, unit_.state(), bytes) ==
+      franka_core::fci::CodecError::kNone) {
+    hash_.addBytes(bytes.data() + kMessageIdSize, bytes.size() - kMessageIdSize);
   }
 }
 

@@ -11,6 +11,16 @@
 
 namespace franka_sim {
 
+namespace {
+
+/// Ticks of all worlds together between two checks whether a step continues, some 80 ms of a core,
+/// and the bounds of those of one world (chosen here).
+constexpr std::uint64_t kTicksOfAll = 4000;
+constexpr std::uint64_t kMinTicks = 50;
+constexpr std::uint64_t kMaxTicks = 1000;
+
+}  // namespace
+
 class SimulationBatch::Threads {
  public:
   explicit Threads(int number) : arena_(std::min(number, tbb::info::default_concurrency())) {}
@@ -31,8 +41,8 @@ SimulationBatch::SimulationBatch(std::vector<Simulation*> simulations, int threa
   if (simulations_.empty()) {
     throw std::invalid_argument("A batch needs at least one simulation.");
   }
-  if (threads < 1 || threads > kMostThreads) {
-    throw std::invalid_argument("A batch runs on 1 to " + std::to_string(kMostThreads) +
+  if (threads < 1 || threads > kMaxThreads) {
+    throw std::invalid_argument("A batch runs on 1 to " + std::to_string(kMaxThreads) +
                                 " threads, not on " + std::to_string(threads) + ".");
   }
   for (Simulation* simulation : simulations_) {
@@ -47,20 +57,25 @@ SimulationBatch::SimulationBatch(std::vector<Simulation*> simulations, int threa
 SimulationBatch::~SimulationBatch() = default;
 
 template <typename Function>
-void SimulationBatch::forEach(Function function) {
+void SimulationBatch::forEach(Faults& faults, const Function& function) {
   if (getpid() != process_) {
     throw std::runtime_error(
         "This batch was made before the process was forked and has no threads here; make one in "
         "the new process.");
   }
-  std::vector<std::string> faults(simulations_.size());
   threads_->run(simulations_.size(), [&](std::size_t i) {
+    if (!faults[i].empty()) {
+      return;
+    }
     try {
       function(i);
     } catch (const std::exception& error) {
       faults[i] = error.what();
     }
   });
+}
+
+void SimulationBatch::report(const Faults& faults) {
   std::string text;
   for (std::size_t i = 0; i < faults.size(); i++) {
     if (!faults[i].empty()) {
@@ -72,21 +87,48 @@ void SimulationBatch::forEach(Function function) {
   }
 }
 
-void SimulationBatch::step(std::uint64_t ticks) {
-  forEach([this, ticks](std::size_t i) {
-    const auto see = [&] { observers_[i].read(&observations_[i * row_size_]); };
-    try {
-      simulations_[i]->step(ticks);
-    } catch (...) {
-      see();
-      throw;
-    }
+void SimulationBatch::advance(std::size_t number, std::uint64_t ticks) {
+  const auto see = [&] { observers_[number].read(&observations_[number * row_size_]); };
+  try {
+    simulations_[number]->step(ticks);
+  } catch (...) {
     see();
-  });
+    throw;
+  }
+  see();
+}
+
+void SimulationBatch::step(std::uint64_t ticks, const std::function<bool()>& keep_stepping) {
+  const std::uint64_t part =
+      std::clamp<std::uint64_t>(kTicksOfAll / simulations_.size(), kMinTicks, kMaxTicks);
+  Faults faults(simulations_.size());
+  do {
+    const std::uint64_t next = std::min(ticks, part);
+    forEach(faults, [&](std::size_t i) { advance(i, next); });
+    ticks -= next;
+  } while (ticks > 0 && (!keep_stepping || keep_stepping()));
+  report(faults);
 }
 
 void SimulationBatch::observe() {
-  forEach([this](std::size_t i) { observers_[i].read(&observations_[i * row_size_]); });
+  Faults faults(simulations_.size());
+  forEach(faults, [this](std::size_t i) { observers_[i].read(&observations_[i * row_size_]); });
+  report(faults);
+}
+
+void SimulationBatch::replace(std::size_t number, Simulation& simulation) {
+  if (number >= simulations_.size()) {
+    throw std::invalid_argument("There is no world " + std::to_string(number) + "; the batch has " +
+                                std::to_string(simulations_.size()) + ".");
+  }
+  const auto present = std::find(simulations_.begin(), simulations_.end(), &simulation);
+  if (present != simulations_.end()) {
+    throw std::invalid_argument("This simulation is already world " +
+                                std::to_string(present - simulations_.begin()) + " of the batch.");
+  }
+  observers_[number] = Observer(simulation, observers_[number].names());
+  simulations_[number] = &simulation;
+  observers_[number].read(&observations_[number * row_size_]);
 }
 
 }  // namespace franka_sim

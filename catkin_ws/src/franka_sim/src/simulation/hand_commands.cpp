@@ -83,7 +83,7 @@ Reply execute(GripperUnit& hand, const Words& words) {
     return outcomeOf(hand, hand.grasp(width, kGraspTolerance, kGraspTolerance, speed, force),
                      "Nothing of that width has been grasped.");
   }
-  throw std::invalid_argument("'" + command + "' is none of homing, stop, move and grasp.");
+  throw std::invalid_argument("'" + command + "' must be one of homing, stop, move and grasp.");
 }
 
 }  // namespace

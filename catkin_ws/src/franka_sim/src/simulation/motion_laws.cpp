@@ -21,12 +21,13 @@ constexpr std::array<double, 7> kJointSpring{600, 600, 600, 600, 250, 150, 50}; 
 constexpr std::array<double, 6> kCartesianSpring{2000, 2000, 2000, 100, 100, 100};
 constexpr double kNullspaceSpring = 10.0;  // [Nm/rad]
 
-franka_core::ArmDynamics dynamicsOf(const RobotState& state, const ControlUnitParameters& unit) {
-  franka_core::ArmDynamics dynamics;
-  const franka_core::Payload payload{state.m_total, state.F_x_Ctotal, state.I_total};
-  unit.model.computeDynamics(franka_core::ArmFrame::kEndEffector, state.q, state.dq, state.F_T_EE,
-                             state.EE_T_K, payload, state.O_ddP_O, dynamics);
-  return dynamics;
+// A client of the robot sees velocities with their noise, the robot itself without.
+std::array<double, 7> coriolisOf(const RobotState& state, const ControlUnitParameters& unit,
+                                 const franka_core::ArmDynamics& dynamics) noexcept {
+  if (unit.sensors.dq_noise == std::array<double, 7>{}) {
+    return dynamics.coriolis;
+  }
+  return unit.model.coriolis(state.q, state.dq, {state.m_total, state.F_x_Ctotal, state.I_total});
 }
 
 // Of a motion of this duration, after this time.
@@ -52,8 +53,8 @@ void JointLaw::setTarget(const std::array<double, 7>& q, double duration,
   motion_ = motion;
 }
 
-std::array<double, 7> JointLaw::torque(const RobotState& state,
-                                       const ControlUnitParameters& unit) noexcept {
+std::array<double, 7> JointLaw::torque(const RobotState& state, const ControlUnitParameters& unit,
+                                       const franka_core::ArmDynamics& dynamics) noexcept {
   time_ = std::min(time_ + kTick, duration_);
   const double share = shareOf(time_, duration_, motion_);
   std::array<double, 7> dq_d;
@@ -62,9 +63,8 @@ std::array<double, 7> JointLaw::torque(const RobotState& state,
     dq_d[i] = duration_ > 0.0 ? (next - desired_[i]) / kTick : 0.0;
     desired_[i] = next;
   }
-  const franka_core::ArmDynamics dynamics = dynamicsOf(state, unit);
   return JointImpedance(stiffness_, unit.rotor_inertia)
-      .torque(desired_, dq_d, state.q, state.dq, dynamics.mass, dynamics.coriolis);
+      .torque(desired_, dq_d, state.q, state.dq, dynamics.mass, coriolisOf(state, unit, dynamics));
 }
 
 CartesianLaw::CartesianLaw(const RobotState& state) noexcept
@@ -98,10 +98,10 @@ void CartesianLaw::advance() noexcept {
 }
 
 std::array<double, 7> CartesianLaw::torque(const RobotState& state,
-                                           const ControlUnitParameters& unit) noexcept {
+                                           const ControlUnitParameters& unit,
+                                           const franka_core::ArmDynamics& dynamics) noexcept {
   const std::array<double, 16> before = desired_;
   advance();
-  const franka_core::ArmDynamics dynamics = dynamicsOf(state, unit);
   CartesianImpedanceInput input{};
   input.O_T_EE_d = desired_;
   input.O_T_EE = state.O_T_EE;
@@ -116,7 +116,7 @@ std::array<double, 7> CartesianLaw::torque(const RobotState& state,
   input.q_d = q_;
   input.q = state.q;
   input.dq = state.dq;
-  input.coriolis = dynamics.coriolis;
+  input.coriolis = coriolisOf(state, unit, dynamics);
   input.K = stiffness_;
   input.nullspace_stiffness = nullspace_stiffness_;
   input.rotor_inertia = unit.rotor_inertia;

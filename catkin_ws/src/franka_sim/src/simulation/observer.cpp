@@ -79,7 +79,7 @@ Observer::Observer(Simulation& simulation, const std::vector<std::string>& names
   }
 }
 
-std::vector<std::string> Observer::usualNames(Simulation& simulation) {
+std::vector<std::string> Observer::defaultNames(Simulation& simulation) {
   std::vector<std::string> names{"time"};
   for (const SimulatedRobot& robot : simulation.robots()) {
     for (const char* field : {"q", "dq", "O_T_EE", "robot_mode"}) {
@@ -95,6 +95,14 @@ std::vector<std::string> Observer::usualNames(Simulation& simulation) {
     if (!is_robot && !model.is_static) {
       names.push_back(model.body + ".pose");
     }
+  }
+  return names;
+}
+
+std::vector<std::string> Observer::names() const {
+  std::vector<std::string> names;
+  for (const Value& value : layout_) {
+    names.push_back(value.name);
   }
   return names;
 }

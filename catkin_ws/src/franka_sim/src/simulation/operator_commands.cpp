@@ -23,13 +23,14 @@ using fci::toNumber;
 using fci::toSwitch;
 using Words = LineServer::Words;
 
-constexpr double kLongest = 1e6;       // [ticks] duration of a push
+constexpr double kMaxPushTicks = 1e6;  // [ticks] duration of a push
 constexpr std::uint64_t kFall = 1000;  // [ticks] in lock-step, until a released object rests
 
 std::uint64_t toTicks(const std::string& word) {
   const double ticks = toNumber(word);
-  if (!(ticks >= 1.0 && ticks <= kLongest) || ticks != std::floor(ticks)) {
-    throw std::invalid_argument("'" + word + "' is no number of milliseconds from 1 to 1000000.");
+  if (!(ticks >= 1.0 && ticks <= kMaxPushTicks) || ticks != std::floor(ticks)) {
+    throw std::invalid_argument("'" + word +
+                                "' is not a number of milliseconds from 1 to 1000000.");
   }
   return static_cast<std::uint64_t>(ticks);
 }
@@ -63,7 +64,7 @@ void addWorld(LineServer& lines, fci::Host& host, World& world) {
   lines.add("push BODY FX FY FZ MILLISECONDS", [&](const Words& words) {
     const std::uint64_t ticks = toTicks(words.at(4));
     world.push(words.at(0), toVector(words, 1), {}, ticks);
-    host.letRun(ticks);
+    host.runFree(ticks);
     return "";
   });
   lines.add("place BODY X Y Z [QW QX QY QZ]", [&](const Words& words) {
@@ -74,7 +75,7 @@ void addWorld(LineServer& lines, fci::Host& host, World& world) {
                           toNumber(words.at(7))};
     }
     world.setBodyPose(words.at(0), pose);
-    host.letRun(kFall);
+    host.runFree(kFall);
     return "";
   });
   lines.add("where BODY", [&](const Words& words) {
@@ -86,8 +87,8 @@ void addWorld(LineServer& lines, fci::Host& host, World& world) {
   });
 }
 
-// Another client's `reset` must not stop the time that this line waits for.
-fci::Reply letPass(fci::Host& host, std::uint64_t ticks) {
+// Another client's `reset` must not stop the time for which this line waits.
+fci::Reply advanceTicks(fci::Host& host, std::uint64_t ticks) {
   const std::uint64_t end = host.ticks() + ticks;
   host.advance(ticks);
   return fci::Reply::when([&host, end] {
@@ -111,7 +112,7 @@ void addTime(LineServer& lines, fci::Host& host, const World& world) {
         if (world.stopped()) {
           throw std::invalid_argument(world.fault());
         }
-        return letPass(host, ticks);
+        return advanceTicks(host, ticks);
       },
       [&host] { return host.settled() || host.inMotion(); });
   lines.add(
@@ -124,7 +125,7 @@ void addTime(LineServer& lines, fci::Host& host, const World& world) {
         }
         return "";
       },
-      [&host] { return host.atRest() || host.isRestless(); });
+      [&host] { return host.atRest() || host.failsToSettle(); });
 }
 
 PumpHealth toHealth(const std::string& word) {
@@ -134,7 +135,7 @@ PumpHealth toHealth(const std::string& word) {
       return static_cast<PumpHealth>(i);
     }
   }
-  throw std::invalid_argument("'" + word + "' is none of green, yellow, orange and red.");
+  throw std::invalid_argument("'" + word + "' must be one of green, yellow, orange and red.");
 }
 
 void addVacuum(LineServer& lines, VacuumGripperUnit& unit) {
@@ -158,13 +159,13 @@ franka_core::fci::CartesianLimit toWall(const Words& words) {
   Eigen::Map<Eigen::Matrix4d> frame(wall.object_frame.data());
   frame.topRightCorner<3, 1>() = Eigen::Vector3d(toVector(words, 1).data());
   wall.object_world_size = toVector(words, 4);
-  sizes::check(toVector(words, 1), sizes::kFarthest, "m", "The wall's position");
-  sizes::check(wall.object_world_size, sizes::kFarthest, "m", "An edge of the wall");
+  sizes::check(toVector(words, 1), sizes::kMaxPosition, "m", "The wall's position");
+  sizes::check(wall.object_world_size, sizes::kMaxPosition, "m", "An edge of the wall");
   if (words.size() > 7) {
     const Eigen::Quaterniond turn(toNumber(words.at(7)), toNumber(words.at(8)),
                                   toNumber(words.at(9)), toNumber(words.at(10)));
     if (turn.norm() == 0.0) {
-      throw std::invalid_argument("Four zeros are no orientation; 1 0 0 0 turns nothing.");
+      throw std::invalid_argument("Four zeros are not an orientation; 1 0 0 0 is the identity.");
     }
     frame.topLeftCorner<3, 3>() = turn.normalized().toRotationMatrix();
   }
@@ -175,7 +176,7 @@ void addWalls(LineServer& lines, fci::SimRobot& robot) {
   lines.add("wall NUMBER off|X Y Z DX DY DZ [QW QX QY QZ]", [&robot](const Words& words) {
     const double number = toNumber(words.at(0));
     if (!(number >= 0.0 && number < VirtualWalls::kCount) || number != std::floor(number)) {
-      throw std::invalid_argument("'" + words.at(0) + "' is no number of a wall: 0 to 7.");
+      throw std::invalid_argument("'" + words.at(0) + "' is not a number of a wall: 0 to 7.");
     }
     require(robot.unit().request(SetVirtualWall{static_cast<std::int32_t>(number), toWall(words)}),
             "The wall was refused: it has a negative edge, or the robot moves.");
@@ -236,7 +237,7 @@ void resetWorld(World& world, const std::vector<fci::SimRobot*>& robots, fci::Ho
     robot->restart();
     robot->observe();  // the measurement of this tick is not valid any more
   }
-  host.beginAnew();
+  host.restartAfterReset();
 }
 
 }  // namespace franka_sim

@@ -4,6 +4,7 @@
 #include <franka_sim/robot/realism.h>
 #include <franka_sim/simulation/files.h>
 #include <franka_sim/simulation/robot_setup.h>
+#include <franka_sim/simulation/robot_text.h>
 
 #include <cmath>
 #include <stdexcept>
@@ -13,28 +14,13 @@ namespace {
 
 constexpr double kFingersAtStart = 0.001;  // [m] each
 
-// In the descriptions of the program all links and joints have the name of their robot as prefix.
-std::string withPrefix(std::string urdf, const std::string& robot, const std::string& arm_id) {
-  const std::string old_name = "\"" + robot + "_";
-  const std::string new_name = "\"" + arm_id + "_";
-  for (std::size_t at = urdf.find(old_name); at != std::string::npos;
-       at = urdf.find(old_name, at + new_name.size())) {
-    urdf.replace(at, old_name.size(), new_name);
-  }
-  return urdf;
-}
-
-std::string robotText(const RobotSetup& setup) {
+std::string describe(const RobotSetup& setup, bool hand) {
   if (!setup.urdf.empty()) {
     return readFile(setup.urdf);
   }
-  const std::string name = "robots/" + setup.robot + ".urdf";
-  const std::string file = packageFile("franka_sim", name);
-  if (file.empty()) {
-    throw std::runtime_error("franka_sim does not find its file " + name +
-                             "; give a robot description with --urdf.");
-  }
-  return withPrefix(readFile(file), setup.robot, setup.arm_id);
+  const std::string urdf = setup.meshes ? robotWithMeshes(setup.robot, setup.arm_id).urdf
+                                        : robotText(setup.robot, setup.arm_id);
+  return hand ? urdf : withoutHand(urdf, setup.arm_id);
 }
 
 RobotPhysics physicsOf(const RobotSetup& setup, const char* profile) {
@@ -54,7 +40,7 @@ RobotDescription describeRobot(const RobotSetup& setup, const std::string& urdf,
   robot.base.position = setup.base;
   robot.base.orientation = {std::cos(0.5 * setup.yaw), 0, 0, std::sin(0.5 * setup.yaw)};
   startAt(kReadyPose, setup.arm_id, robot);
-  comeToRest(kJointStiffness, setup.arm_id, robot);
+  applyRestOffset(kJointStiffness, setup.arm_id, robot);
   if (hand) {
     for (const char* finger : {"_finger_joint1", "_finger_joint2"}) {
       robot.initial_positions[setup.arm_id + finger] = kFingersAtStart;
@@ -80,14 +66,14 @@ ControlUnitParameters unitParameters(const RobotSetup& setup, const std::string&
 
 }  // namespace
 
-RobotInWorld addRobot(const RobotSetup& setup, const char* profile, World& world) {
+RobotInWorld addRobot(const RobotSetup& setup, const char* profile, World& world, bool hand) {
   const std::string& id = setup.arm_id;
-  const std::string urdf = robotText(setup);
+  const std::string urdf = describe(setup, hand);
   const RobotPhysics physics = physicsOf(setup, profile);
-  const bool hand = urdf.find(id + "_finger_joint1") != std::string::npos;
-  const ControlUnitParameters unit = unitParameters(setup, urdf, physics, hand);
-  world.addRobot(describeRobot(setup, urdf, physics, hand));
-  return {unit, physics, &world.arm(id, id), hand ? &world.hand(id, id) : nullptr};
+  const bool has_hand = urdf.find(id + "_finger_joint1") != std::string::npos;
+  const ControlUnitParameters unit = unitParameters(setup, urdf, physics, has_hand);
+  world.addRobot(describeRobot(setup, urdf, physics, has_hand));
+  return {unit, physics, &world.arm(id, id), has_hand ? &world.hand(id, id) : nullptr};
 }
 
 }  // namespace franka_sim

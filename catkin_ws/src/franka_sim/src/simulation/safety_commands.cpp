@@ -8,6 +8,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -24,8 +25,8 @@ using Words = LineServer::Words;
 constexpr std::uint64_t kReaction = 500;  // [ticks] in lock-step, until the arm has reacted
 
 // The longest durations that a line may set [s].
-constexpr double kLongestBusy = 60.0;
-constexpr double kLongestClock = 1e6;
+constexpr double kMaxBusyDuration = 60.0;
+constexpr double kMaxClock = 1e6;
 
 std::string require(Refusal refusal) {
   if (refusal != Refusal::kNone) {
@@ -46,7 +47,7 @@ std::size_t indexIn(const std::array<std::string_view, kCount>& names, const std
   for (const std::string_view name : names) {
     all += (all.empty() ? "" : ", ") + std::string(name);
   }
-  throw std::invalid_argument("'" + word + "' is none of " + all + ".");
+  throw std::invalid_argument("'" + word + "' must be one of " + all + ".");
 }
 
 template <std::size_t kCount>
@@ -70,7 +71,7 @@ bool isFirst(const std::string& word, const char* first, const char* second) {
 double toDuration(const std::string& word, double longest) {
   const double seconds = toNumber(word);
   if (!(seconds >= 0.0 && seconds <= longest)) {
-    throw std::invalid_argument("'" + word + "' is no duration from 0 to " +
+    throw std::invalid_argument("'" + word + "' is not a duration from 0 to " +
                                 std::to_string(std::lround(longest)) + " s.");
   }
   return seconds;
@@ -89,13 +90,13 @@ void addStops(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   SafetyController& safety = robot.whole().safety();
   lines.add("user_stop on|off", [&](const Words& words) {
     setUserStop(robot.whole(), toSwitch(words.at(0)));
-    host.letRun(kReaction);
+    host.runFree(kReaction);
     return "";
   });
   lines.add("input x31|x32|x33|x4|guiding on|off", [&](const Words& words) {
     const auto input = static_cast<SafetyInput>(indexIn(kSafetyInputNames, words.at(0)));
     safety.press(input, toSwitch(words.at(1)));
-    host.letRun(kReaction);
+    host.runFree(kReaction);
     return "";
   });
   lines.add("button circle|cross|check|up|down|left|right on|off", [&](const Words& words) {
@@ -108,7 +109,7 @@ void addBrakes(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   SafetyController& safety = robot.whole().safety();
   const auto lock = [&](bool closed) {
     setBrakes(robot.whole(), closed);
-    host.letRun(kReaction);
+    host.runFree(kReaction);
     return "";
   };
   lines.add("brakes open|close",
@@ -141,7 +142,7 @@ void addGuiding(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   SafetyController& safety = robot.whole().safety();
   lines.add("guiding on|off", [&](const Words& words) {
     setGuiding(robot.whole(), toSwitch(words.at(0)));
-    host.letRun(kReaction);
+    host.runFree(kReaction);
     return "";
   });
   lines.add("guiding_mode free|translation|rotation|user [7 AXES on|off]", [&](const Words& words) {
@@ -189,9 +190,10 @@ void addErrors(LineServer& lines, fci::SimRobot& robot) {
       return require(safety.startSelfTest());
     }
     if (words[0] != "due") {
-      throw std::invalid_argument("'" + words[0] + "' is not due.");
+      throw std::invalid_argument("self_test takes nothing, or 'due' and seconds; '" + words[0] +
+                                  "' is neither.");
     }
-    safety.setSelfTestDue(toDuration(words.at(1), kLongestClock));
+    safety.setSelfTestDue(toDuration(words.at(1), kMaxClock));
     return std::string();
   });
   lines.add("acknowledge ERROR", [&](const Words& words) {
@@ -205,8 +207,8 @@ void addErrors(LineServer& lines, fci::SimRobot& robot) {
   lines.add("inject ERROR [JOINT] on|off", [&](const Words& words) {
     if (isIn(kDemandedRecoveryNames, words.at(0))) {
       const double joint = toNumber(words.at(1));
-      if (!(joint >= 1.0 && joint <= 7.0)) {
-        throw std::invalid_argument("'" + words[1] + "' is no joint: 1 to 7.");
+      if (!(joint >= 1.0 && joint <= 7.0) || joint != std::floor(joint)) {
+        throw std::invalid_argument("'" + words[1] + "' is not the number of a joint, 1 to 7.");
       }
       const std::size_t index = indexIn(kDemandedRecoveryNames, words[0]);
       safety.inject(static_cast<DemandedRecovery>(index), static_cast<std::size_t>(joint) - 1,
@@ -226,12 +228,12 @@ void addPower(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
     robot.whole().setPower(toSwitch(words.at(0)));
     robot.observe();  // a new control unit has no measurement yet
     robot.serve(true);
-    host.letRun(kReaction);
+    host.runFree(kReaction);
     return "";
   });
   lines.add("timing brakes|self_test SECONDS", [&](const Words& words) {
     const bool brakes = isFirst(words.at(0), "brakes", "self_test");
-    const double seconds = toDuration(words.at(1), kLongestBusy);
+    const double seconds = toDuration(words.at(1), kMaxBusyDuration);
     brakes ? safety.setBrakeTime(seconds) : safety.setSelfTestTime(seconds);
     return "";
   });
@@ -262,9 +264,12 @@ fci::Reply startMotion(WholeRobot& robot, const std::array<double, 7>& q, double
   OperatorMotion& motion = robot.operatorMotion();
   const Status answer = motion.start(q, speed);
   if (answer == Status::kInvalidArgumentRejected) {
-    throw std::invalid_argument(
-        "The motion was refused: a joint's target is beyond its limits, or the speed is not above "
-        "0 and at most 1.");
+    const std::optional<std::size_t> joint = motion.jointOutOfReach(q);
+    throw std::invalid_argument("The motion was refused: " +
+                                (joint
+                                     ? "joint " + std::to_string(*joint + 1) + " can be " +
+                                           robot.unit().limits().reachText(*joint, q[*joint]) + "."
+                                     : "the speed must be above 0 and at most 1."));
   }
   require(answer == Status::kMotionStarted ? Refusal::kNone : Refusal::kMotionActive);
   return fci::Reply([&motion]() -> std::optional<std::string> {
@@ -282,13 +287,13 @@ void addMotion(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   constexpr double kSpeed = 0.3;  // share of the joints' velocity limits (chosen here)
   WholeRobot& whole = robot.whole();
   lines.add("move pack|stop|Q1 Q2 Q3 Q4 Q5 Q6 Q7 [SPEED]", [&](const Words& words) -> fci::Reply {
-    host.letRun(kReaction);
+    host.runFree(kReaction);
     if (words.at(0) == "stop") {
       whole.operatorMotion().stop();
       return "";
     }
     if (words[0] == "pack") {
-      return startMotion(whole, OperatorMotion::packPose(whole.safety().isFr3()), kSpeed);
+      return startMotion(whole, OperatorMotion::kPackPose, kSpeed);
     }
     return startMotion(whole, toNumbers<7>(words, 0),
                        words.size() > 7 ? toNumber(words[7]) : kSpeed);
@@ -307,25 +312,15 @@ void addReport(LineServer& lines, const OperatorContext& context) {
 
 }  // namespace
 
-void setUserStop(WholeRobot& robot, bool pressed) {
-  SafetyController& safety = robot.safety();
-  if (safety.rules() == SafetyRules::kDesk) {
-    safety.press(safety.isFr3() ? SafetyInput::kX31 : SafetyInput::kX4, pressed);
-  } else {
-    robot.unit().request(UserStop{pressed});
-  }
-}
+void setUserStop(WholeRobot& robot, bool pressed) { robot.safety().pressUserStop(pressed); }
 
 void setGuiding(WholeRobot& robot, bool active) { require(robot.safety().guide(active)); }
 
 void setBrakes(WholeRobot& robot, bool closed) {
-  SafetyController& safety = robot.safety();
-  if (!closed) {
-    require(safety.unlock());
-  } else if (safety.rules() == SafetyRules::kDesk) {
-    safety.lock();
+  if (closed) {
+    robot.safety().lock();
   } else {
-    robot.unit().request(Brakes{true});
+    require(robot.safety().unlock());
   }
 }
 

@@ -59,10 +59,10 @@ void leavePriority() {
 }
 
 std::size_t toOffset(const std::string& word) {
-  constexpr double kLargest = 1e12;
+  constexpr double kMaxOffset = 1e12;
   const double offset = fci::toNumber(word);
-  if (!(offset >= 0.0 && offset <= kLargest) || offset != std::floor(offset)) {
-    throw std::invalid_argument("'" + word + "' is no number of bytes.");
+  if (!(offset >= 0.0 && offset <= kMaxOffset) || offset != std::floor(offset)) {
+    throw std::invalid_argument("'" + word + "' is not a number of bytes.");
   }
   return static_cast<std::size_t>(offset);
 }
@@ -104,7 +104,7 @@ SceneText::Content SceneText::contentOf(const WorldShapes& shapes) {
   return content;
 }
 
-// What has been read of the present world; null while that takes time.
+// The shapes of the present world; null while they are being read.
 const SceneText::Content* SceneText::content() {
   const auto reads = [this] {
     return reading_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;

@@ -35,7 +35,7 @@ void limitRate(const std::array<double, 7>& before, const std::array<double, 7>&
 }  // namespace
 
 SimulatedRobot::SimulatedRobot(const RobotSetup& setup, bool hand, World& world)
-    : SimulatedRobot(setup, hand, addRobot(setup, kInProcessProfile, world)) {}
+    : SimulatedRobot(setup, hand, addRobot(setup, kInProcessProfile, world, hand)) {}
 
 SimulatedRobot::SimulatedRobot(const RobotSetup& setup, bool hand, const RobotInWorld& in_world)
     : setup_(setup),
@@ -158,9 +158,11 @@ const RobotCommand* SimulatedRobot::nextCommand() noexcept {
   } else {
     sent_ = {};
     const ControlUnitParameters& unit = robot_.unit().configuration();
+    const franka_core::ArmDynamics& dynamics = robot_.unit().dynamics();
     auto* joint_law = std::get_if<JointLaw>(&input_);
-    sent_.tau_J_d = joint_law != nullptr ? joint_law->torque(state_, unit)
-                                         : std::get<CartesianLaw>(input_).torque(state_, unit);
+    sent_.tau_J_d = joint_law != nullptr
+                        ? joint_law->torque(state_, unit, dynamics)
+                        : std::get<CartesianLaw>(input_).torque(state_, unit, dynamics);
   }
   for (std::size_t i = 0; i < sent_.tau_J_d.size(); i++) {
     sent_.tau_J_d[i] -= shaping_.damping[i] * state_.dq[i];
@@ -178,8 +180,43 @@ void SimulatedRobot::actuate(const RobotCommand* command) noexcept {
   robot_.actuate(moving() ? nextCommand() : command);
 }
 
+bool SimulatedRobot::isLike(const SimulatedRobot& other) const {
+  const RobotSetup& one = setup_;
+  const RobotSetup& two = other.setup_;
+  return one.robot == two.robot && one.arm_id == two.arm_id &&
+         (robot_.hand() == nullptr) == (other.robot_.hand() == nullptr) &&
+         behaveAlike(readRealism(one.realism, kInProcessProfile),
+                     readRealism(two.realism, kInProcessProfile));
+}
+
+void SimulatedRobot::restore(const SimulatedRobot& then, bool earlier) {
+  if (served_) {
+    restart();
+    observe();
+    return;
+  }
+  const RobotSetup own = setup_;
+  *this = then;
+  setup_ = own;
+  served_ = false;
+  if (!earlier && robot_.hand() != nullptr) {
+    robot_.hand()->renumberTickets();
+  }
+}
+
+// Without a generator it would continue, and lack commands. Clients are not answered for it.
+void SimulatedRobot::endOwnMotion() noexcept {
+  if (moving()) {
+    robot_.unit().request(franka_core::fci::StopMoveRequest{});
+    robot_.unit().restart();
+    robot_.unit().takeAnswer(PendingAnswer::kMotion);
+    robot_.unit().takeAnswer(PendingAnswer::kStop);
+  }
+}
+
 void SimulatedRobot::restart() {
   if (served_) {
+    endOwnMotion();
     robot_.restart();
   } else {
     robot_.renew();

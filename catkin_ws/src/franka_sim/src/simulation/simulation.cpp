@@ -3,6 +3,7 @@
 #include <franka_sim/simulation/files.h>
 #include <franka_sim/simulation/simulation.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace franka_sim {
@@ -41,19 +42,47 @@ void Simulation::reset() {
   restartRobots();
 }
 
-void Simulation::restore(const Snapshot& snapshot) {
-  world_.restore(snapshot);
-  restartRobots();
+struct SimulationSnapshot::Content {
+  Snapshot world;
+  std::uint64_t generation;  ///< of the world
+  std::vector<SimulatedRobot> robots;
+};
+
+SimulationSnapshot Simulation::snapshot() const {
+  SimulationSnapshot snapshot;
+  snapshot.content_ =
+      std::make_shared<const SimulationSnapshot::Content>(SimulationSnapshot::Content{
+          world_.snapshot(), world_.generation(), {robots_.begin(), robots_.end()}});
+  return snapshot;
+}
+
+void Simulation::restore(const SimulationSnapshot& snapshot) {
+  const SimulationSnapshot::Content* content = snapshot.content_.get();
+  const bool alike = content != nullptr && content->robots.size() == robots_.size() &&
+                     std::equal(robots_.begin(), robots_.end(), content->robots.begin(),
+                                [](const SimulatedRobot& robot, const SimulatedRobot& then) {
+                                  return robot.isLike(then);
+                                });
+  if (!alike) {
+    throw std::runtime_error(
+        "The snapshot cannot be restored: it is of a simulation with other robots or another "
+        "realism. Take another one.");
+  }
+  world_.restore(content->world);
+  auto then = content->robots.begin();
+  for (SimulatedRobot& robot : robots_) {
+    robot.restore(*then++, content->generation == world_.generation());
+  }
 }
 
 void Simulation::checkPositions(const SimulatedRobot& robot, const std::array<double, 7>& q) {
   for (std::size_t i = 0; i < q.size(); i++) {
-    const franka_core::JointRange range = robot.units().unit().limits().reach(i);
+    const MotionLimits& limits = robot.units().unit().limits();
+    const franka_core::JointRange range = limits.reach(i);
     if (!(q[i] >= range.lowest && q[i] <= range.highest)) {
-      throw std::invalid_argument(
-          "Joint " + std::to_string(i + 1) + " of '" + robot.setup().arm_id + "' can be between " +
-          std::to_string(range.lowest) + " and " + std::to_string(range.highest) + " rad, not at " +
-          std::to_string(q[i]) + ".");
+      throw std::invalid_argument("Joint " + std::to_string(i + 1) + " of '" +
+                                  robot.setup().arm_id + "' can be " + limits.reachText(i, q[i]) +
+                                  ".");
     }
   }
 }

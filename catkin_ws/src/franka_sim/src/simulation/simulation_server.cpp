@@ -52,8 +52,18 @@ class SimulationServer::Front final : public fci::RobotFront {
   std::string address_;
 };
 
-SimulationServer::SimulationServer(Simulation& simulation, const fci::Pace& pace)
-    : simulation_(simulation), host_([this] { advance(); }, pace), process_(getpid()) {}
+SimulationServer::SimulationServer(Simulation& simulation, const fci::Pace& pace, Hooks hooks)
+    : simulation_(simulation),
+      hooks_(std::move(hooks)),
+      host_([this] { advance(); }, pace),
+      process_(getpid()) {
+  if (hooks_.keep_waiting) {
+    host_.whileWaiting([this] {
+      interrupted_ = !hooks_.keep_waiting();
+      return !interrupted_;
+    });
+  }
+}
 
 SimulationServer::~SimulationServer() = default;
 
@@ -74,6 +84,12 @@ void SimulationServer::serve(SimulatedRobot& robot, const std::string& address) 
   }
   fronts_.emplace_back(robot, address);
   host_.add(fronts_.back());
+  if (hooks_.report) {
+    const auto report = [this, name = robot.setup().arm_id + " at " + address](
+                            const std::string& what) { hooks_.report(name + ": " + what); };
+    fronts_.back().onCollision(report);
+    fronts_.back().onRefusal(report);
+  }
 }
 
 void SimulationServer::step(std::uint64_t ticks) {
@@ -81,7 +97,8 @@ void SimulationServer::step(std::uint64_t ticks) {
   if (Clock::now() - stepped_at_ > kIdle) {
     host_.restartClock();
   }
-  for (std::uint64_t tick = 0; tick < ticks; tick++) {
+  interrupted_ = false;
+  for (std::uint64_t tick = 0; tick < ticks && !interrupted_; tick++) {
     if (simulation_.world().stopped()) {
       for (Front& front : fronts_) {
         front.robot().units().halt();

@@ -3,6 +3,7 @@
 // When the host runs a tick, tested with a robot that only counts.
 #include <franka_sim/fci/host.h>
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
@@ -45,14 +46,21 @@ class CountingRobot : public HostedRobot {
   bool hasNews() const override { return false; }
   bool receiveCommand() override { return answers && seen && Clock::now() - shown_at >= delay; }
   bool expectsCommand() const override { return moving; }
-  bool asynchronous() const override { return at_leisure; }
+  bool asynchronous() const override { return has_asynchronous_motion; }
   bool motionHasBegun() const override { return begun; }
-  bool settling() const override { return restless; }
+  bool settling() const override { return never_settles; }
   bool handBusy() const override { return false; }
   void addCommandDescriptor(std::vector<pollfd>& /*fds*/) const override {}
-  void addDescriptors(std::vector<pollfd>& /*fds*/) const override {}
+  void addDescriptors(std::vector<pollfd>& fds) const override {
+    if (descriptor >= 0) {
+      fds.push_back({descriptor, POLLIN, 0});
+    }
+  }
+  bool idle() const override { return is_idle; }
 
-  bool moving{false}, at_leisure{false}, restless{false};
+  int descriptor{-1};
+  std::atomic<bool> is_idle{false};
+  bool moving{false}, has_asynchronous_motion{false}, never_settles{false};
   bool answers{true};
   bool moves_when_served{false}, begun{true}, seen{true};
   milliseconds delay{0};
@@ -114,6 +122,71 @@ TEST_F(HostRules, RealTimeDoesNotWaitForAnswers) {
   EXPECT_EQ(20, steps);
   EXPECT_EQ(20, robot.actuated);
   EXPECT_EQ(0, robot.answered);
+}
+
+// Waits of more than half the interval, in a second of ticks. Measured from the clock's start.
+int longWaits(Host& host, milliseconds interval) {
+  int waits = 0;
+  Clock::time_point before = Clock::now();
+  for (int i = 0; i < 1000; i++) {
+    host.tick();
+    const Clock::time_point now = Clock::now();
+    waits += now - before > interval / 2 ? 1 : 0;
+    before = now;
+  }
+  return waits;
+}
+
+TEST_F(HostRules, TicksOfIdleRobotsRunTogether) {
+  constexpr milliseconds kInterval{10};
+  use(Pace{});
+  robot.is_idle = true;
+  host.setIdleInterval(kInterval);
+  const Clock::time_point begin = Clock::now();
+  EXPECT_GE(longWaits(host, kInterval), 50);  // a machine that stalls skips some of the hundred
+  EXPECT_GE(Clock::now() - begin, milliseconds(1000) - kInterval);
+  EXPECT_GE(robot.served, 50);
+}
+
+TEST_F(HostRules, TicksOfAWorldWithOtherUsersRunOneByOne) {
+  use(Pace{});
+  robot.is_idle = true;
+  int in_time = 0;
+  for (int i = 0; i < 200; i++) {
+    const Clock::time_point before = Clock::now();
+    host.tick();
+    in_time += Clock::now() - before < milliseconds(5) ? 1 : 0;
+  }
+  EXPECT_GE(in_time, 100);
+}
+
+TEST_F(HostRules, AClientEndsTheWaitOfIdleRobots) {
+  constexpr milliseconds kInterval{2000};
+  int ends[2];
+  ASSERT_EQ(0, pipe(ends));
+  use(Pace{});
+  robot.is_idle = true;
+  robot.descriptor = ends[0];
+  host.setIdleInterval(kInterval);
+  host.tick();  // the interval begins
+  std::thread client([&] {
+    std::this_thread::sleep_for(milliseconds(50));
+    robot.is_idle = false;
+    ASSERT_EQ(1, write(ends[1], "x", 1));
+  });
+  const Clock::time_point begin = Clock::now();
+  while (robot.is_idle) {
+    host.tick();
+  }
+  client.join();
+  const int before = steps;
+  for (int i = 0; i < 20; i++) {
+    host.tick();  // not delayed by the ticks that ran in advance
+  }
+  EXPECT_LT(Clock::now() - begin, kInterval);
+  EXPECT_EQ(before + 20, steps);
+  close(ends[0]);
+  close(ends[1]);
 }
 
 TEST_F(HostRules, PatientPaceWaitsForEachAnswer) {
@@ -183,19 +256,27 @@ TEST_F(HostRules, AGivenUpClientDoesNotSlowOthers) {
 }
 
 TEST_F(HostRules, OtherClientsGetStatesWhileOneIsAwaited) {
-  CountingRobot answered, resting;
+  // Its client answers when the others have their states, however busy the machine is.
+  class Awaited : public CountingRobot {
+   public:
+    bool receiveCommand() override {
+      const bool others_served = answered.repeats >= 2 && resting.repeated >= 100;
+      return others_served || Clock::now() - shown_at > std::chrono::seconds(10);
+    }
+    CountingRobot answered, resting;
+  } awaited;
   Pace pace = waiting(PaceMode::kLockStep);
   pace.patience = std::chrono::seconds(100);
-  use(pace);
-  host.add(answered);
-  host.add(resting);
-  robot.moving = answered.moving = true;
-  robot.delay = milliseconds(700);
+  host.setPace(pace);
+  host.add(awaited);
+  host.add(awaited.answered);
+  host.add(awaited.resting);
+  awaited.moving = awaited.answered.moving = true;
   timeOf(1);
-  EXPECT_GE(answered.repeats, 2) << "a client gives up after a second without a state";
-  EXPECT_EQ(0, answered.repeated) << "with a new number its clock would go on";
-  EXPECT_EQ(1, robot.published + robot.repeated) << "it already has the state to answer";
-  EXPECT_GE(resting.repeated, 100);
+  EXPECT_GE(awaited.answered.repeats, 2) << "a client gives up after a second without a state";
+  EXPECT_EQ(0, awaited.answered.repeated) << "with a new number its clock would go on";
+  EXPECT_EQ(1, awaited.published + awaited.repeated) << "it already has the state to answer";
+  EXPECT_GE(awaited.resting.repeated, 100);
   EXPECT_EQ(1, steps);
 }
 
@@ -247,14 +328,14 @@ TEST_F(HostRules, InLockStepAnAsynchronousMotionFollowsTheClock) {
   pace.patience = std::chrono::seconds(100);
   const Clock::time_point begin = Clock::now();
   use(pace);
-  robot.moving = robot.at_leisure = true;
+  robot.moving = robot.has_asynchronous_motion = true;
   robot.answers = false;
   timeOf(51);
   EXPECT_GE(Clock::now() - begin, milliseconds(50));
   EXPECT_LT(Clock::now() - begin, pace.patience);
   EXPECT_EQ(51, robot.published) << "its client sees each millisecond";
-  robot.moving = robot.at_leisure = false;
-  robot.restless = true;
+  robot.moving = robot.has_asynchronous_motion = false;
+  robot.never_settles = true;
   timeOf(5000);
   EXPECT_LT(robot.published, 5000) << "and the clock no longer counts";
 }
@@ -263,7 +344,7 @@ TEST_F(HostRules, AsynchronousMotionStillWaitsForOtherRobotsAnswers) {
   CountingRobot other;
   use(waiting(PaceMode::kLockStep));
   host.add(other);
-  robot.moving = robot.at_leisure = true;
+  robot.moving = robot.has_asynchronous_motion = true;
   robot.answers = false;
   other.moving = true;
   other.delay = milliseconds(5);
@@ -273,7 +354,7 @@ TEST_F(HostRules, AsynchronousMotionStillWaitsForOtherRobotsAnswers) {
 
 TEST_F(HostRules, ARobotThatNeverRestsDefersRequestsForALimitedTime) {
   use(waiting(PaceMode::kLockStep));
-  robot.restless = true;
+  robot.never_settles = true;
   timeOf(1);  // the world is still at rest
   const int before = robot.served_all;
   timeOf(9000);
@@ -297,7 +378,7 @@ TEST_F(HostRules, StandStillPublishesStatesWithoutATick) {
 
 TEST_F(HostRules, FirstStatesOfAMotionCountAllEarlierTicks) {
   use(waiting(PaceMode::kLockStep));
-  robot.restless = true;
+  robot.never_settles = true;
   timeOf(500);  // few of them are published
   robot.moves_when_served = true;
   for (int i = 0; i < 100000 && !robot.moving; i++) {
@@ -325,15 +406,15 @@ TEST_F(HostRules, DoesNotCallRemovedRobots) {
 
 TEST_F(HostRules, InLockStepAPushRunsForItsTimeAndUntilRest) {
   use(waiting(PaceMode::kLockStep));
-  host.letRun(50);
+  host.runFree(50);
   EXPECT_EQ(150, stepsUntilStill(150)) << "50, and 100 until all is at rest";
 }
 
 TEST_F(HostRules, AResetCancelsTicksThatWereToRun) {
   use(waiting(PaceMode::kLockStep));
-  host.letRun(500);
+  host.runFree(500);
   timeOf(10);
-  host.beginAnew();
+  host.restartAfterReset();
   EXPECT_EQ(10 + 101, stepsUntilStill(10 + 101));
 }
 

@@ -290,7 +290,7 @@ TEST(LockStep, AnArmThatCoastsInGuidingDoesNotDeferRequests) {
   fixture.between([](SimRobot& robot, World& world, Host& host) {
     robot.unit().request(Guiding{true});
     world.push("panda_link5", {0, 8, 0}, {}, 100);
-    host.letRun(100);
+    host.runFree(100);
   });
   for (int i = 0; i < 3; i++) {
     client.request(codec::SetLoadRequest{});

@@ -25,8 +25,8 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr int kTicks = 300;
-constexpr double kWorstDelay = 0.02;  // [s]
-constexpr double kMostMemory = 30.0;  // [MB] more than before
+constexpr double kWorstDelay = 0.02;       // [s]
+constexpr double kMaxMemoryGrowth = 30.0;  // [MB] more than before
 constexpr std::size_t kModelSize = 100000;
 
 double processorTime() {
@@ -153,9 +153,9 @@ class HostileClients : public ::testing::Test {
     host_.add(other_);
     host_.add(lines_);
     lines_.add("echo WORD", [](const LineServer::Words& words) { return words.at(0); });
-    const ClientSlot::Tell tell = [this](const std::string& what) { told_.push_back(what); };
-    attacked_.arm.onRefusal(tell);
-    attacked_.hand.onRefusal(tell);
+    const ClientSlot::Report report = [this](const std::string& what) { reports_.push_back(what); };
+    attacked_.arm.onRefusal(report);
+    attacked_.hand.onRefusal(report);
     good_.connect(5);
     for (int i = 0; i < 1000 && other_.arm.version() == 0; i++) {
       host_.tick();
@@ -192,10 +192,17 @@ class HostileClients : public ::testing::Test {
     attacker.join();
     EXPECT_NE(last, 0U) << "the good client has received nothing";
     EXPECT_LT(other_.worst, kWorstDelay) << "[s] between two states";
-    EXPECT_LT(residentMegabytes() - memory, kMostMemory) << "[MB]";
+    EXPECT_LT(residentMegabytes() - memory, kMaxMemoryGrowth) << "[MB]";
     EXPECT_LE(attacked_.most_unsent, kModelSize + 1000);
     std::printf("  worst delay %.2f ms, memory %+.1f MB, at most %zu bytes unsent\n",
                 1e3 * other_.worst, residentMegabytes() - memory, attacked_.most_unsent);
+  }
+
+  /// Whether the log has the reason why a connection to that port was closed.
+  bool isReported(std::uint16_t port, const std::string& reason) const {
+    const std::string sentence =
+        "a connection from 127.0.0.1 to port " + std::to_string(port) + " was closed: " + reason;
+    return std::find(reports_.begin(), reports_.end(), sentence) != reports_.end();
   }
 
   /// Ticks until a new client of the attacked robot is served; 1001 if never.
@@ -214,7 +221,7 @@ class HostileClients : public ::testing::Test {
   LineServer lines_{"127.0.0.1", 0};
   Host host_{[] {}, Pace{}};
   TestClient good_{other_.arm.port()};
-  std::vector<std::string> told_;
+  std::vector<std::string> reports_;
 };
 
 TEST_F(HostileClients, RequestModelsWithoutReadingThem) {
@@ -238,7 +245,7 @@ TEST_F(HostileClients, FloodTheHandAndTheControlInterface) {
   namespace hand = franka_core::fci::gripper;
   Raw gripper(attacked_.hand.port());
   std::vector<std::unique_ptr<Raw>> controls;
-  for (std::size_t i = 0; i < LineServer::kMostClients; i++) {
+  for (std::size_t i = 0; i < LineServer::kMaxClients; i++) {
     controls.push_back(std::make_unique<Raw>(lines_.port()));
   }
   hand::RequestMessage message;
@@ -269,7 +276,32 @@ TEST_F(HostileClients, StayHalfOpenOrSendOneByte) {
   }
   under([] { std::this_thread::sleep_for(milliseconds(1)); }, 50);
   EXPECT_LE(ticksUntilServed(), 1000);
-  EXPECT_FALSE(told_.empty());
+  for (const std::uint16_t port : {attacked_.arm.port(), attacked_.hand.port()}) {
+    EXPECT_TRUE(isReported(port, "too many connections have not sent a Connect request."));
+  }
+}
+
+TEST_F(HostileClients, AreReportedWithTheReasonWhyTheirConnectionWasClosed) {
+  Raw noisy(attacked_.arm.port());
+  noisy.send(std::string(40, 'x'));
+  Raw owner(attacked_.hand.port());
+  namespace hand = franka_core::fci::gripper;
+  hand::RequestMessage message;
+  hand::encodeRequest(0, hand::ConnectRequest{3, 1}, message);
+  owner.send(std::string(reinterpret_cast<const char*>(message.data), message.size));
+  for (int i = 0; i < 1000 && !attacked_.hand.hasClient(); i++) {
+    host_.tick();
+  }
+  const Raw second(attacked_.hand.port());
+  const auto all_reported = [this] {
+    return isReported(attacked_.arm.port(), "it sent an invalid request.") &&
+           isReported(attacked_.hand.port(),
+                      "there is a client already, and one at a time is served.");
+  };
+  for (int i = 0; i < 1000 && !all_reported(); i++) {
+    host_.tick();
+  }
+  EXPECT_TRUE(all_reported()) << ::testing::PrintToString(reports_);
 }
 
 TEST_F(HostileClients, ReconnectRepeatedlyAndSendNoise) {

@@ -155,9 +155,9 @@ TEST(LineServer, GivesNoAnswerWhenItEndsBeforeTheEffect) {
 
 TEST_F(LineServerTest, ExecutesTheLinesOfSeveralClientsInOrderOfArrival) {
   std::string words;
-  server.add("say WORD", [&words](const LineServer::Words& said) {
-    words += said.at(0);
-    return said.at(0);
+  server.add("say WORD", [&words](const LineServer::Words& arguments) {
+    words += arguments.at(0);
+    return arguments.at(0);
   });
   Operator first(server);
   Operator second(server);
@@ -229,7 +229,7 @@ TEST_F(LineServerTest, BeginsNoFurtherLineInATickAfterLongOnes) {
 class FullLineServerTest : public LineServerTest {
  protected:
   FullLineServerTest() {
-    for (std::size_t i = 0; i < LineServer::kMostClients; i++) {
+    for (std::size_t i = 0; i < LineServer::kMaxClients; i++) {
       users.push_back(std::make_unique<Operator>(server));
       users.back()->type("count\n");
       tick();
@@ -255,7 +255,7 @@ TEST_F(FullLineServerTest, RefusesAnotherClientWithASentence) {
   EXPECT_EQ("ok 9\n", next.sees());
 }
 
-TEST_F(FullLineServerTest, AClientThatLeavesBeforeTheEffectMakesRoom) {
+TEST_F(FullLineServerTest, ClientThatLeavesBeforeTheEffectFreesASlot) {
   server.add("never",
              [](const LineServer::Words& /*words*/) { return Reply::when([] { return false; }); });
   users[5]->type("never\n");
@@ -267,7 +267,7 @@ TEST_F(FullLineServerTest, AClientThatLeavesBeforeTheEffectMakesRoom) {
   EXPECT_EQ("ok 9\n", next.sees());
 }
 
-TEST(LineServer, HasNoTimeLimitUntilThereIsNoRoom) {
+TEST(LineServer, HasNoTimeLimitUntilItIsFull) {
   LineServer server(kAddress, 0, std::chrono::seconds(0));
   server.add("count", [](const LineServer::Words& /*words*/) { return "1"; });
   const auto tick = [&server] {
@@ -275,7 +275,7 @@ TEST(LineServer, HasNoTimeLimitUntilThereIsNoRoom) {
     server.published();
   };
   std::vector<std::unique_ptr<Operator>> users;
-  for (std::size_t i = 0; i < LineServer::kMostClients; i++) {
+  for (std::size_t i = 0; i < LineServer::kMaxClients; i++) {
     users.push_back(std::make_unique<Operator>(server));
     tick();
   }

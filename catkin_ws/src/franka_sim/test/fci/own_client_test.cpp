@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Our own libfranka against the simulated robot in lock-step, in every version of the protocol.
+#include <franka/active_control_base.h>
 #include <franka/exception.h>
 #include <franka/gripper.h>
 #include <franka/model.h>
@@ -13,6 +14,7 @@
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
 #include <gtest/gtest.h>
+#include <transform_sweep.h>
 
 #include <algorithm>
 #include <atomic>
@@ -26,8 +28,6 @@
 #include <string>
 #include <thread>
 #include <vector>
-
-#include "../robot/transform_sweep.h"
 
 namespace franka_sim::fci {
 namespace {
@@ -183,10 +183,12 @@ TEST_P(OwnClient, NegotiatesTheVersionAndReadsStates) {
   EXPECT_EQ(count, 10);
 }
 
-TEST_P(OwnClient, TakesEverySetterAndRefusesNonsense) {
+TEST_P(OwnClient, TakesEverySetterAndRefusesInvalidValues) {
   robot.setCollisionBehavior(sevenTimes(20), sevenTimes(30), sixTimes(20), sixTimes(30));
   robot.setCollisionBehavior(sevenTimes(20), sevenTimes(30), sevenTimes(20), sevenTimes(30),
                              sixTimes(20), sixTimes(30), sixTimes(20), sixTimes(30));
+  // Collisions then begin before contacts.
+  robot.setCollisionBehavior(sevenTimes(50), sevenTimes(30), sixTimes(60), sixTimes(30));
   robot.setJointImpedance({3000, 3000, 3000, 2500, 2500, 2000, 2000});
   robot.setCartesianImpedance({2000, 2000, 2000, 100, 100, 100});
   robot.setGuidingMode({true, true, true, false, false, false}, true);
@@ -266,28 +268,44 @@ bool accepts(franka::Robot& robot, const std::array<double, 16>& pose, bool limi
   }
 }
 
+/// The same of a motion that the program drives itself.
+bool writesOnce(franka::Robot& robot, const std::array<double, 16>& pose) {
+  const auto motion = robot.startCartesianPoseControl(
+      research_interface::robot::Move::ControllerMode::kJointImpedance);
+  motion->readOnce();
+  try {
+    motion->writeOnce(franka::MotionFinished(franka::CartesianPose(pose)));
+    return true;
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string::npos, std::string(error.what()).find("exactly 0 0 0 1")) << error.what();
+    return false;
+  }
+}
+
 class OwnClientWithRounding : public OwnClient {};
+
+TEST_P(OwnClientWithRounding, SetsTheFramesThatTheRobotTakes) {
+  for (const auto& set : {&franka::Robot::setEE, &franka::Robot::setK}) {
+    for (const franka_test::PerturbedMatrix& perturbed : franka_test::perturbations(kIdentity)) {
+      if (perturbed.accepted) {
+        EXPECT_NO_THROW((robot.*set)(perturbed.matrix)) << perturbed;
+      } else {
+        EXPECT_THROW((robot.*set)(perturbed.matrix), franka::CommandException) << perturbed;
+      }
+    }
+    (robot.*set)(kIdentity);
+  }
+}
 
 TEST_P(OwnClientWithRounding, IsTakenOrRefusedAsTheRobotDoes) {
   const std::array<double, 16> pose = robot.readOnce().O_T_EE_c;
   int count = 0;
-  for (const test::PerturbedMatrix& perturbed : test::perturbations(pose)) {
+  for (const franka_test::PerturbedMatrix& perturbed : franka_test::perturbations(pose)) {
     count++;
     EXPECT_EQ(perturbed.accepted,
               accepts(robot, perturbed.matrix, count % 2 == 0, count % 3 == 0 ? 100.0 : 1000.0))
         << perturbed;
-    if (perturbed.error == 1e-6 || perturbed.error == 1e-12) {
-      for (const auto& set : {&franka::Robot::setEE, &franka::Robot::setK}) {
-        std::array<double, 16> frame = kIdentity;
-        frame[perturbed.entry] += perturbed.error;
-        if (perturbed.entry % 4 != 3) {
-          EXPECT_NO_THROW((robot.*set)(frame)) << perturbed;
-        } else {
-          EXPECT_THROW((robot.*set)(frame), franka::CommandException) << perturbed;
-        }
-        (robot.*set)(kIdentity);
-      }
-    }
+    EXPECT_EQ(perturbed.accepted, writesOnce(robot, perturbed.matrix)) << perturbed;
   }
   EXPECT_EQ(franka::RobotMode::kIdle, robot.readOnce().robot_mode);
 }

@@ -17,9 +17,20 @@ RobotDescription atTheTable() {
   return description;
 }
 
+/// How steps are prepared before the arm's command is known.
+enum class Preparation { kNone, kSameThread, kBeside };
+
+void prepare(World* world, Preparation preparation) {
+  if (preparation == Preparation::kSameThread) {
+    world->prepareStep();
+  }
+  world->prepareBeside();  // without effect unless the world has a thread for it
+}
+
 /// Drives arm and hand for a while with contacts, a push and the brakes, and logs every state.
-/// @param prepared prepares steps before the arm's command is known
-std::vector<std::uint64_t> drive(World* world, int ticks, bool prepared = false) {
+std::vector<std::uint64_t> drive(World* world, int ticks,
+                                 Preparation preparation = Preparation::kNone) {
+  world->setPreparesBeside(preparation == Preparation::kBeside);
   ArmPlant& arm = world->arm("panda", "panda");
   HandPlant& hand = world->hand("panda", "panda");
   const ArmHolder holder(&arm);
@@ -28,9 +39,7 @@ std::vector<std::uint64_t> drive(World* world, int ticks, bool prepared = false)
     auto target = kHome;
     target[0] -= 0.3 * std::sin(0.002 * k);
     target[5] += 0.2 * std::sin(0.005 * k);
-    if (prepared) {
-      world->prepareStep();
-    }
+    prepare(world, preparation);
     if (k == 100) {
       world->push("stone", {0.3, 0.5, 0}, {0.001, 0, 0}, 50);
     }
@@ -75,7 +84,7 @@ TEST(DeterminismTest, HashDependsOnTheLastBitOfTheState) {
   EXPECT_EQ(before, world.stateHash());
 }
 
-TEST(DeterminismTest, ReadingDoesNotChangeTheFuture) {
+TEST(DeterminismTest, ReadingDoesNotChangeLaterStates) {
   World one(test::world("stone")), other(test::world("stone"));
   one.addRobot(atTheTable());
   other.addRobot(atTheTable());
@@ -90,10 +99,14 @@ TEST(DeterminismTest, ReadingDoesNotChangeTheFuture) {
 }
 
 TEST(DeterminismTest, PreparedStepsAreEqualBitForBit) {
-  World one(test::world("stone")), other(test::world("stone"));
-  one.addRobot(atTheTable());
-  other.addRobot(atTheTable());
-  EXPECT_EQ(drive(&one, 1500), drive(&other, 1500, true));
+  const auto run = [](Preparation preparation) {
+    World world(test::world("stone"));
+    world.addRobot(atTheTable());
+    return drive(&world, 1500, preparation);
+  };
+  const std::vector<std::uint64_t> unprepared = run(Preparation::kNone);
+  EXPECT_EQ(unprepared, run(Preparation::kSameThread));
+  EXPECT_EQ(unprepared, run(Preparation::kBeside));
 }
 
 void expectSame(const std::vector<Contact>& one, const std::vector<Contact>& other) {
@@ -145,18 +158,19 @@ TEST(DeterminismTest, ChangesAfterPreparationTakeEffect) {
       [](World* world) { world->reset(); },
   };
   for (std::size_t i = 0; i < changes.size(); ++i) {
-    World one(test::world("stone")), other(test::world("stone"));
-    for (World* world : {&one, &other}) {
-      world->addRobot(atTheTable());
-      world->step();
-    }
-    other.prepareStep();
-    for (World* world : {&one, &other}) {
-      changes[i](world);
-      world->step();
-      world->step();
-    }
-    EXPECT_EQ(one.stateHash(), other.stateHash()) << "change " << i;
+    const auto run = [&](Preparation preparation) {
+      World world(test::world("stone"));
+      world.addRobot(atTheTable());
+      world.setPreparesBeside(preparation == Preparation::kBeside);
+      world.step();
+      prepare(&world, preparation);
+      changes[i](&world);
+      world.step();
+      world.step();
+      return world.stateHash();
+    };
+    EXPECT_EQ(run(Preparation::kNone), run(Preparation::kSameThread)) << "change " << i;
+    EXPECT_EQ(run(Preparation::kNone), run(Preparation::kBeside)) << "change " << i;
   }
 }
 
@@ -167,8 +181,10 @@ TEST(DeterminismTest, ATickNeitherAllocatesNorLocks) {
   HandPlant& hand = world.hand("panda", "panda");
   const ArmHolder holder(&arm);
   world.push("stone", {0.1, 0.1, 0}, {}, 100);
+  world.setPreparesBeside(true);
   const rt_guard::Scope scope;
   for (int k = 0; k < 1000; ++k) {
+    world.prepareBeside();
     arm.applyTorques(holder.torques(kHome));
     arm.setBrakes(k > 500 && k < 600);
     hand.applyForces({1, 1});

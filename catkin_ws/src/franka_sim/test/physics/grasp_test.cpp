@@ -1,53 +1,17 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // A stone between two fingers, held only by friction.
-#include <Eigen/Geometry>
 #include <cmath>
 
-#include "test_support.h"
+#include "stone_in_hand.h"
 
 namespace franka_sim::test {
 namespace {
 
-Eigen::Isometry3d toEigen(const Pose& pose) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  const auto& q = pose.orientation;
-  result.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-  result.translation() = Eigen::Vector3d(pose.position.data());
-  return result;
-}
-
-class GraspTest : public ::testing::TestWithParam<const char*> {
+class GraspTest : public StoneInHandTest {
  protected:
   static constexpr double kFingerForce = 2.5;  ///< half of the hand's 5 N
   static constexpr double kWeight = 0.1024 * 9.81;
-
-  GraspTest() : world_(test::world("stone")) {
-    RobotDescription description = robot(id());
-    description.base.position = {-0.5, 0, 0.3};
-    description.initial_positions[id() + "_finger_joint1"] = 0.0165;
-    world_.addRobot(description);
-    arm_ = &world_.arm(id(), id());
-    hand_ = &world_.hand(id(), id());
-    holder_ = std::make_unique<ArmHolder>(arm_, id());
-  }
-
-  std::string id() const { return GetParam(); }
-
-  /// Puts the stone between the open fingers, its 32 mm along their direction of motion.
-  void placeStone() { world_.setBodyPose("stone", world_.bodyPose(id() + "_hand_tcp")); }
-
-  void tick(double force, const std::array<double, 7>& q_d,
-            const std::array<double, 7>& dq_d = {}) {
-    holder_->hold(q_d, dq_d);
-    hand_->applyForces({-force, -force});
-    world_.step();
-  }
-
-  Eigen::Vector3d stoneInHand() {
-    return (toEigen(world_.bodyPose(id() + "_hand")).inverse() * toEigen(world_.bodyPose("stone")))
-        .translation();
-  }
 
   /// Sum of the forces on the stone from one finger, world axes [N].
   Eigen::Vector3d forceFrom(const std::string& link) {
@@ -62,11 +26,6 @@ class GraspTest : public ::testing::TestWithParam<const char*> {
     }
     return sum;
   }
-
-  World world_;
-  ArmPlant* arm_;
-  HandPlant* hand_;
-  std::unique_ptr<ArmHolder> holder_;
 };
 
 TEST_P(GraspTest, PadsPressWithTheFingerForceAndCarryTheWeight) {
@@ -83,6 +42,24 @@ TEST_P(GraspTest, PadsPressWithTheFingerForceAndCarryTheWeight) {
   EXPECT_NEAR(kFingerForce, right.dot(across), 0.1 * kFingerForce);
   EXPECT_NEAR(kWeight, left.z() + right.z(), 1e-2 * kWeight);
   EXPECT_NEAR(0.032, hand_->measure().q[0] + hand_->measure().q[1], 5e-4);
+}
+
+TEST_P(GraspTest, WhatTouchesTheStoneIsShownInBrief) {
+  const auto touches = [this] {
+    const Touches found = world_.touches("stone");
+    return std::make_pair(found.robots, found.others);
+  };
+  for (int k = 0; k < 1000; ++k) {
+    tick(-kFingerForce, kHome);
+  }
+  EXPECT_EQ(std::make_pair(std::vector<std::string>{}, true), touches()) << "on its tray";
+  placeStone();
+  EXPECT_TRUE(touches().second) << "in the last step";
+  for (int k = 0; k < 1000; ++k) {
+    tick(kFingerForce, kHome);
+  }
+  EXPECT_EQ(std::make_pair(std::vector<std::string>{id()}, false), touches()) << "in the hand";
+  EXPECT_THROW(world_.touches("pebble"), std::runtime_error);
 }
 
 TEST_P(GraspTest, StoneStaysGraspedForAMinuteOfMotion) {

@@ -8,6 +8,7 @@
 #include <fstream>
 
 #include "physics/compile.h"
+#include "temporary_folder.h"
 #include "test_support.h"
 
 namespace franka_sim::test {
@@ -15,20 +16,8 @@ namespace {
 
 class MjcfWorldTest : public ::testing::Test {
  protected:
-  MjcfWorldTest() {
-    char name[] = "/tmp/franka_sim_world_XXXXXX";
-    folder_ = mkdtemp(name);
-  }
-  ~MjcfWorldTest() override {
-    for (const std::string& file : files_) {
-      std::remove(file.c_str());
-    }
-    rmdir(folder_.c_str());
-  }
   std::string write(const std::string& name, const std::string& text) {
-    files_.push_back(folder_ + "/" + name);
-    std::ofstream(files_.back(), std::ios::binary) << text;
-    return files_.back();
+    return folder_.write(name, text);
   }
   void refuses(const std::string& text, std::initializer_list<const char*> parts) {
     const std::string file = write("bad.xml", text);
@@ -36,8 +25,7 @@ class MjcfWorldTest : public ::testing::Test {
     expectSentence([&] { World world(file); }, {file.c_str()});
   }
 
-  std::string folder_;
-  std::vector<std::string> files_;
+  franka_test::TemporaryFolder folder_;
 };
 
 TEST_F(MjcfWorldTest, ReportsErrorsWithTheirCause) {
@@ -154,8 +142,8 @@ TEST_F(MjcfWorldTest, NamesAMissingCollisionMesh) {
   description.urdf = replaceAll(description.urdf, link, link + box);
   expectSentence([&] { world.addRobot(description); },
                  {"'panda_link5'", "package://x/a.stl", "cannot be resolved"});
-  description.resolve = [this](const std::string&) { return folder_ + "/a.stl"; };
-  expectSentence([&] { world.addRobot(description); }, {"a.stl", "is not there"});
+  description.resolve = [this](const std::string&) { return folder_ / "a.stl"; };
+  expectSentence([&] { world.addRobot(description); }, {"a.stl", "does not exist"});
   write("a.stl", "solid ascii\nendsolid\n" + std::string(200, ' '));
   expectSentence([&] { world.addRobot(description); },
                  {"'panda_link5'", "a.stl", "cannot be read"});

@@ -96,7 +96,7 @@ void bareSteps(benchmark::State& state) {
       data->qfrc_applied[dof[i]] =
           spring(i, data->qpos[qpos[i]], data->qvel[dof[i]], data->qfrc_bias[dof[i]]);
     }
-    for (int substep = 0; substep < World::kSubsteps; ++substep) {
+    for (int substep = 0; substep < World::kSmallSteps; ++substep) {
       mj_step(model, data);
     }
   }

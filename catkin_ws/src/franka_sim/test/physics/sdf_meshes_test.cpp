@@ -213,7 +213,7 @@ TEST_F(SdfMeshTest, ReportsTextures) {
       collada(node("n", kBox + kLid), "Z_UP", "<texture texture='picture' texcoord='UV'/>");
   write("a.dae", textured);
   World world(file(model(visual("a.dae"))));
-  EXPECT_THAT(world.unsupported(), HasSubstr("textures of the mesh " + folder_ + "/a.dae"));
+  EXPECT_THAT(world.unsupported(), HasSubstr("textures of the mesh " + folder_ / "a.dae"));
   EXPECT_EQ(reachOf(world, "m").geoms, 2);
   World coloured(
       file(model(visual("a.dae", "", "<material><diffuse>1 0 0 1</diffuse></material>"))));
@@ -298,8 +298,8 @@ TEST_F(SdfMeshTest, ReportsMeshesThatAreNotConvex) {
                                                 "<scale>3 1 0.3</scale>" +
                                                     kBox)));
   World world(file(model(visual("l.dae") + collision("l.dae"))));
-  EXPECT_THAT(world.unsupported(), HasSubstr("collision 'c' of 'm::l': of the mesh " + folder_ +
-                                             "/l.dae others touch the convex hull"));
+  EXPECT_THAT(world.unsupported(), HasSubstr("collision 'c' of 'm::l': of the mesh " +
+                                             folder_ / "l.dae" + " others touch the convex hull"));
   EXPECT_THAT(world.unsupported(), Not(HasSubstr("visual")));
 }
 
@@ -330,8 +330,8 @@ TEST_F(SdfMeshTest, ReportsBrokenFilesAndRunsTheWorld) {
   for (const auto& [name, content] : files) {
     write(name, content);
     World world(file(model(visual(name) + collision(name))));
-    for (const std::string& part : {"visual 'v' of 'm::l': the mesh " + folder_ + "/" + name,
-                                    "collision 'c' of 'm::l': the mesh " + folder_ + "/" + name}) {
+    for (const std::string& part : {"visual 'v' of 'm::l': the mesh " + folder_ / name,
+                                    "collision 'c' of 'm::l': the mesh " + folder_ / name}) {
       EXPECT_THAT(world.unsupported(), HasSubstr(part));
     }
     EXPECT_EQ(reachOf(world, "m").geoms, 0) << name;
@@ -351,7 +351,7 @@ TEST_F(SdfMeshTest, AddedObjectsHaveTheirMesh) {
   World world(file(kGround));
   for (const char* name : {"one", "two"}) {
     world.addObject(
-        name, "<sdf version='1.6'>" + model(collision("file://" + folder_ + "/a.dae")) + "</sdf>",
+        name, "<sdf version='1.6'>" + model(collision("file://" + folder_ / "a.dae")) + "</sdf>",
         {});
     expectReach(reachOf(world, name).box, {0, 0, 0}, {0.02, 0.04, 0.06});
   }

@@ -9,6 +9,7 @@
 #include <string>
 
 #include "physics/world_impl.h"
+#include "temporary_folder.h"
 #include "test_support.h"
 
 namespace franka_sim::test {
@@ -16,27 +17,15 @@ namespace franka_sim::test {
 /// Writes SDF texts and their files into a temporary folder.
 class SdfTest : public ::testing::Test {
  protected:
-  SdfTest() {
-    char name[] = "/tmp/franka_sim_sdf_XXXXXX";
-    folder_ = mkdtemp(name);
-  }
-  ~SdfTest() override {
-    const int status = std::system(("rm -rf " + folder_).c_str());
-    (void)status;
-  }
   std::string write(const std::string& name, const std::string& text) {
-    const std::string path = folder_ + "/" + name;
-    const int status = std::system(("mkdir -p " + path.substr(0, path.rfind('/'))).c_str());
-    (void)status;
-    std::ofstream(path, std::ios::binary) << text;
-    return path;
+    return folder_.write(name, text);
   }
   /// Writes a world file with this content.
   std::string file(const std::string& content, const std::string& version = "1.6") {
     return write("test.world", "<?xml version='1.0'?><!-- a world --><sdf version='" + version +
                                    "'><world name='w'>" + content + "</world></sdf>");
   }
-  std::string folder_;
+  franka_test::TemporaryFolder folder_;
 };
 
 inline int bodyId(World& world, const std::string& name) {

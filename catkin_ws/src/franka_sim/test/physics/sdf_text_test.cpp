@@ -43,7 +43,7 @@ std::string contentOf(const std::string& path) {
 
 class SdfTextTest : public SdfTest {
  protected:
-  SdfScene byTinyXml(const std::string& text) const { return byTinyXml(text, folder_); }
+  SdfScene byTinyXml(const std::string& text) const { return byTinyXml(text, folder_.path()); }
 
   static SdfScene byTinyXml(const std::string& text, const std::string& folder) {
     const SdfFiles files(folder, {});
@@ -58,7 +58,7 @@ class SdfTextTest : public SdfTest {
   }
 
   /// The scene of our own reader, compared with sdformat's if that is available.
-  SdfScene both(const std::string& text) const { return both(text, folder_); }
+  SdfScene both(const std::string& text) const { return both(text, folder_.path()); }
 
   static SdfScene both(const std::string& text, const std::string& folder) {
     SdfScene own = byTinyXml(text, folder);
@@ -214,7 +214,7 @@ TEST_F(SdfTextTest, ExpandsNestedModelsAndIncludes) {
             "1.8"));
   ASSERT_EQ(scene.models.size(), 3u);
   EXPECT_EQ(scene.links[1].name, "first::link");
-  EXPECT_EQ(scene.links[1].collisions.at(0).mesh.file, folder_ + "/crate/meshes/tetra.obj");
+  EXPECT_EQ(scene.links[1].collisions.at(0).mesh.file, folder_ / "crate/meshes/tetra.obj");
   EXPECT_EQ(scene.links[3].name, "outer::inner::l");
   expectNear(scene.links[3].pose, poseFrom(1, 0, 0, 0, 0, 1) * poseFrom(0, 1, 0, 0, 0, 0), "l");
   EXPECT_EQ(scene.joints.at(0).child, 3);

@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "temporary_folder.h"
 #include "test_support.h"
 
 namespace franka_sim::test {
@@ -31,11 +32,6 @@ constexpr char kWorld[] = R"(<mujoco>
 
 class ShapesTest : public ::testing::Test {
  protected:
-  std::string file() const {
-    const std::string name = ::testing::TempDir() + "shapes_test.xml";
-    std::ofstream(name) << kWorld;
-    return name;
-  }
   std::size_t indexOf(const std::string& body) const {
     const auto names = world.frames();
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), body) - names.begin());
@@ -50,7 +46,8 @@ class ShapesTest : public ::testing::Test {
     return result;
   }
 
-  World world{file()};
+  franka_test::TemporaryFolder folder;
+  World world{folder.write("world.xml", kWorld)};
   WorldShapes shapes = shapesOf(world)();
 };
 
@@ -68,7 +65,7 @@ TEST_F(ShapesTest, HaveKindSizePlaceAndColour) {
   EXPECT_FLOAT_EQ(0.8F, box.color[0]) << "of its material";
 }
 
-TEST_F(ShapesTest, MeshesLieWhereTheirVerticesSay) {
+TEST_F(ShapesTest, MeshesAreAtThePositionsOfTheirVertices) {
   ASSERT_EQ(1U, shapesOn("").size()) << "of the body without a name";
   const Shape shape = shapesOn("")[0];
   ASSERT_EQ(Shape::Kind::kMesh, shape.kind);

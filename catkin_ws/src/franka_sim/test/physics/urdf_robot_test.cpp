@@ -87,7 +87,7 @@ TEST(UrdfRobotTest, ReportsErrorsWithTheirCause) {
       twoLinks(hinge(), "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='3'/></inertial>"),
       {"link 'arm'", "principal moments"});
   refuses(twoLinks(hinge(), "<inertial><mass value='1'/></inertial>"), {"<inertia>"});
-  refuses(twoLinks(hinge(), "<collision/>"), {"link 'arm'", "no geometry"});
+  refuses(twoLinks(hinge(), "<collision/>"), {"link 'arm'", "has no geometry"});
   refuses(twoLinks(hinge(), "<collision><geometry><cone/></geometry></collision>"), {"<cone>"});
   refuses(twoLinks(hinge(), "<collision><geometry><sphere radius='0'/></geometry></collision>"),
           {"'radius'", "greater than zero"});
@@ -102,7 +102,7 @@ TEST(UrdfRobotTest, RefusesLoopsAndTwoParents) {
   refuses(loop, {"loop"});
   refuses(twoLinks(hinge() +
                    "<joint name='k' type='fixed'><parent link='base'/><child link='arm'/></joint>"),
-          {"'arm'", "two joints", "'j'", "'k'"});
+          {"'arm'", "two parent joints", "'j'", "'k'"});
 }
 
 TEST(RobotModelTest, RefusesParametersThatDoNotFitTheUrdf) {
@@ -162,11 +162,11 @@ TEST(RobotModelTest, FusesFixedLinks) {
 }
 
 // An encoder never shows the exact target, and clients divide by the remaining distance.
-TEST(ComeToRest, IsAWayOfATenthOfAMilliradianFromTheTarget) {
+TEST(RestOffset, IsATenthOfAMilliradianFromTheTarget) {
   RobotDescription description = robot("panda");
   description.initial_positions.erase("panda_joint3");
   const auto target = description.initial_positions;
-  comeToRest(kJointStiffness, "panda", description);
+  applyRestOffset(kJointStiffness, "panda", description);
   EXPECT_EQ(target.size(), description.initial_positions.size());
   for (const auto& [joint, position] : target) {
     const double way = std::abs(description.initial_positions[joint] - position);

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "temporary_folder.h"
 #include "test_support.h"
 
 namespace franka_sim::test {
@@ -188,11 +189,10 @@ TEST(Warnings, OfMujocoAreReportedOnce) {
     bodies += R"(<body pos=")" + std::to_string(i) +
               R"( 0 0.099"><freejoint/><geom type="sphere" size="0.1" mass="1"/></body>)";
   }
-  const std::string file = ::testing::TempDir() + "/narrow.xml";
-  std::ofstream(file) << R"(<mujoco><size nconmax="1" njmax="50"/><worldbody>)"
-                         R"(<geom type="plane" size="9 9 0.1"/>)"
-                      << bodies << "</worldbody></mujoco>";
-  World world(file);
+  const franka_test::TemporaryFolder folder;
+  World world(folder.write("narrow.xml", R"(<mujoco><size nconmax="1" njmax="50"/><worldbody>)"
+                                         R"(<geom type="plane" size="9 9 0.1"/>)" +
+                                             bodies + "</worldbody></mujoco>"));
   EXPECT_TRUE(world.takeWarnings().empty());
   world.step();
   const std::vector<std::string> warnings = world.takeWarnings();
@@ -201,6 +201,26 @@ TEST(Warnings, OfMujocoAreReportedOnce) {
   world.step();
   EXPECT_TRUE(world.takeWarnings().empty());
   EXPECT_FALSE(world.stopped());
+}
+
+TEST(WorldContactCapacity, HoldsAHundredBoxesOnTheGround) {
+  std::string bodies;
+  for (int i = 0; i < 100; i++) {
+    bodies += "<body name='box" + std::to_string(i) + "' pos='" + std::to_string(0.1 * (i % 10)) +
+              " " + std::to_string(0.1 * (i / 10)) + " 0.02'><freejoint/>" +
+              "<geom type='box' size='0.02 0.02 0.02' mass='0.05'/></body>";
+  }
+  const franka_test::TemporaryFolder folder;
+  World world(folder.write("boxes.xml", "<mujoco><worldbody><geom type='plane' size='9 9 0.1'/>" +
+                                            bodies + "</worldbody></mujoco>"));
+  for (int k = 0; k < 300; k++) {
+    world.step();
+  }
+  EXPECT_TRUE(world.takeWarnings().empty());
+  EXPECT_EQ(400u, world.contacts().size());
+  for (int i = 0; i < 100; i++) {
+    EXPECT_NEAR(0.02, world.bodyPose("box" + std::to_string(i)).position[2], 5e-4);
+  }
 }
 
 TEST(Overlaps, AreReportedForARobotThatStartsInTheTable) {

@@ -225,7 +225,8 @@ TEST(WorldTest, RefusesUnknownBodiesAndJoints) {
   expectSentence([&] { world.bodyPose(""); }, {"no body ''"});
   expectSentence([&] { world.setBodyPose("table", {}); }, {"'table'", "not free"});
   expectSentence([&] { world.setBodyPose("stone", {{0, 0, NAN}, {1, 0, 0, 0}}); }, {"not finite"});
-  expectSentence([&] { world.setBodyPose("stone", {{}, {0, 0, 0, 0}}); }, {"no unit quaternion"});
+  expectSentence([&] { world.setBodyPose("stone", {{}, {0, 0, 0, 0}}); },
+                 {"not a unit quaternion"});
   expectSentence([&] { world.joint("panda_joint8"); }, {"no joint 'panda_joint8'"});
   expectSentence([&] { world.joint("stone"); }, {"'stone'", "more than one degree"});
   expectSentence([&] { world.setJointPosition("panda_joint1", 9); }, {"panda_joint1", "stops"});

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/robot/command_link.h>
+#include <franka_sim/robot/command_window.h>
 #include <gtest/gtest.h>
 
 #include <vector>
@@ -85,6 +86,25 @@ TEST(CommandLink, LosesTheConfiguredShareRepeatably) {
   CommandLink all;
   all.setLoss(1.0, 0);
   EXPECT_EQ(send(all, 3), (std::vector<std::uint64_t>{0, 0, 0}));
+}
+
+TEST(CommandWindow, CountsTheLastHundredSlots) {
+  CommandWindow window;
+  EXPECT_EQ(0.0, window.rate());
+  window.record(true);
+  EXPECT_EQ(1.0, window.rate());
+  window.record(false);
+  EXPECT_EQ(0.5, window.rate());
+  for (int i = 0; i < 98; i++) {
+    window.record(true);
+  }
+  EXPECT_DOUBLE_EQ(0.99, window.rate());
+  window.record(true);  // pushes a success out
+  EXPECT_DOUBLE_EQ(0.99, window.rate());
+  window.record(true);  // pushes the failure out
+  EXPECT_DOUBLE_EQ(1.0, window.rate());
+  window.clear();
+  EXPECT_EQ(0.0, window.rate());
 }
 
 }  // namespace

@@ -31,7 +31,7 @@ class FakeArm : public ArmPlant {
   std::array<double, 6> push{};  ///< external, in O, at the frame below [N, Nm]
   std::array<double, 16> push_frame{franka_core::kIdentityTransform};  ///< in the flange frame
 
-  ArmMeasurement measure() const noexcept override { return {q_, dq_, tau_J_}; }
+  ArmMeasurement measure() const noexcept override { return {q_, dq_, tau_J_, kSubsteps}; }
   void applyTorques(const std::array<double, 7>& tau) noexcept override { tau_ = tau; }
   void setBrakes(bool closed) noexcept override { braked_ = closed; }
 

@@ -437,7 +437,7 @@ TEST_F(GripperTest, HomingClosesAndOpensFully) {
 
 TEST_F(GripperTest, IsHomedAfterAHomingThatSucceeds) {
   EXPECT_TRUE(gripper.isHomed());
-  gripper.forgetHoming();
+  gripper.invalidateHoming();
   EXPECT_EQ(0U, gripper.move(0.02, 0.1));
   EXPECT_EQ(0U, gripper.grasp(0.02, 0.1, 0.1, 0.1, 10.0));
   const GripperUnit::Ticket interrupted = gripper.homing();

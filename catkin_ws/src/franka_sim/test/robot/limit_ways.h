@@ -22,7 +22,7 @@ inline const std::vector<Derivative> kAllButVelocity{Derivative::kAcceleration, 
 inline const std::vector<Derivative> kAllStages{Derivative::kVelocity, Derivative::kAcceleration,
                                                 Derivative::kJerk};
 
-/// Found by WaySearch; the table of docs/limits.md.
+/// Found by WaySearch; the table of docs/design/limits.md.
 inline const std::vector<LimitWay> kLimitWays{
     {5,
      kVelocityOnly,

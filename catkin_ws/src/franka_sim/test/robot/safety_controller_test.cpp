@@ -278,12 +278,12 @@ TEST_P(SafetyTest, StoppedOperatorMotionHasNotArrived) {
 
 TEST_P(SafetyTest, PowerOffRefusesEverything) {
   makeReady();
-  safety.setPower(false);
+  safety.switchOff();
   EXPECT_EQ(Refusal::kNotReady, safety.unlock());
   EXPECT_EQ(Refusal::kNotReady, safety.activateFci());
   EXPECT_EQ(Refusal::kNotReady, safety.startSelfTest());
   settle();
-  safety.setPower(true);
+  safety.start(SafetyRules::kDesk);
   tick(5);
   EXPECT_EQ(7, closedBrakes());
   makeReady();
@@ -309,7 +309,7 @@ TEST_P(SafetyTest, OpenRulesRefuseNothing) {
   EXPECT_EQ(RobotMode::kGuiding, unit.state().robot_mode);
 }
 
-TEST_P(SafetyTest, EveryRefusalHasWords) {
+TEST_P(SafetyTest, EveryRefusalHasAMessage) {
   for (std::size_t i = 1; i <= static_cast<std::size_t>(Refusal::kNoAckRequired); i++) {
     EXPECT_FALSE(nameOf(static_cast<Refusal>(i)).empty());
     EXPECT_EQ('.', sentenceOf(static_cast<Refusal>(i)).back());

@@ -4,15 +4,18 @@
 // One rule for transforms at every input of the control unit.
 #include <franka_core/transform.h>
 #include <franka_sim/robot/parameter_checks.h>
+#include <transform_sweep.h>
 
 #include <stdexcept>
 #include <string>
 
 #include "fci_fixture.h"
-#include "transform_sweep.h"
 
 namespace franka_sim::test {
 namespace {
+
+using franka_test::perturbations;
+using franka_test::PerturbedMatrix;
 
 using TransformEntrances = FciTest;
 
@@ -73,7 +76,7 @@ TEST(TransformFault, DescribesEveryRefusedMatrix) {
   };
   const double third = 1.0 / std::sqrt(3.0);
   for (const Row& row :
-       {Row{with(3, 1e-17), "1e-17 0 0 1"}, Row{with(12, NAN), "not a number"},
+       {Row{with(3, 1e-17), "1e-17 0 0 1"}, Row{with(12, NAN), "row 1 and column 4 is nan"},
         Row{with(0, 1.1), "column 1"}, Row{with(4, 1e-4), "columns 1 and 2"},
         Row{with(10, -1.0), "mirrors"},
         Row{{third, third, third, 0, third, third, third, 0, third, third, third, 0, 0, 0, 0, 1},

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The limits of every motion generator through the whole control unit, with a moving arm: 99 % of
 // each is reached and the motion ends well, 101 % raises only the flag of its stage, and after a
-// recovery 99 % is reached again. docs/limits.md lists the start poses and reasons.
+// recovery 99 % is reached again. docs/design/limits.md lists the start poses and reasons.
 #include <cstdlib>
 #include <functional>
 #include <memory>
@@ -199,7 +199,7 @@ class UnitLimits : public FciTest, public ::testing::WithParamInterface<unsigned
   void expectEachCartesianLimit(MotionGeneratorMode mode) {
     for (const Floats floats : clientsOf(mode)) {
       for (const LimitWay& row : kLimitWays) {
-        // The elbow is always sent as a position: see docs/limits.md.
+        // The elbow is always sent as a position: see docs/design/limits.md.
         const bool too_coarse = floats == Floats::kSends && row.way.part == Part::kElbow;
         if (row.protocol != GetParam() || too_coarse) {
           continue;
@@ -272,8 +272,8 @@ class JointEnds : public UnitLimits {
   double endOfCruise(std::size_t joint, bool upper) const {
     const franka_core::PositionVelocityLimits& near = limits.velocity_near_ends;
     const double root = kCruise + near.offset[joint];
-    const double room = root * root / near.deceleration[joint];
-    return upper ? near.q_max[joint] - room : near.q_min[joint] + room;
+    const double margin = root * root / near.deceleration[joint];
+    return upper ? near.q_max[joint] - margin : near.q_min[joint] + margin;
   }
 
   /// The largest share that velocities use of the limit at the joint's position.

@@ -63,7 +63,7 @@ class BatchTest : public ::testing::TestWithParam<const char*> {};
 INSTANTIATE_TEST_SUITE_P(Robots, BatchTest, ::testing::Values("panda", "fr3"),
                          [](const auto& param) { return std::string(param.param); });
 
-TEST_P(BatchTest, EachWorldEqualsItselfAloneWhateverTheNumberOfThreads) {
+TEST_P(BatchTest, EachWorldEqualsASingleRunForAnyNumberOfThreads) {
   constexpr int kWorlds = 5;
   std::vector<std::uint64_t> alone;
   for (int i = 0; i < kWorlds; i++) {
@@ -74,7 +74,7 @@ TEST_P(BatchTest, EachWorldEqualsItselfAloneWhateverTheNumberOfThreads) {
   }
   for (const int threads : {1, 2, 7}) {
     const Worlds worlds(GetParam(), kWorlds);
-    SimulationBatch batch(worlds.all, threads, Observer::usualNames(*worlds.all[0]));
+    SimulationBatch batch(worlds.all, threads, Observer::defaultNames(*worlds.all[0]));
     for (int i = 0; i < kWorlds; i++) {
       begin(*worlds.all[i], i);
     }
@@ -120,15 +120,48 @@ TEST_P(BatchTest, ObservationsAreRowsOfTheWorldsPresentValues) {
   EXPECT_EQ(0.0, batch.observations()[22]);
 }
 
-TEST(Batch, UsualValuesAreThoseOfTheRobotsAndOfWhatMoves) {
+TEST_P(BatchTest, AnotherSimulationTakesTheRowOfOne) {
+  const Worlds worlds(GetParam(), 2);
+  const auto other = simulationOf(GetParam(), 9);
+  begin(*other, 0);
+  other->step(30);
+  SimulationBatch batch(worlds.all, 2, {"stone.pose", "time"});
+  batch.step(10);
+  const std::size_t time = batch.rowSize() - 1;
+  const double* row = &batch.observations()[batch.rowSize()];
+  batch.replace(1, *other);
+  EXPECT_DOUBLE_EQ(0.030, row[time]);
+  EXPECT_EQ(other->world().bodyPose("stone").position[0], row[0]);
+  batch.step(20);
+  EXPECT_DOUBLE_EQ(0.050, row[time]);
+  EXPECT_DOUBLE_EQ(0.030, batch.observations()[time]);
+  EXPECT_EQ(10u, worlds.all[1]->world().ticks());
+}
+
+TEST(Batch, OnlyASimulationWithTheObservedValuesTakesARow) {
+  const Worlds worlds("panda", 2);
+  SimulationBatch batch(worlds.all, 1, {"panda.q", "time"});
+  const auto other = simulationOf("panda", 3);
+  const auto fr3 = simulationOf("fr3", 3);
+  const auto replaced = [&](std::size_t number, Simulation& simulation) {
+    return refusal([&] { batch.replace(number, simulation); });
+  };
+  EXPECT_EQ("There is no world 2; the batch has 2.", replaced(2, *other));
+  EXPECT_EQ("This simulation is already world 0 of the batch.", replaced(1, *worlds.all[0]));
+  EXPECT_NE(replaced(1, *fr3).find("There is no value 'panda.q'"), std::string::npos);
+  batch.step(5);
+  EXPECT_EQ(5u, worlds.all[1]->world().ticks());
+}
+
+TEST(Batch, DefaultValuesAreThoseOfTheRobotsAndOfMovingObjects) {
   const auto simulation = simulationOf("panda", 1);
-  const std::vector<std::string> names = Observer::usualNames(*simulation);
+  const std::vector<std::string> names = Observer::defaultNames(*simulation);
   EXPECT_EQ((std::vector<std::string>{"time", "panda.q", "panda.dq", "panda.O_T_EE",
                                       "panda.robot_mode", "panda.width", "stone.pose"}),
             names);
 }
 
-TEST(Batch, WhatCannotBeUsedIsRefused) {
+TEST(Batch, InvalidArgumentsAreRefused) {
   const Worlds worlds("panda", 1);
   const auto made = [&](const std::vector<Simulation*>& all, int threads,
                         const std::vector<std::string>& observe) {
@@ -164,7 +197,7 @@ TEST(Batch, AWorldThatDivergesStopsAloneAndIsNamed) {
   EXPECT_EQ("", refusal([&] { batch.step(1); }));
 }
 
-TEST(Batch, AForkedProcessIsToldThatItHasNoThreads) {
+TEST(Batch, ForkedProcessRaises) {
   const Worlds worlds("panda", 2);
   SimulationBatch batch(worlds.all, 2, {"time"});
   batch.step(5);

@@ -196,21 +196,6 @@ TEST_P(SimulationTest, AnArmIsPlacedWithinItsLimitsOnly) {
   EXPECT_EQ(before, robot.state().q) << "nothing has moved";
 }
 
-TEST_P(SimulationTest, ASnapshotIsRestoredAtRest) {
-  const auto simulation = simulationOf("ideal", "stone.xml");
-  SimulatedRobot& robot = arm(*simulation);
-  simulation->step(50);
-  const Snapshot snapshot = simulation->world().snapshot();
-  const Array7 q = robot.state().q;
-  robot.jointLaw().setTarget({0, 0, 0, -1.5, 0, 1.5, 0}, 1.0);
-  simulation->step(700);
-  simulation->restore(snapshot);
-  EXPECT_EQ(q, robot.state().q);
-  EXPECT_FALSE(robot.moving());
-  simulation->step(500);
-  EXPECT_LT(farthest(q, robot.state().q), 1e-4);
-}
-
 TEST_P(SimulationTest, StepsNeitherAllocateNorLock) {
   const auto simulation = simulationOf("recorded");
   SimulatedRobot& robot = arm(*simulation);
@@ -224,7 +209,7 @@ TEST_P(SimulationTest, StepsNeitherAllocateNorLock) {
   EXPECT_EQ(0u, scope.locks());
 }
 
-TEST(Simulation, ErrorsNameWhatIsWrong) {
+TEST(Simulation, ErrorsNameTheWrongArgument) {
   try {
     Simulation("nowhere.xml", {});
     FAIL();

@@ -7,14 +7,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "../physics/test_support.h"
 #include "../robot/sine_driver.h"
+#include "temporary_folder.h"
 
 namespace franka_sim::test {
 namespace {
@@ -97,7 +96,7 @@ double coastingTime(const JointFriction& law, double inertia, double from, doubl
   return sum * h / 3.0;
 }
 
-TEST_P(RealismTest, JointSevenCoastsToRestAsItsPublishedFrictionSays) {
+TEST_P(RealismTest, JointSevenCoastsToRestAccordingToItsPublishedFriction) {
   start("real");
   startTorqueControl();
   const franka_core::RobotCommand zero;
@@ -153,7 +152,7 @@ TEST_P(RealismTest, FrictionIsSeenInTheTorqueOfEachJoint) {
 
 // --- what the robot reports ----------------------------------------------------------------------
 
-TEST_P(RealismTest, PushIsReadAsSlowlyAndAsWellAsByARealRobot) {
+TEST_P(RealismTest, PushReadingHasTheDelayAndAccuracyOfARealRobot) {
   start("real");
   run(1000);
   const double before = unit_->state().O_F_ext_hat_K[0];
@@ -171,7 +170,7 @@ TEST_P(RealismTest, PushIsReadAsSlowlyAndAsWellAsByARealRobot) {
   EXPECT_NEAR(0.0, before, 0.5);
 }
 
-TEST_P(RealismTest, FreeMotionReadsAForceAsOfARealRobot) {
+TEST_P(RealismTest, FreeMotionReadsTheForceOfARealRobot) {
   start("real");
   startTorqueControl();
   SineDriver driver(*parameters_, handPayload(id()), 1.5, 0.9, {{1, 1, 1, 1, 1, 1, 1}});
@@ -348,12 +347,12 @@ TEST(Realism, WrongTextsAreRefusedWithASentence) {
 
 class OwnRobotFile : public testing::Test {
  protected:
-  void TearDown() override { std::remove(path_.c_str()); }
   RobotPhysics read(const std::string& text) {
-    std::ofstream(path_) << text;
+    folder_.write("robot.yaml", text);
     return physicsOf("fr3", "real,file=" + path_);
   }
-  std::string path_{testing::TempDir() + "franka_own_robot_test.yaml"};
+  franka_test::TemporaryFolder folder_;
+  const std::string path_ = folder_ / "robot.yaml";
 };
 
 TEST_F(OwnRobotFile, ReplacesTheFiguresOfTheRobot) {

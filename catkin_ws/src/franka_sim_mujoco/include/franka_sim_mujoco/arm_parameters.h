@@ -22,8 +22,8 @@ franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
                                                     const urdf::Model& model,
                                                     const std::string& arm_id);
 
-/// The physics of a robot as the parameter `realism` asks for it, of this namespace or of one above
-/// it. Without franka_description: the default physics, with a warning.
+/// The physics of a robot as requested by the parameter `realism`, of this namespace or of one
+/// above it. Without franka_description: the default physics, with a warning.
 /// @param robot_type "panda" or "fr3" @param profile if the parameter is missing or names none
 /// @throws std::exception with a sentence for a wrong parameter or file
 franka_sim::RobotPhysics readPhysics(const ros::NodeHandle& node, const std::string& robot_type,

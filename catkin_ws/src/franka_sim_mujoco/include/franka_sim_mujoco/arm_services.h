@@ -23,7 +23,6 @@ using PlaceJoint = std::function<void(const std::string& joint, double position)
 /// set_user_stop under `franka_control` in its namespace, set_franka_model_configuration in the
 /// namespace itself. They run in service and action threads and access the arm between ticks.
 /// Invalid requests return success = false and a message, and change nothing.
-/// nothing.
 class ArmServices {
  public:
   /// @param restart_controllers restarts the controllers that command the arm, after a recovery and

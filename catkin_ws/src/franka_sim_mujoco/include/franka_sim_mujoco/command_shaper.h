@@ -26,8 +26,8 @@ struct ShapingOptions {
 /// Makes the command of a tick from the controllers' commands.
 ///
 /// Filters and limits each kind of command in the mode against the state that it answers, in that
-/// order. Values that are not finite pass unchanged, and a pose that is no transform after the
-/// filter is not limited: the robot checks it. Real-time safe; pure.
+/// order. Values that are not finite pass unchanged, and a pose that is not a transform after the
+/// filter is not limited: the robot checks it. A pure function. Real-time safe.
 /// @param mode the claims @param state k, which the command answers
 /// @param limits the robot's limits of motions
 franka_core::RobotCommand shapeCommand(const ShapingOptions& options, franka_hw::ControlMode mode,

@@ -27,8 +27,9 @@ namespace franka_sim_mujoco {
 /// set; its output is limited to the URDF's effort. Without a controller, joints with position or
 /// velocity commands hold their position, and joints with only effort commands move freely.
 ///
-/// Created in the stepping thread while it stands still; read, write and doSwitch run in that
-/// thread and neither allocate nor throw (PIDs publish their state if configured).
+/// Created by the stepping thread while it stands still; read, write and doSwitch are called by
+/// that thread and do not throw. Real-time safe. Exceptions: the constructor and `add`; PIDs also
+/// publish their state if configured.
 class DeviceJoints {
  public:
   /// @param node of the robot's namespace, where gains are looked up

@@ -47,6 +47,7 @@ class FrankaHWSim : public RobotHWSim {
                const urdf::Model* urdf_model,
                std::vector<transmission_interface::TransmissionInfo> transmissions) override;
   std::string failure() const override { return failure_; }
+  std::string condition() const override;
   void readSim(ros::Time time, ros::Duration period) override;
   void writeSim(ros::Time time, ros::Duration period) override;
   void eStopActive(bool active) override;

@@ -33,18 +33,18 @@ struct GripperCommand {
 /// loop.
 ///
 /// There is one slot: a command that arrives before the last one was taken out replaces it, and the
-/// last one counts as interrupted, as it would have been a tick later. Any thread may post; serve,
-/// settle and interruptAll belong to the loop and neither lock nor allocate nor free.
+/// last one counts as interrupted, as it would have been a tick later. Any thread but the loop may
+/// post; the loop calls the other functions.
 class GripperMailbox {
  public:
-  /// Any thread but the loop.
+  /// Thread-safe. Not real-time safe.
   void post(const std::shared_ptr<GripperCommand>& command);
 
-  /// Gives the newest command to the unit, before its step.
+  /// Gives the newest command to the unit, before its step. Real-time safe.
   void serve(franka_sim::GripperUnit& unit) noexcept;
-  /// Stores the outcome, after the unit's step.
+  /// Stores the outcome, after the unit's step. Real-time safe.
   void settle(const franka_sim::GripperUnit& unit) noexcept;
-  /// Interrupts all pending commands.
+  /// Interrupts all pending commands. Real-time safe.
   void interruptAll() noexcept;
 
  private:

@@ -10,12 +10,12 @@ namespace franka_sim_mujoco {
 
 /// The lowest pace [simulated seconds per wall second]: a tick takes a tenth of a second, so that
 /// requests are still served promptly.
-constexpr double kSlowestPace = 0.01;
+constexpr double kMinPace = 0.01;
 
 /// The host's pace for a real time factor; 0 means independent of the clock. Clients of robots in
 /// motion are always waited for (docs/franka_sim.md).
 /// @throws std::runtime_error with a sentence when it is not finite, negative, or slower than
-/// kSlowestPace but not 0
+/// kMinPace but not 0
 franka_sim::fci::Pace paceOf(double real_time_factor);
 
 /// Maximum rate of /clock in wall time [Hz] at a real time factor: one message per tick up to real

@@ -37,7 +37,7 @@ class RequestQueue {
   /// Sleeps until work is queued, the queue is closed or the time is over.
   void waitForWork(std::chrono::milliseconds timeout);
   /// Refuses all waiting and future work.
-  void close();
+  void close() noexcept;
 
  private:
   enum class Phase { kWaiting, kRunning, kDone };

@@ -8,11 +8,11 @@
 namespace franka_sim_mujoco {
 
 /// The file of a package://, model:// or file:// URI (or a plain path); empty when unknown. Models
-/// are searched in gazeboModelFolders, then in packages. Any thread.
+/// are searched in gazeboModelFolders, then in packages. Thread-safe.
 std::string resolveUri(const std::string& uri);
 
 /// Folders of Gazebo's models: those of GAZEBO_MODEL_PATH, then those that packages export with
-/// <gazebo_ros gazebo_model_path="..."/>. Any thread; packages are searched once.
+/// <gazebo_ros gazebo_model_path="..."/>. Packages are searched once. Thread-safe.
 std::vector<std::string> gazeboModelFolders();
 
 /// Folders of Gazebo's worlds: GAZEBO_RESOURCE_PATH, then the packages' gazebo_resource_path and

@@ -21,8 +21,8 @@ namespace franka_sim_mujoco {
 
 /// Runs work in the stepping thread between two ticks and returns when it is done, also while the
 /// simulation is paused. Rethrows exceptions of the work; throws std::runtime_error with a sentence
-/// if the stepping thread does not serve it in time. For service and action threads; not for the 1
-/// kHz loop.
+/// if the stepping thread does not serve it in time. For service and action threads.
+/// Not real-time safe.
 using BetweenTicks = std::function<void(const std::function<void()>& work)>;
 
 /// A robot of the simulated world, as passed to a RobotHWSim plugin.
@@ -31,7 +31,7 @@ struct RobotHandle {
   std::string name;          ///< of the robot in the world
   std::string urdf;          ///< text of its description
   franka_sim::RobotPhysics arm_physics;  ///< rotor inertia and friction of the world's joints
-  BetweenTicks between_ticks;
+  BetweenTicks between_ticks;            ///< runs a function between two ticks
   std::string robot_type;  ///< type of the arm, "panda" or "fr3"; empty without an arm
 };
 
@@ -51,7 +51,12 @@ class RobotHWSim : public hardware_interface::RobotHW {
                        std::vector<transmission_interface::TransmissionInfo> transmissions) = 0;
   /// Why initSim returned false, as a sentence for the caller; empty: see the log.
   virtual std::string failure() const { return ""; }
+  /// A line for the simulation's window about the robot's mode and errors; may be empty. Called by
+  /// the stepping thread between ticks.
+  virtual std::string condition() const { return ""; }
+  /// Reads the state of the robot; in each tick, before the controllers.
   virtual void readSim(ros::Time time, ros::Duration period) = 0;
+  /// Applies the commands; in each tick, after the controllers.
   virtual void writeSim(ros::Time time, ros::Duration period) = 0;
   /// A controller threw an exception: its commands must not stay in effect. Called in every cycle
   /// with an exception; never with false.

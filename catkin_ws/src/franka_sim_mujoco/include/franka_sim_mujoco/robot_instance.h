@@ -60,7 +60,7 @@ struct RobotPlan {
 };
 
 /// Reads the URDF, its <gazebo> plugin element and transmissions, the arm's physics parameters.
-/// Any thread. @throws std::runtime_error with a sentence
+/// Thread-safe. @throws std::runtime_error with a sentence
 RobotPlan planRobot(const SpawnOrder& order);
 
 using HardwareLoader = pluginlib::ClassLoader<RobotHWSim>;
@@ -88,13 +88,16 @@ class RobotInstance {
 
   /// Null unless it is served.
   ServedRobot* served() noexcept { return served_.get(); }
-  /// What it is for programs that draw the world; its type is empty without a Franka arm.
+  /// Its description for programs that draw the world; the type is empty without a Franka arm.
   const franka_sim::SceneRobot& inScene() const noexcept { return in_scene_; }
 
-  /// Whether controllers that its launch file starts do not run yet: for kLongestStart ticks at
+  /// One line for the user that describes its mode and errors; empty if it has neither.
+  std::string condition() const;
+
+  /// Whether controllers that its launch file starts do not run yet: for kMaxStartTicks ticks at
   /// most, then with a warning.
   bool isStarting() const noexcept { return start_ticks_left_ > 0; }
-  static constexpr int kLongestStart = 30000;  ///< [ticks], the spawner's own timeout
+  static constexpr int kMaxStartTicks = 30000;  ///< [ticks], the spawner's own timeout
 
   /// Read, controllers, write; does nothing for a served robot. 1 kHz loop. @param times durations
   /// are added to it, unless null

@@ -22,10 +22,10 @@ bool isRobotType(const std::string& name);
 /// positions that the URDF allows for the arm's joints, if only one of the two robots can reach
 /// them all; else the joints' velocities, if they are those of one of the two; else whether the
 /// URDF is called fr3. The name comes last, because an arm on a mobile base, or one of two, has the
-/// name of the whole. Any thread.
+/// name of the whole. Thread-safe.
 /// @param configured one for which isRobotType() is true; empty if not configured
 /// @param arm_id prefix of the arm's joints
-RobotType tellRobotType(const std::optional<std::string>& configured, const urdf::Model& urdf,
-                        const std::string& arm_id);
+RobotType determineRobotType(const std::optional<std::string>& configured, const urdf::Model& urdf,
+                             const std::string& arm_id);
 
 }  // namespace franka_sim_mujoco

@@ -16,7 +16,8 @@ namespace franka_sim_mujoco {
 
 struct RobotPlan;
 
-/// What the lines of a served robot's control interface need of the simulation, which outlives it.
+/// The part of the simulation that the control interface of a served robot uses; outlives the
+/// robot.
 struct OperatorAccess {
   franka_sim::fci::Host& host;
   franka_sim::SceneText& scene;
@@ -40,7 +41,7 @@ class ServedRobot {
   /// Lets the host run the robot and its control interface.
   void addTo(franka_sim::fci::Host& host);
   /// Ends both; lines that wait get no answer.
-  void removeFrom(franka_sim::fci::Host& host);
+  void removeFrom(franka_sim::fci::Host& host) noexcept;
   /// Whether a motion of a client runs.
   bool isCommanded() const { return robot_.expectsCommand(); }
 

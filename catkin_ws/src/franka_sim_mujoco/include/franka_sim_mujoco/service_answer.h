@@ -30,15 +30,15 @@ inline void explain(std_srvs::Trigger::Response& response, const std::string& te
 
 /// Runs a handler and sets the response: true, or only false and a sentence.
 /// @param handler may throw an exception with a sentence for the user
-/// @param tell also receives that sentence, for the log
+/// @param report also receives that sentence, for the log
 template <typename Response>
 void answer(Response& response, const std::function<void()>& handler,
-            const std::function<void(const char*)>& tell) {
+            const std::function<void(const char*)>& report) {
   try {
     handler();
     response.success = true;
   } catch (const std::exception& error) {
-    tell(error.what());
+    report(error.what());
     response = Response();
     response.success = false;
     explain(response, error.what());

@@ -31,8 +31,8 @@ struct SimArmOptions {
 /// provides the state for the controllers, and decides whether their commands reach the control
 /// unit.
 ///
-/// Called by the stepping thread, except for the functions that are thread-safe. read, write and
-/// the control* functions: Real-time safe.
+/// Called by the stepping thread; other threads call only the functions whose comment allows it.
+/// Real-time safe. Exception: the constructor.
 class SimArm {
  public:
   /// The progress of a switch of controllers.

@@ -52,8 +52,7 @@ struct SimulationState {
 /// run faster than real time: the nodes that start them need the processors.
 ///
 /// ROS time starts at 1 ms and grows by 1 ms per tick; it never goes back, not even when the world
-/// is reset. All public functions may be called from any thread and throw std::runtime_error with a
-/// sentence.
+/// is reset. All public functions throw std::runtime_error with a sentence. Thread-safe.
 class Simulation {
  public:
   /// Builds the world. @throws std::runtime_error as World, or for a wrong factor
@@ -73,8 +72,8 @@ class Simulation {
   /// Advances a paused simulation without waiting for the pace and returns when done.
   SimulationState step(std::uint32_t ticks);
   SimulationState state();
-  /// Resets everything to where it was first put; controllers are restarted. A world that has
-  /// stopped (World::stopped) runs again.
+  /// Resets everything to its initial state; controllers are restarted. A world that has stopped
+  /// (World::stopped) runs again.
   void reset();
 
   void spawn(const SpawnOrder& order);
@@ -91,17 +90,21 @@ class Simulation {
   void setJoints(const std::vector<std::string>& names, const std::vector<double>& positions,
                  const std::vector<double>& velocities);
 
-  /// Stores the world's state under a name (at most kMostSnapshots). @returns its hash
+  /// Stores the world's state under a name (at most kMaxSnapshots). @returns its hash
   std::uint64_t takeSnapshot(const std::string& name);
   /// Restores the world; control units and controllers restart. @returns its hash
   std::uint64_t restoreSnapshot(const std::string& name);
-  static constexpr std::size_t kMostSnapshots = 32;
+  static constexpr std::size_t kMaxSnapshots = 32;
 
   /// Runs work on the world in the stepping thread, between ticks.
   void withWorld(const std::function<void(franka_sim::World&)>& work);
 
-  /// Computing time of the stepping thread for each part of a tick [us], over `ticks` ticks without
-  /// waiting. Physics includes the publishing of /clock.
+  /// One line per robot for the user: its mode and errors. Call it in the work of withWorld.
+  std::vector<std::string> conditions() const;
+
+  /// Computing time of the stepping thread for a tick and for each of its parts [us]. Makes `ticks`
+  /// ticks without waiting for the whole, and as many again for the parts. Physics includes the
+  /// publishing of /clock.
   struct Benchmark {
     double tick{0}, physics{0}, read{0}, update{0}, write{0}, bare{0};
   };
@@ -110,6 +113,8 @@ class Simulation {
  private:
   void loop();
   void advance();
+  /// Makes ticks without waiting. @returns the mean computing time of one [us]
+  double timeTicks(std::uint32_t ticks);
   void standStill();
   void finishStepping();
   /// Reports faults of the world; one that has stopped pauses the simulation.

@@ -6,8 +6,7 @@ import math
 
 import numpy as np
 from geometry_msgs.msg import Point, Pose, Quaternion
-from scipy.spatial.transform import Rotation
-from tf.transformations import quaternion_from_matrix, quaternion_matrix
+from tf.transformations import quaternion_about_axis, quaternion_from_matrix, quaternion_matrix
 
 
 def matrix_of(pose: Pose) -> np.ndarray:
@@ -39,12 +38,18 @@ def yaw_of(transform: np.ndarray) -> float:
 
 def rotation_vector(rotation: np.ndarray) -> np.ndarray:
     """Axis times angle [rad] of a 3x3 rotation by less than half a turn."""
-    return Rotation.from_matrix(rotation).as_rotvec()
+    whole = np.eye(4)
+    whole[:3, :3] = rotation
+    *axis, w = quaternion_from_matrix(whole)
+    sine = float(np.linalg.norm(axis))  # of half the angle
+    angle = 2.0 * math.atan2(sine, abs(w))
+    return np.array(axis) * math.copysign(angle / sine if sine > 0.0 else 2.0, w)
 
 
 def rotation_of(vector: np.ndarray) -> np.ndarray:
     """The 3x3 rotation of an axis times an angle [rad]."""
-    return Rotation.from_rotvec(vector).as_matrix()
+    angle = float(np.linalg.norm(vector))
+    return quaternion_matrix(quaternion_about_axis(angle, vector))[:3, :3]
 
 
 def shortened(vector: np.ndarray, longest: float) -> np.ndarray:

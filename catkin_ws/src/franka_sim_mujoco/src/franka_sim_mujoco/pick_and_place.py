@@ -31,6 +31,7 @@ from franka_gripper.msg import (
 )
 from franka_msgs.msg import FrankaState
 from franka_msgs.srv import SetLoad
+from gazebo_msgs.srv import GetLinkState
 from geometry_msgs.msg import Point, Pose, PoseStamped
 from sensor_msgs.msg import Image
 
@@ -52,6 +53,7 @@ STONE_SIZE = (0.025, 0.032, 0.064)
 STONE_MASS = 0.1024
 TRAY_SIZE = (0.235035, 0.144926, 0.023348)
 PATIENCE = 10.0  # minimum wall time of any timeout [s]
+MAX_COUNTED_TIME = 0.1  # simulated time between two looks that counts [s]
 
 
 class TaskError(RuntimeError):
@@ -63,15 +65,16 @@ def wait_until(
 ) -> None:
     """Polls until the condition holds; raises TaskError after either time [s] has passed.
 
-    Simulated time can advance while this process hardly runs (as fast as possible on a busy machine): its
-    timeout counts only after PATIENCE of wall time.
+    Simulated time can advance while this process hardly runs (as fast as possible on a busy machine): of the
+    time between two looks only MAX_COUNTED_TIME counts, and its timeout only after PATIENCE of wall time.
     """
-    start, wall_start = rospy.get_time(), time.monotonic()
+    last, counted, wall_start = rospy.get_time(), 0.0, time.monotonic()
     while not condition():
         if rospy.is_shutdown():
             raise TaskError(f"ROS went down while waiting: {what}.")
-        waited = time.monotonic() - wall_start
-        if rospy.get_time() - start > simulated and waited > PATIENCE:
+        waited, now = time.monotonic() - wall_start, rospy.get_time()
+        last, counted = now, counted + min(now - last, MAX_COUNTED_TIME)
+        if counted > simulated and waited > PATIENCE:
             raise TaskError(f"{what}: not within {simulated:.0f} simulated seconds.")
         if waited > wall:
             raise TaskError(f"{what}: not within {wall:.0f} s of wall time; does the simulation run?")
@@ -84,10 +87,10 @@ class Arm:
     CONTROLLER = "cartesian_impedance_example_controller"
     TURN_TOLERANCE = 0.03  # [rad]
     SETTLED = 0.2  # [s] for which a pose must be kept
-    LONGEST_STEP = 0.02  # [s] largest advance of the target per step
+    MAX_TIME_STEP = 0.02  # [s] largest advance of the target per step
     CORRECTION = 4.0  # [1/s] how fast the equilibrium pose follows the error of an arm that rests
     RESTS = 0.03  # [rad/s]
-    LARGEST_LEAD, LARGEST_LEAD_TURN = 0.05, 0.3  # [m], [rad]: with an obstacle the force stays small
+    MAX_LEAD, MAX_LEAD_TURN = 0.05, 0.3  # [m], [rad]: with an obstacle the force stays small
 
     def __init__(self, arm_id: str, namespace: str = ""):
         """@param namespace of its launch file, with a final slash; none: that of this process."""
@@ -182,7 +185,7 @@ class Arm:
                 raise TaskError(f"{what}: the simulation's clock does not advance.")
             # The target must not jump when this script is late, or the held object would slip.
             now = rospy.get_time()
-            fraction = min(fraction + min(now - last, self.LONGEST_STEP) / duration, 1.0)
+            fraction = min(fraction + min(now - last, self.MAX_TIME_STEP) / duration, 1.0)
             last = now
             s = minimum_jerk(fraction)
             position = start[:3, 3] + s * (target[:3, 3] - start[:3, 3])
@@ -230,10 +233,10 @@ class Arm:
         return now - self._arrival > self.SETTLED
 
     def _correct(self, away: np.ndarray, turned: np.ndarray, now: float) -> None:
-        """Leads the equilibrium pose further, as a person would who sees where the arm stops."""
-        share = self.CORRECTION * min(now - self._corrected, self.LONGEST_STEP)
-        self._lead_position = shortened(self._lead_position + share * away, self.LARGEST_LEAD)
-        self._lead_turn = shortened(self._lead_turn + share * turned, self.LARGEST_LEAD_TURN)
+        """Moves the equilibrium pose further to correct the error at rest."""
+        share = self.CORRECTION * min(now - self._corrected, self.MAX_TIME_STEP)
+        self._lead_position = shortened(self._lead_position + share * away, self.MAX_LEAD)
+        self._lead_turn = shortened(self._lead_turn + share * turned, self.MAX_LEAD_TURN)
 
 
 class Gripper:
@@ -298,6 +301,7 @@ class Scene:
         self._node = node
         self._pose = self._service("get_body_pose", GetBodyPose)
         self._set_pose = self._service("set_body_pose", SetBodyPose)
+        self._link_state = self._service("get_link_state", GetLinkState)
         self._contacts = self._service("get_contacts", GetContacts)
         self._render = self._service("render_picture", RenderPicture)
 
@@ -318,6 +322,13 @@ class Scene:
     def pose(self, body: str) -> np.ndarray:
         """World pose of a body, 4x4."""
         return matrix_of(self._checked(self._pose(body), f"pose of {body}").pose)
+
+    def pose_in(self, frame: str, body: str) -> np.ndarray:
+        """Pose of a body in the frame of another one, 4x4; both are read in the same tick."""
+        answer = self._link_state(body, frame)
+        if not answer.success:
+            raise TaskError(f"pose of {body} in {frame}: {answer.status_message}")
+        return matrix_of(answer.link_state.pose)
 
     def place(self, body: str, pose: Pose) -> None:
         self._checked(self._set_pose(body, pose), f"placing {body}")

@@ -112,27 +112,27 @@ class Session:
                 self._process.wait(timeout)
             except subprocess.TimeoutExpired:
                 pass
-        for pid in self._leftovers():
+        for pid in self.processes():
             try:
                 os.kill(pid, signal.SIGKILL)
             except ProcessLookupError:
                 pass
         self._process.wait()
 
-    def _leftovers(self) -> list[int]:
-        """Processes that still belong to this master (nodes have their own process groups)."""
+    def processes(self) -> list[int]:
+        """Processes that belong to this master (nodes have their own process groups)."""
         mark = f"ROS_MASTER_URI=http://localhost:{self.port}".encode()
+        network = os.readlink("/proc/self/ns/net")  # another one, of a container, may use the same port
         found = []
         for entry in Path("/proc").iterdir():
             if not entry.name.isdigit() or int(entry.name) == os.getpid():
                 continue
-            try:
+            with suppress(OSError):
                 # roslaunch gives its nodes the address with a final slash.
                 lines = (entry / "environ").read_bytes().split(b"\0")
                 if any(line.rstrip(b"/") == mark for line in lines):
-                    found.append(int(entry.name))
-            except OSError:
-                continue
+                    if os.readlink(entry / "ns" / "net") == network:
+                        found.append(int(entry.name))
         return found
 
 

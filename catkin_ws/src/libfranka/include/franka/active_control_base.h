@@ -24,23 +24,22 @@ namespace franka {
 ///
 /// Commands are sent unchanged: no filter, no rate limiter. A command with `motion_finished` set
 /// ends the motion; destroying the object earlier stops the robot. Until then the Robot is busy:
-/// other motions and reads throw InvalidOperationException. Use from one thread at a time; readOnce
-/// and writeOnce neither allocate nor lock while the motion runs. Without a state for a second
-/// readOnce throws a NetworkException.
+/// other motions and reads throw InvalidOperationException. Called by one thread at a time. Without
+/// a state for a second readOnce throws a NetworkException.
 class ActiveControlBase {
  public:
   virtual ~ActiveControlBase() = default;
   ActiveControlBase(const ActiveControlBase&) = delete;
   ActiveControlBase& operator=(const ActiveControlBase&) = delete;
 
-  /// Waits for the next state.
+  /// Waits for the next state. Real-time safe.
   /// @returns the state, and the time since the state of the call before [ms]; 0 the first time.
   /// @throws ControlException if the motion was aborted or has ended.
   /// @throws NetworkException if the connection is lost.
   virtual std::pair<RobotState, Duration> readOnce() = 0;
 
   /// Answers the last state. The form must match the start of the motion; other forms throw
-  /// ControlException.
+  /// ControlException. Real-time safe.
   /// @param control_input torques [Nm].
   /// @throws ControlException if the motion was aborted or has ended.
   /// @throws NetworkException if the connection is lost.

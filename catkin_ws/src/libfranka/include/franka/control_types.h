@@ -6,8 +6,8 @@
 #include <initializer_list>
 
 /// @file
-/// What control callbacks return, once a millisecond. All types are values without allocation;
-/// their array constructors and MotionFinished are safe in the 1 kHz loop and from any thread.
+/// The return types of control callbacks, which run once a millisecond. All types are values.
+/// Real-time safe. Thread-safe.
 
 namespace franka {
 
@@ -23,7 +23,7 @@ enum class RealtimeConfig {
   kIgnore    ///< continue without
 };
 
-/// Base of every command: says whether the motion ends with it.
+/// Base of every command: whether the motion ends with it.
 struct Finishable {
   bool motion_finished = false;  ///< set by MotionFinished
 };

@@ -11,8 +11,8 @@
 
 namespace franka {
 
-/// Unsigned milliseconds. A value: cheap to copy, safe in the 1 kHz loop and from any thread, never
-/// throws. Differences below zero wrap around as those of uint64_t do; division by zero is
+/// Unsigned milliseconds. A value that is cheap to copy; no function throws. Real-time safe.
+/// Thread-safe. Differences below zero wrap around as those of uint64_t do; division by zero is
 /// undefined.
 class Duration {
   using Milliseconds = std::chrono::duration<uint64_t, std::milli>;

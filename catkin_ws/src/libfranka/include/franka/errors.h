@@ -13,25 +13,28 @@ namespace franka {
 
 /// The set of errors that are active in a state.
 ///
-/// Each error is a named read-only flag. Copying, assigning and reading neither allocate nor throw;
-/// conversion to text allocates and must not run in the 1 kHz loop.
+/// Each error is a named read-only flag. Real-time safe. Exception: the conversion to text.
 struct Errors {
   /// No error.
-  Errors();
-  Errors(const Errors& other);
-  Errors& operator=(Errors other);
+  Errors() noexcept;
+  Errors(const Errors& other) noexcept;
+  Errors& operator=(Errors other) noexcept;
   /// @param errors flags in the order of the wire (protocol 4.3).
-  explicit Errors(const std::array<bool, 41>& errors);
+  explicit Errors(const std::array<bool, 41>& errors) noexcept;
 
   /// True when at least one error is active.
   explicit operator bool() const noexcept;
   /// Names of the active errors as a JSON list in the order of the wire, `[]` when there is none.
+  /// Not real-time safe.
   explicit operator std::string() const;
 
  private:
   std::array<bool, 41> errors_{};
 
  public:
+  /// @name The robot's errors
+  /// In the order of the wire; docs/fidelity.md says when a simulated robot has each of them.
+  /// @{
   const bool& joint_position_limits_violation;
   const bool& cartesian_position_limits_violation;
   const bool& self_collision_avoidance_violation;
@@ -73,6 +76,7 @@ struct Errors {
   const bool& joint_via_motion_generator_planning_joint_limit_violation;
   const bool& base_acceleration_initialization_timeout;
   const bool& base_acceleration_invalid_reading;
+  /// @}
 };
 
 /// Writes the names of the active errors as a JSON list.

@@ -36,12 +36,12 @@ struct ProtocolException : public Exception {
 
 /// Robot and library speak different versions of the protocol.
 struct IncompatibleVersionException : public Exception {
-  /// @param server_version version the robot speaks.
-  /// @param library_version version this library asked for.
+  /// @param server_version version of the robot. @param library_version version that this library
+  /// requested.
   IncompatibleVersionException(uint16_t server_version, uint16_t library_version) noexcept;
 
-  const uint16_t server_version;   ///< version the robot speaks
-  const uint16_t library_version;  ///< version this library asked for
+  const uint16_t server_version;   ///< version of the robot
+  const uint16_t library_version;  ///< version that this library requested
 };
 
 /// A motion was aborted.

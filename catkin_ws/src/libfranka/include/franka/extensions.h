@@ -30,8 +30,8 @@ enum class FirstCycleReference {
 /// (The third difference, `limit_rate`, true up to 0.9 and false since, is an argument of
 /// Robot::control.)
 struct ControlOptions {
-  CallbackOrder callback_order = CallbackOrder::kMotionFirst;
-  FirstCycleReference first_cycle_reference = FirstCycleReference::kRobotState;
+  CallbackOrder callback_order = CallbackOrder::kMotionFirst;  ///< which callback is called first
+  FirstCycleReference first_cycle_reference = FirstCycleReference::kRobotState;  ///< see above
 };
 
 /// Timeouts of a Robot, after which it throws a NetworkException. Each must be positive.
@@ -39,9 +39,10 @@ struct Timeouts {
   /// For connecting: all attempts together, and again for the first state and the description.
   std::chrono::milliseconds connect{5000};
   /// For the next state. Not counted: time in which this process does not run, and time in which a
-  /// simulated robot in lock-step shows that it waits for another client. In a motion of a robot
-  /// whose clock is not this machine's (a simulated one that waits for its client), `silence`
-  /// applies instead, because load may delay it. A closed connection ends every wait.
+  /// simulated robot in lock-step shows that it waits for another client. `silence` applies
+  /// instead to simulated robots, because load may delay them: robots and hands on this machine (a
+  /// loopback address), and robots whose clock in a motion is not this machine's. A closed
+  /// connection ends every wait at once.
   std::chrono::milliseconds state{1000};
   /// For the reply to a command.
   std::chrono::milliseconds command{10000};
@@ -52,10 +53,10 @@ struct Timeouts {
   std::chrono::milliseconds silence{5000};
 };
 
-/// Sets the timeouts of all Robots constructed later in this process. Any thread.
+/// Sets the timeouts of all Robots constructed later in this process. Thread-safe.
 /// @throws std::invalid_argument for one that is not positive.
 void setTimeouts(const Timeouts& timeouts);
-/// The values of setTimeouts, or the defaults. Any thread.
+/// The values of setTimeouts, or the defaults. Thread-safe.
 Timeouts timeouts();
 
 }  // namespace franka

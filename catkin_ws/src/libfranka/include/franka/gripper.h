@@ -19,8 +19,8 @@ class Network;
 /// A connection to the Franka Hand of a robot.
 ///
 /// Commands wait for their end, at most 60 s (then a NetworkException reports that the hand has not
-/// answered). All functions may be called from several threads: `stop` from another thread ends a
-/// waiting command, which then throws. Not for the 1 kHz loop.
+/// answered). `stop` from another thread ends a waiting command, which then throws. Thread-safe.
+/// Not real-time safe.
 class Gripper {
  public:
   /// Version of the protocol.
@@ -57,8 +57,9 @@ class Gripper {
   /// Ends the running command. @returns whether it succeeded. @throws as homing.
   bool stop() const;
 
-  /// Waits for the next state, up to a second.
-  /// @throws NetworkException if none comes or the connection is lost.
+  /// Waits for the next state, as long as Timeouts say: up to a second, for a simulated gripper on
+  /// this machine up to five. @throws NetworkException if none comes, or at once if the connection
+  /// is lost.
   /// @throws InvalidOperationException if another thread is reading a state.
   GripperState readOnce() const;
 

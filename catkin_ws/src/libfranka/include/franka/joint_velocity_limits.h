@@ -14,7 +14,7 @@ namespace franka {
 
 /// The joint velocity limits in a robot's description (URDF), without a connection to the robot.
 /// Each is franka::kLimitEps smaller than the robot's own, as in Robot's functions of the same
-/// names. Any thread may read a constant object.
+/// names. Thread-safe. Exception: while `parseFromURDF` runs, no other call may run.
 class JointVelocityLimitsConfig {
  public:
   /// Allows no velocity until a description has been read.

@@ -29,7 +29,7 @@ struct Record {
 };
 
 /// The log as comma separated values: a header line, then one line a record; time in [ms],
-/// everything else in the units of RobotState. Not for the 1 kHz loop.
+/// everything else in the units of RobotState. Not real-time safe.
 /// @returns an empty string for an empty log.
 std::string logToCSV(const std::vector<Record>& log);
 

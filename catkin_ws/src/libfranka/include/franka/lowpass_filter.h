@@ -5,8 +5,7 @@
 #include <array>
 
 /// @file
-/// First-order low-pass filters for commands. Pure, allocation-free, for any thread and the 1 kHz
-/// loop.
+/// First-order low-pass filters for commands; pure functions. Real-time safe. Thread-safe.
 
 namespace franka {
 

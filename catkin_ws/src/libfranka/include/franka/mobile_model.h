@@ -21,17 +21,17 @@ enum class MobileFrame : std::uint8_t {
 
 /// Positions [rad] of the joints whose names end with _joint_0 to _joint_3.
 struct MobileJointPositions {
-  double joint_0{0.0};
-  double joint_1{0.0};
-  double joint_2{0.0};
-  double joint_3{0.0};
+  double joint_0{0.0};  ///< [rad]
+  double joint_1{0.0};  ///< [rad]
+  double joint_2{0.0};  ///< [rad]
+  double joint_3{0.0};  ///< [rad]
 };
 
-/// Whether a description (URDF) is of a mobile base: its robot's name begins with "tmr". Not
-/// real-time safe. Thread-safe.
+/// Whether a description (URDF) is of a mobile base: its robot's name begins with "tmr".
+/// Not real-time safe. Thread-safe.
 bool isMobileRobotUrdf(const std::string& urdf);
 
-/// Poses of a mobile base's drive modules. Any thread may call the functions of one object.
+/// Poses of a mobile base's drive modules. Thread-safe.
 class MobileModel {
  public:
   /// @param urdf the description from Robot::getRobotModel. Not real-time safe.

@@ -29,19 +29,18 @@ enum class Frame {
 };
 
 /// Increments to the next frame and returns the previous value, for loops over all frames: `for
-/// (Frame f = Frame::kJoint1; f <= Frame::kStiffness; f++)`. The value after kStiffness is no valid
-/// frame.
+/// (Frame f = Frame::kJoint1; f <= Frame::kStiffness; f++)`. The value after kStiffness is not a
+/// valid frame.
 Frame operator++(Frame& frame, int /* postfix */) noexcept;
 
 /// Kinematics and dynamics of the arm: of the robot, from Robot::loadModel, or from a URDF without
 /// any robot.
 ///
-/// Every function may be called from any thread and in the 1 kHz loop: no allocation, no lock.
-/// Poses and zero Jacobians are expressed in the base frame O, body Jacobians in the frame's own
-/// axes. Transforms are 4x4, Jacobians 6x7 (linear rows first), the mass matrix 7x7, inertias 3x3,
-/// all column-major. `I_total`, `m_total` and `F_x_Ctotal` are of end effector and load together:
-/// inertia about their centre of mass in the axes of F [kg m^2], mass [kg], centre of mass in F
-/// [m].
+/// Real-time safe. Thread-safe. Only creating a model allocates. Poses and zero Jacobians are
+/// expressed in the base frame O, body Jacobians in the frame's own axes. Transforms are 4x4,
+/// Jacobians 6x7 (linear rows first), the mass matrix 7x7, inertias 3x3, all column-major.
+/// `I_total`, `m_total` and `F_x_Ctotal` are of end effector and load together: inertia about their
+/// centre of mass in the axes of F [kg m^2], mass [kg], centre of mass in F [m].
 class Model {
  public:
   /// @name Without a robot (not in the vendor's library)

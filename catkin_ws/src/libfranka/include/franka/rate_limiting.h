@@ -11,8 +11,7 @@
 /// @file
 /// Limits of the Panda (FER) as used by its client, and functions that keep commands within them.
 /// The constants are smaller than the robot's own limits by a margin, so that a command at the
-/// limit is accepted also after lost packets. The functions are pure, allocation-free and may run
-/// in the 1 kHz loop on any thread; exceptions are documented.
+/// limit is accepted also after lost packets. The functions are pure. Real-time safe. Thread-safe.
 
 namespace franka {
 

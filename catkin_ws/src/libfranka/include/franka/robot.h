@@ -60,7 +60,7 @@ class Robot {
   /// @param realtime_config whether control needs a realtime kernel and priority.
   /// @param log_size how many states and commands ControlException::log keeps.
   /// @throws NetworkException if the robot cannot be reached or sends no state.
-  /// @throws IncompatibleVersionException if the robot's protocol is none of 3 to 10.
+  /// @throws IncompatibleVersionException if the robot's protocol is not one of 3 to 10.
   explicit Robot(const std::string& franka_address,
                  RealtimeConfig realtime_config = RealtimeConfig::kEnforce, size_t log_size = 50);
   Robot(Robot&& other) noexcept;
@@ -70,6 +70,7 @@ class Robot {
 
   /// Version of the protocol that robot and library agreed on, 3 to 10.
   using ServerVersion = uint16_t;
+  /// The version in use.
   ServerVersion serverVersion() const noexcept;
 
   /// @name Motions
@@ -231,8 +232,8 @@ class Robot {
   std::string getRobotModel();
 
   /// Highest velocity that the rate limiter allows for each joint at q [rad/s]: constant for the
-  /// Panda, dependent on the position for the FR3 (from its description for protocol 10). Safe in
-  /// the 1 kHz loop.
+  /// Panda, dependent on the position for the FR3 (from its description for protocol 10).
+  /// Real-time safe.
   /// @param joint_positions q [rad].
   std::array<double, 7> getUpperJointVelocityLimits(
       const std::array<double, 7>& joint_positions) const noexcept;

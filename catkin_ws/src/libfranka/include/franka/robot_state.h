@@ -28,7 +28,7 @@ enum class RobotMode {
 ///
 /// Frames: O base, F flange, NE nominal end effector, EE end effector, K stiffness frame.
 /// Transforms are 4x4, inertias 3x3, both column-major. A suffix `_d` marks desired, `_c` commanded
-/// values. Copying neither allocates nor throws and is safe in the 1 kHz loop.
+/// values. Copying does not throw. Real-time safe.
 struct RobotState {
   std::array<double, 16> O_T_EE{};     ///< measured pose of EE in O
   std::array<double, 16> O_T_EE_d{};   ///< desired pose of EE in O
@@ -85,7 +85,7 @@ struct RobotState {
 std::ostream& operator<<(std::ostream& ostream, RobotMode robot_mode);
 
 /// Writes the state as one JSON object; `time` in [ms]; numbers in the format the stream is set to,
-/// `null` where a number is not finite. Not for the 1 kHz loop.
+/// `null` where a number is not finite. Not real-time safe.
 std::ostream& operator<<(std::ostream& ostream, const RobotState& robot_state);
 
 }  // namespace franka

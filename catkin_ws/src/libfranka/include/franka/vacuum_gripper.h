@@ -17,7 +17,8 @@ namespace franka {
 /// Declared in the vendor's header too; not defined in this library.
 class Network;
 
-/// A connection to a vacuum gripper. Threads and timeouts as for franka::Gripper.
+/// A connection to a vacuum gripper. Timeouts as for franka::Gripper. Thread-safe.
+/// Not real-time safe.
 class VacuumGripper {
  public:
   /// Version of the protocol.
@@ -48,7 +49,7 @@ class VacuumGripper {
   /// Ends the running command. @returns whether it succeeded. @throws as vacuum.
   bool stop() const;
 
-  /// Waits for the next state, up to a second. @throws as Gripper::readOnce.
+  /// Waits for the next state. @throws as Gripper::readOnce.
   VacuumGripperState readOnce() const;
 
   /// The version that the gripper speaks.

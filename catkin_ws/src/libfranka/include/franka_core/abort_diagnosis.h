@@ -11,8 +11,8 @@ namespace franka_core {
 
 /// A state, and the command that had been sent just before it arrived.
 struct AbortRecord {
-  RobotState state;
-  RobotCommand command;
+  RobotState state;      ///< that the client received
+  RobotCommand command;  ///< that answered it
 };
 
 /// Explains to the user why a motion was aborted: for each flag of the last state's reflex_reason
@@ -20,7 +20,7 @@ struct AbortRecord {
 /// and commands show it.
 ///
 /// Velocities, accelerations, jerks and torque rates are those the robot computes (backward Euler
-/// over 1 ms, from the state the command answered). Pure; not for the 1 kHz loop.
+/// over 1 ms, from the state the command answered). A pure function. Not real-time safe.
 /// @param log oldest first, as kept by the client
 /// @param version of the robot's protocol, which selects the limits
 /// @returns one sentence per flag; none for an empty log

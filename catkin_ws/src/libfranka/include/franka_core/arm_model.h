@@ -46,19 +46,18 @@ struct ArmDynamics {
 /// Kinematics and dynamics of the seven-joint chain with a payload at the flange.
 ///
 /// Parameters (link inertias, joint origins) come from a URDF; rotor inertia and friction are not
-/// included. Every const function may be called from any thread and from the 1 kHz loop: no
-/// allocation, no lock, no exception. All poses and Jacobians are expressed in the base frame O
-/// (link0). Gravity vectors point down ([0, 0, -9.81] for a robot on a table) and are expressed in
-/// O [m/s^2].
+/// included. Const functions throw nothing. Real-time safe. Thread-safe. All poses and Jacobians
+/// are expressed in the base frame O (link0). Gravity vectors point down ([0, 0, -9.81] for a robot
+/// on a table) and are expressed in O [m/s^2].
 class ArmModel {
  public:
   /// Fixed transform from parent joint to joint (column-major), and the link's inertia in its own
   /// frame.
   struct Link {
-    std::array<double, 16> origin{kIdentityTransform};
-    double mass{0.0};
-    std::array<double, 3> com{};
-    std::array<double, 9> inertia{};  ///< about com, link axes, column-major
+    std::array<double, 16> origin{kIdentityTransform};  ///< pose in the link before, column-major
+    double mass{0.0};                                   ///< [kg]
+    std::array<double, 3> com{};                        ///< in the link [m]
+    std::array<double, 9> inertia{};                    ///< about com, link axes, column-major
   };
 
   /// @param links links 1 to 7, each with the transform of its joint; joint axis is +z of the link
@@ -88,31 +87,32 @@ class ArmModel {
       ArmFrame frame, const std::array<double, 7>& q,
       const std::array<double, 16>& F_T_EE = kIdentityTransform,
       const std::array<double, 16>& EE_T_K = kIdentityTransform) const noexcept;
-  /// Joint-space mass matrix, 7x7 column-major [kg m^2].
+  /// Joint-space mass matrix by the composite rigid body algorithm, 7x7 column-major [kg m^2].
   std::array<double, 49> mass(const std::array<double, 7>& q,
                               const Payload& payload) const noexcept;
-  /// Coriolis and centrifugal torques C(q, dq) dq [Nm].
+  /// Coriolis and centrifugal torques C(q, dq) dq by the recursive Newton-Euler algorithm [Nm].
   std::array<double, 7> coriolis(const std::array<double, 7>& q, const std::array<double, 7>& dq,
                                  const Payload& payload) const noexcept;
   /// Torques that hold the arm against gravity [Nm].
   std::array<double, 7> gravity(const std::array<double, 7>& q, const Payload& payload,
                                 const std::array<double, 3>& gravity_earth = {
                                     {0, 0, -9.81}}) const noexcept;
-  /// Recursive Newton-Euler: M(q) ddq + C(q, dq) dq + g(q) [Nm].
+  /// Inverse dynamics by the recursive Newton-Euler algorithm: M(q) ddq + C(q, dq) dq + g(q) [Nm].
   std::array<double, 7> inverseDynamics(const std::array<double, 7>& q,
                                         const std::array<double, 7>& dq,
                                         const std::array<double, 7>& ddq, const Payload& payload,
                                         const std::array<double, 3>& gravity_earth = {
                                             {0, 0, -9.81}}) const noexcept;
-  /// Mass, Coriolis, gravity, pose and zero Jacobian of one frame, with shared computation.
+  /// Mass, Coriolis, gravity, pose and zero Jacobian of one frame: the algorithms above with one
+  /// common loop over the links.
   void computeDynamics(ArmFrame frame, const std::array<double, 7>& q,
                        const std::array<double, 7>& dq, const std::array<double, 16>& F_T_EE,
                        const std::array<double, 16>& EE_T_K, const Payload& payload,
                        const std::array<double, 3>& gravity_earth,
                        ArmDynamics& result) const noexcept;
 
-  const std::array<Link, 7>& links() const noexcept { return links_; }
-  const std::array<double, 16>& flange() const noexcept { return flange_; }
+  const std::array<Link, 7>& links() const noexcept { return links_; }       ///< from joint 1 on
+  const std::array<double, 16>& flange() const noexcept { return flange_; }  ///< pose in link 7
 
  private:
   std::array<Link, 7> links_;

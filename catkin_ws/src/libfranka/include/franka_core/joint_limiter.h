@@ -9,7 +9,7 @@
 #include <cstddef>
 
 // Keeps joint commands within velocity, acceleration and jerk, for libfranka's client and the
-// simulated robot's controllers. All functions are pure and real-time safe.
+// simulated robot's controllers. All functions are pure. Real-time safe. Thread-safe.
 
 namespace franka_core {
 
@@ -43,8 +43,8 @@ inline PositionVelocityLimits followable(PositionVelocityLimits limits,
 
 /// Allowed velocities of the joints [rad/s].
 struct JointVelocityRange {
-  std::array<double, 7> lowest;
-  std::array<double, 7> highest;
+  std::array<double, 7> lowest;   ///< [rad/s]
+  std::array<double, 7> highest;  ///< [rad/s]
 };
 
 /// The range that these limits allow at position q [rad].

@@ -8,8 +8,8 @@
 #include <cstddef>
 
 /// @file
-/// The limits of both arms, each once. Source: Franka's published tables (protocol 5.5). Constant
-/// or pure, allocation-free and safe in the 1 kHz loop.
+/// The limits of both arms, each once. Source: Franka's published tables (protocol 5.5). All
+/// functions are pure. Real-time safe. Thread-safe.
 
 namespace franka_core {
 
@@ -130,31 +130,31 @@ constexpr PositionVelocityLimits kFr3PositionVelocityLimitsFrom59 = [] {
 /// q)))).
 inline double upperVelocityLimit(const PositionVelocityLimits& limits, std::size_t joint,
                                  double q) noexcept {
-  const double room = std::max(0.0, limits.deceleration[joint] * (limits.q_max[joint] - q));
-  return std::min(limits.velocity[joint], std::max(0.0, std::sqrt(room) - limits.offset[joint]));
+  const double margin = std::max(0.0, limits.deceleration[joint] * (limits.q_max[joint] - q));
+  return std::min(limits.velocity[joint], std::max(0.0, std::sqrt(margin) - limits.offset[joint]));
 }
 
 /// Lowest velocity of a joint (0 to 6) at position q [rad]: max(-V, min(0, o - sqrt(c (q -
 /// q_min)))).
 inline double lowerVelocityLimit(const PositionVelocityLimits& limits, std::size_t joint,
                                  double q) noexcept {
-  const double room = std::max(0.0, limits.deceleration[joint] * (q - limits.q_min[joint]));
-  return std::max(-limits.velocity[joint], std::min(0.0, limits.offset[joint] - std::sqrt(room)));
+  const double margin = std::max(0.0, limits.deceleration[joint] * (q - limits.q_min[joint]));
+  return std::max(-limits.velocity[joint], std::min(0.0, limits.offset[joint] - std::sqrt(margin)));
 }
 
 /// A range of joint positions [rad].
 struct JointRange {
-  double lowest;
-  double highest;
+  double lowest;   ///< [rad]
+  double highest;  ///< [rad]
 };
 
 /// Velocity that the limit must allow at a position for a motion to end there [rad/s] (chosen here:
 /// a thousandth of a microradian per millisecond, well above the rounding of a limit of 0).
-constexpr double kLeastVelocityOfReach = 1e-6;
+constexpr double kMinReachVelocity = 1e-6;
 
 /// Reachable positions of a joint (0 to 6): beyond, the velocity limit towards the end is 0.
 inline JointRange reachOf(const PositionVelocityLimits& limits, std::size_t joint) noexcept {
-  const double offset = limits.offset[joint] + kLeastVelocityOfReach;
+  const double offset = limits.offset[joint] + kMinReachVelocity;
   const double dead_zone = offset * offset / limits.deceleration[joint];
   return {limits.q_min[joint] + dead_zone, limits.q_max[joint] - dead_zone};
 }

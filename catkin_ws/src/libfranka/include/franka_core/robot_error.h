@@ -56,6 +56,7 @@ enum class RobotError : std::uint8_t {
   kBaseAccelerationInvalidReading,
 };
 
+/// Its place in the arrays of errors.
 constexpr std::size_t indexOf(RobotError error) noexcept { return static_cast<std::size_t>(error); }
 
 /// The names of the errors in the order of RobotError, as the robot's logs and franka::Errors spell

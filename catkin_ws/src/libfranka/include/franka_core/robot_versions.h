@@ -13,12 +13,13 @@ namespace franka_core {
 
 /// One version of the robot's protocol.
 struct RobotVersion {
-  std::uint16_t version;
+  std::uint16_t version;  ///< of the protocol
   const char* robot;      ///< "Panda" or "FR3"
   const char* system;     ///< the robot's system software
   const char* libraries;  ///< releases of the vendor's libfranka that speak this version
 };
 
+/// Of all robots, oldest first.
 constexpr std::array<RobotVersion, 8> kRobotVersions{
     {{3, "Panda", "1.3 or later", "0.4 to 0.7"},
      {4, "Panda", "4.0 or later", "0.8"},

@@ -6,8 +6,8 @@
 #include <Eigen/Geometry>
 
 /// @file
-/// Rotations and rotation vectors: the direction is the axis, the length the angle [rad]. Real-time
-/// safe.
+/// Rotations and rotation vectors: the direction is the axis, the length the angle [rad].
+/// Real-time safe. Thread-safe.
 
 namespace franka_core {
 

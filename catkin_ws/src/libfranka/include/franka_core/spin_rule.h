@@ -12,9 +12,10 @@
 
 namespace franka_core {
 
+/// How a thread waits for an answer.
 enum class WaitMode {
   kAuto,   ///< without sleep, as long as that pays and a processor is free
-  kSpin,   ///< without sleep, for SpinRule::kLongestSpin at most
+  kSpin,   ///< without sleep, for SpinRule::kMaxSpin at most
   kBlock,  ///< asleep
 };
 
@@ -40,25 +41,25 @@ bool hasTwoProcessors() noexcept;
 /// The pause is 32 times as long as the trial that led to it, so on a busy machine trials take 3 %
 /// of the time. Measurements: docs/design/decisions.md.
 ///
-/// One thread at a time. Real-time safe: no allocation, no lock, no system call but those of `look`
-/// and of the clock.
+/// Called by one thread at a time. Real-time safe. The only system calls are those of `look` and of
+/// the clock.
 class SpinRule {
  public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = std::chrono::steady_clock;  ///< of all times
 
   /// A wait without sleep is this long at most. Chosen here: it bridges a wake-up of the other side
   /// (50 us where it is slow) and several ticks; if it were shorter, two sides that both sleep
   /// would keep each other asleep.
-  static constexpr std::chrono::microseconds kLongestSpin{200};
+  static constexpr std::chrono::microseconds kMaxSpin{200};
 
-  /// @param mode kSpin and kBlock do without the observations above.
+  /// @param mode kSpin and kBlock do not use the observations above.
   /// @param can_spin without it every mode is kBlock.
   explicit SpinRule(WaitMode mode = WaitMode::kAuto, bool can_spin = hasTwoProcessors()) noexcept
       : mode_(can_spin ? mode : WaitMode::kBlock) {}
 
-  WaitMode mode() const noexcept { return mode_; }
+  WaitMode mode() const noexcept { return mode_; }  ///< as it was given
 
-  /// Calls `look` until it returns true, for kLongestSpin at most; not at all if the caller should
+  /// Calls `look` until it returns true, for kMaxSpin at most; not at all if the caller should
   /// sleep instead.
   /// @param now the clock; tests have their own.
   /// @returns whether `look` has returned true.
@@ -74,7 +75,7 @@ class SpinRule {
     Clock::time_point after = now();
     while (true) {
       away += after - before >= kGap ? after - before : Clock::duration{};
-      if (answered || after - begin >= kLongestSpin) {
+      if (answered || after - begin >= kMaxSpin) {
         break;
       }
       before = after;

@@ -32,9 +32,9 @@ inline franka::RobotMode toFranka(RobotMode mode) noexcept {
   return franka::RobotMode::kOther;
 }
 
-/// Copies every field of the public state. No allocation, no exception, safe in the 1 kHz loop from
-/// any thread that owns `to`. `time` is the message id in [ms], current_errors are `errors`,
-/// last_motion_errors are `reflex_reason`; the total payload is that of the control unit.
+/// Copies every field of the public state. Called by the thread that owns `to`. Real-time safe.
+/// `time` is the message id in [ms], current_errors are `errors`, last_motion_errors are
+/// `reflex_reason`; the total payload is that of the control unit.
 inline void toFranka(const RobotState& from, franka::RobotState& to) noexcept {
   to.O_T_EE = from.O_T_EE;
   to.O_T_EE_d = from.O_T_EE_d;

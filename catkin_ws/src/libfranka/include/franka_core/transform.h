@@ -25,8 +25,8 @@ bool isHomogeneousTransformation(const std::array<double, 16>& matrix) noexcept;
 /// Real-time safe. Thread-safe.
 bool isRigidTransform(const std::array<double, 16>& matrix) noexcept;
 
-/// Why a matrix is no rigid transform, as the end of a sentence that names the matrix: "its bottom
-/// row is 1e-17 0 0 1 and must be exactly 0 0 0 1"; empty if it is one. Not real-time safe.
+/// Why a matrix is not a rigid transform, as the end of a sentence that names the matrix: "its
+/// bottom row is 1e-17 0 0 1 and must be exactly 0 0 0 1"; empty if it is one. Not real-time safe.
 std::string transformFault(const std::array<double, 16>& matrix);
 
 }  // namespace franka_core

@@ -31,11 +31,11 @@ const char* derivativeName(int order) {
   return order == 1 ? "a velocity" : (order == 2 ? "an acceleration" : "a jerk");
 }
 
-/// "3 rad/s^2, and 2 are allowed (at 102 ms)"
+/// "3 rad/s^2; the limit is 2 (at 102 ms)"
 std::string againstLimit(const Excess& excess, int order) {
   return number(excess.value) + " " + excess.unit + "/s" +
-         (order > 1 ? "^" + std::to_string(order) : "") + ", and " + number(excess.limit) +
-         " are allowed (at " + std::to_string(excess.time) + " ms)";
+         (order > 1 ? "^" + std::to_string(order) : "") + "; the limit is " + number(excess.limit) +
+         " (at " + std::to_string(excess.time) + " ms)";
 }
 
 /// Distance of two poses: "3 mm and 4 degrees"
@@ -79,7 +79,7 @@ void keepFarther(Position& farthest, const std::array<double, 7>& q, const ArmLi
   }
 }
 
-constexpr const char* kWasToGo = "was to go to";
+constexpr const char* kWasCommanded = "was commanded to";
 constexpr const char* kWouldHaveFollowed = "would have followed the Cartesian command to";
 
 std::string rangeOf(const Position& position, const char* verb, const ArmLimits& limits) {
@@ -165,7 +165,7 @@ std::string Diagnosis::positionViolation() const {
   });
   const Position commanded_position = cartesian ? solvedPosition() : commandedPosition();
   if (measured.beyond <= 0.0 && commanded_position.beyond > 0.0) {
-    return rangeOf(commanded_position, cartesian ? kWouldHaveFollowed : kWasToGo, limits_);
+    return rangeOf(commanded_position, cartesian ? kWouldHaveFollowed : kWasCommanded, limits_);
   }
   if (measured.beyond <= 0.0 && !cartesian && version_ >= 10) {
     const std::string text = unreachable();
@@ -183,7 +183,7 @@ std::string Diagnosis::unreachable() const {
     for (std::size_t i = 0; isUsed(q_c) && i < 7; i++) {
       const JointRange reach = reachOf(kFr3PositionVelocityLimitsFrom59, i);
       if (q_c[i] < reach.lowest || q_c[i] > reach.highest) {
-        return jointName(i) + " " + kWasToGo + " " + number(q_c[i]) +
+        return jointName(i) + " " + kWasCommanded + " " + number(q_c[i]) +
                " rad, and its velocity limit, which shrinks towards the ends of its range, is 0 "
                "outside of " +
                number(reach.lowest) + " to " + number(reach.highest) + " rad.";
@@ -212,7 +212,7 @@ std::string Diagnosis::collision() const {
   }
   return text.empty() ? "the log does not show where. Check the configured load (setLoad) and the "
                         "thresholds (setCollisionBehavior)."
-                      : "a collision was felt at " + text +
+                      : "a collision was detected at " + text +
                             ". If nothing was touched, check the configured load (setLoad) and the "
                             "thresholds "
                             "(setCollisionBehavior).";
@@ -281,7 +281,7 @@ std::string Diagnosis::startElbow() const {
   if (record == nullptr) {
     return std::string(kNoFirstCommand) + " Begin at elbow_c.";
   }
-  return "the first command put the elbow (joint 3) at " + number(record[1].command.elbow_c[0]) +
+  return "the first command had the elbow (joint 3) at " + number(record[1].command.elbow_c[0]) +
          " rad while elbow_c was " + number(record->state.elbow_c[0]) + " rad. Begin at elbow_c.";
 }
 
@@ -290,7 +290,7 @@ std::string Diagnosis::elbowLimit() const {
   if (last != nullptr) {
     const double q3 = last[1].command.elbow_c[0];
     if (!(q3 >= limits_.q_min[2] && q3 <= limits_.q_max[2])) {
-      return rangeOf({2, q3}, "was to go as elbow to", limits_);
+      return rangeOf({2, q3}, "was commanded, as the elbow, to", limits_);
     }
   }
   int order = 1;
@@ -323,7 +323,7 @@ std::string Diagnosis::sensorTorque() const {
 }
 
 std::string Diagnosis::invalidFrame() const {
-  const std::string what = "a commanded pose was no homogeneous transformation: ";
+  const std::string what = "a commanded pose was not a homogeneous transformation: ";
   for (auto record = log_.rbegin(); record != log_.rend(); ++record) {
     const std::string fault =
         isUsed(record->command.O_T_EE_c) ? transformFault(record->command.O_T_EE_c) : "";
@@ -351,7 +351,7 @@ std::string Diagnosis::explain(std::size_t flag) const {
     case RobotError::kJointPositionMotionGeneratorStartPoseInvalid:
       return startJoints();
     case RobotError::kJointMotionGeneratorPositionLimitsViolation:
-      return rangeOf(commandedPosition(), kWasToGo, limits_);
+      return rangeOf(commandedPosition(), kWasCommanded, limits_);
     case RobotError::kJointMotionGeneratorVelocityLimitsViolation:
       return commanded(measures_.commandedJoints(1), 1);
     case RobotError::kJointMotionGeneratorVelocityDiscontinuity:

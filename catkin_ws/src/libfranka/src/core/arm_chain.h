@@ -21,7 +21,7 @@ inline void jointPoses(const std::array<ArmModel::Link, 7>& links, const std::ar
   }
 }
 
-/// How many joints move the frame.
+/// Number of joints that move the frame.
 inline std::size_t jointsBefore(ArmFrame frame) noexcept {
   return frame < ArmFrame::kJoint7 ? static_cast<std::size_t>(frame) + 1 : 7;
 }

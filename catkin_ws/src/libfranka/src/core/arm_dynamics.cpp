@@ -1,8 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// Everything is expressed in O about the point O: inertias can then be summed without a change of
-// frame, and the composite-body, Newton-Euler and gravity recursions share one backward sweep.
+// The composite rigid body algorithm (mass matrix) and the recursive Newton-Euler algorithm
+// (inverse dynamics), with the names of Featherstone, Rigid Body Dynamics Algorithms. Everything is
+// expressed in O about the point O: inertias can then be added without a change of frame, and both
+// algorithms and gravity share one backward recursion.
 #include "arm_chain.h"
 
 namespace franka_core {
@@ -37,7 +39,7 @@ void linkBodies(const std::array<ArmModel::Link, 7>& links, const std::array<dou
       bodies[6] + toBody(compose(joints[6], flange), payload.mass, payload.com, payload.inertia);
 }
 
-// Newton-Euler, outward sweep: the force of each body alone. `a` is the base's acceleration.
+// Forward recursion of Newton-Euler: the force of each body alone. `a` is the base's acceleration.
 void bodyForces(const Axes& axes, const Bodies& bodies, const std::array<double, 7>& dq,
                 const std::array<double, 7>& ddq, Screw a, Forces& forces) noexcept {
   Screw v = kRest;
@@ -49,11 +51,12 @@ void bodyForces(const Axes& axes, const Bodies& bodies, const std::array<double,
   }
 }
 
-// Torque about a joint that holds a composite body against gravity.
+// Torque about a joint that holds a composite body (its link and all that follow) against gravity.
 double holdingTorque(const Screw& axis, const Body& body, const Vector& gravity_earth) noexcept {
   return -dot(axis, Screw{cross(body.moment, gravity_earth), body.mass * gravity_earth});
 }
 
+// One column and row of the mass matrix: the momentum that joint j gives to its composite body.
 void fillMassColumn(const Axes& axes, const Body& composite, std::size_t j,
                     std::array<double, 49>& mass) noexcept {
   const Screw momentum = composite * axes[j];

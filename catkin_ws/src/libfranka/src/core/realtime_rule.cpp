@@ -14,7 +14,7 @@ namespace franka_core {
 
 namespace {
 
-constexpr const char* kVariable = "FRANKA_REALTIME";
+constexpr const char* kRealtimeVariable = "FRANKA_REALTIME";
 
 bool isLoopback(const in_addr& address) noexcept {
   const std::uint32_t value = ntohl(address.s_addr);
@@ -70,7 +70,7 @@ RealtimeRule realtimeRule(bool enforce, bool is_loopback, bool has_realtime_kern
   if (!enforce || !is_loopback) {
     return {enforce, ""};
   }
-  const char* variable = std::getenv(kVariable);
+  const char* variable = std::getenv(kRealtimeVariable);
   const std::string choice = variable != nullptr ? variable : "";
   if (choice == "enforce") {
     return {true, ""};
@@ -79,8 +79,8 @@ RealtimeRule realtimeRule(bool enforce, bool is_loopback, bool has_realtime_kern
     return {false, ""};
   }
   if (!choice.empty()) {
-    throw std::invalid_argument(std::string("The environment variable ") + kVariable + " is \"" +
-                                choice +
+    throw std::invalid_argument(std::string("The environment variable ") + kRealtimeVariable +
+                                " is \"" + choice +
                                 "\", but must be enforce or ignore. Without it, simulated robots "
                                 "(on loopback addresses) need no real-time kernel.");
   }
@@ -90,7 +90,7 @@ RealtimeRule realtimeRule(bool enforce, bool is_loopback, bool has_realtime_kern
   return {false, std::string("The running kernel has no real-time support. The robot is on a "
                              "loopback address, so it counts as simulated and is controlled all "
                              "the same; commands may come late under load. (") +
-                     kVariable + "=enforce refuses this, " + kVariable +
+                     kRealtimeVariable + "=enforce refuses this, " + kRealtimeVariable +
                      "=ignore switches this warning off.)"};
 }
 

@@ -14,18 +14,18 @@ namespace {
 using Duration = SpinRule::Clock::duration;
 
 // Chosen here by measurement (decision 53).
-constexpr Duration kTrial = std::chrono::milliseconds(8);     // without sleep
-constexpr Duration kMostLost = std::chrono::milliseconds(2);  // of kTrial
-constexpr int kMostWithoutAnswer = 5;                         // waits in a row
-constexpr int kPauseOfTrial = 32;                             // pause over the trial before it
-constexpr Duration kLongestPause = std::chrono::seconds(2);
+constexpr Duration kTrial = std::chrono::milliseconds(8);        // without sleep
+constexpr Duration kMaxLostTime = std::chrono::milliseconds(2);  // of kTrial
+constexpr int kMaxWaitsWithoutAnswer = 5;                        // waits in a row
+constexpr int kPauseOfTrial = 32;                                // pause over the trial before it
+constexpr Duration kMaxPause = std::chrono::seconds(2);
 
-// More time than this between two waits is no part of the exchange: the program had other work, or
+// More time than this between two waits is not part of the exchange: the program had other work, or
 // no motion ran.
-constexpr Duration kLongestWork = std::chrono::milliseconds(1);
-constexpr Duration kLongestStep = std::chrono::milliseconds(50);
+constexpr Duration kMaxWork = std::chrono::milliseconds(1);
+constexpr Duration kMaxStep = std::chrono::milliseconds(50);
 
-constexpr const char* kVariable = "FRANKA_WAIT";
+constexpr const char* kWaitVariable = "FRANKA_WAIT";
 
 }  // namespace
 
@@ -43,12 +43,12 @@ std::optional<WaitMode> toWaitMode(const std::string& text) {
 }
 
 WaitMode waitModeOfEnvironment() {
-  const char* variable = std::getenv(kVariable);
+  const char* variable = std::getenv(kWaitVariable);
   const std::string text = variable != nullptr ? variable : "";
   const std::optional<WaitMode> mode = toWaitMode(text.empty() ? "auto" : text);
   if (!mode) {
-    throw std::invalid_argument(std::string("The environment variable ") + kVariable + " is \"" +
-                                text +
+    throw std::invalid_argument(std::string("The environment variable ") + kWaitVariable +
+                                " is \"" + text +
                                 "\", but must be spin, block or auto. It says how a program waits "
                                 "for a simulated robot (on a loopback address) in lock-step; "
                                 "without it: auto.");
@@ -76,13 +76,13 @@ void SpinRule::conclude(Clock::time_point begin, Clock::time_point end, Duration
   const bool is_first = passed_ == Duration{};
   const Duration between = is_first ? Duration{} : begin - ended_at_;
   // After a wait without an answer the thread has slept.
-  awake_ += length + (without_answer_ == 0 ? std::min(between, kLongestWork) : Duration{});
-  passed_ += length + std::min(between, kLongestStep);
+  awake_ += length + (without_answer_ == 0 ? std::min(between, kMaxWork) : Duration{});
+  passed_ += length + std::min(between, kMaxStep);
   lost_ += answered ? away : length;
   without_answer_ = answered ? 0 : without_answer_ + 1;
   ended_at_ = end;
-  if (lost_ >= kMostLost || without_answer_ >= kMostWithoutAnswer) {
-    resume_at_ = end + std::min(kPauseOfTrial * passed_, kLongestPause);
+  if (lost_ >= kMaxLostTime || without_answer_ >= kMaxWaitsWithoutAnswer) {
+    resume_at_ = end + std::min(kPauseOfTrial * passed_, kMaxPause);
     without_answer_ = 0;
     beginTrial();
   } else if (awake_ >= kTrial) {

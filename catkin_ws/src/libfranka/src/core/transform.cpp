@@ -78,10 +78,15 @@ bool isRigidTransform(const Matrix& matrix) noexcept {
 }
 
 std::string transformFault(const Matrix& matrix) {
-  if (!allFinite(matrix)) {
-    return "it holds an infinite value or one that is not a number";
-  }
   char text[160];
+  for (std::size_t i = 0; i < matrix.size(); i++) {
+    if (!std::isfinite(matrix[i])) {
+      std::snprintf(text, sizeof(text),
+                    "its entry in row %zu and column %zu is %g and must be a finite number",
+                    i % 4 + 1, i / 4 + 1, matrix[i]);
+      return text;
+    }
+  }
   if (!hasExactBottomRow(matrix)) {
     std::snprintf(text, sizeof(text),
                   "its bottom row (entries 4, 8, 12 and 16 of a column-major matrix) is %g %g %g "

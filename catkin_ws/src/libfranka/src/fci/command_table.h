@@ -64,7 +64,7 @@ constexpr std::int8_t numberOf(std::uint16_t version, Command command) noexcept 
   return version <= 9 ? row.from8 : row.from10;
 }
 
-/// What version 10 appends to Move.
+/// The fields that version 10 appends to Move.
 constexpr std::size_t kAsyncMovePayload = 57;
 
 }  // namespace franka_core::fci::table

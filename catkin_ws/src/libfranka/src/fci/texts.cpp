@@ -53,7 +53,7 @@ std::string hint(Command command) {
   return text;
 }
 
-// Text after the command's name; empty for a status that is no failure of this command.
+// Text after the command's name; empty for a status that is not a failure of this command.
 std::string ending(Command command, Status status, RobotMode mode) {
   switch (status) {
     case Status::kCommandNotPossibleRejected:

@@ -12,7 +12,7 @@
 namespace franka {
 
 /// Limits of the rate limiter: those of the connected robot, each smaller by a margin (as in
-/// franka/rate_limiting.h). Its functions are pure, noexcept and safe in the 1 kHz loop.
+/// franka/rate_limiting.h). Its functions are pure and noexcept. Real-time safe.
 struct ArmRateLimits {
   using Joints = std::array<double, 7>;
 

@@ -16,9 +16,6 @@ namespace franka {
 
 namespace {
 
-using franka_core::RobotCommand;
-using franka_core::RobotState;
-
 template <std::size_t kSize>
 void requireFinite(const std::array<double, kSize>& values, const char* sentence) {
   if (!franka_core::allFinite(values)) {
@@ -37,7 +34,7 @@ void filter(const Shaping& shaping, const std::array<double, kSize>& reference,
 }
 
 void shapeElbow(const Shaping& shaping, bool commanded, const std::array<double, 2>& elbow,
-                const RobotState& state, RobotCommand& command) {
+                const franka_core::RobotState& state, franka_core::RobotCommand& command) {
   command.valid_elbow = commanded;
   command.elbow_c = elbow;
   if (!commanded) {
@@ -63,8 +60,8 @@ void shapeElbow(const Shaping& shaping, bool commanded, const std::array<double,
 
 }  // namespace
 
-void shape(const Shaping& shaping, const Torques& torques, const RobotState& state,
-           RobotCommand& command) {
+void shape(const Shaping& shaping, const Torques& torques, const franka_core::RobotState& state,
+           franka_core::RobotCommand& command) {
   requireFinite(torques.tau_J, "libfranka: A commanded torque is infinite or not a number.");
   command.tau_J_d = torques.tau_J;
   filter(shaping, state.tau_J_d, command.tau_J_d);
@@ -73,8 +70,8 @@ void shape(const Shaping& shaping, const Torques& torques, const RobotState& sta
   }
 }
 
-void shape(const Shaping& shaping, const JointPositions& positions, const RobotState& state,
-           RobotCommand& command) {
+void shape(const Shaping& shaping, const JointPositions& positions,
+           const franka_core::RobotState& state, franka_core::RobotCommand& command) {
   requireFinite(positions.q, "libfranka: A commanded joint position is infinite or not a number.");
   const std::array<double, 7>& reference = shaping.start_at_command ? positions.q : state.q_d;
   command.q_c = positions.q;
@@ -84,8 +81,8 @@ void shape(const Shaping& shaping, const JointPositions& positions, const RobotS
   }
 }
 
-void shape(const Shaping& shaping, const JointVelocities& velocities, const RobotState& state,
-           RobotCommand& command) {
+void shape(const Shaping& shaping, const JointVelocities& velocities,
+           const franka_core::RobotState& state, franka_core::RobotCommand& command) {
   requireFinite(velocities.dq,
                 "libfranka: A commanded joint velocity is infinite or not a number.");
   command.dq_c = velocities.dq;
@@ -96,8 +93,8 @@ void shape(const Shaping& shaping, const JointVelocities& velocities, const Robo
   }
 }
 
-void shape(const Shaping& shaping, const CartesianPose& pose, const RobotState& state,
-           RobotCommand& command) {
+void shape(const Shaping& shaping, const CartesianPose& pose, const franka_core::RobotState& state,
+           franka_core::RobotCommand& command) {
   requireFinite(pose.O_T_EE, "libfranka: The commanded pose is infinite or not a number.");
   const std::array<double, 16>& reference = shaping.start_at_command ? pose.O_T_EE : state.O_T_EE_c;
   command.O_T_EE_c = pose.O_T_EE;
@@ -107,8 +104,9 @@ void shape(const Shaping& shaping, const CartesianPose& pose, const RobotState& 
   }
   // Before the limiter, whose own error would mention rate limiting.
   if (!isHomogeneousTransformation(command.O_T_EE_c)) {
-    throw std::invalid_argument("libfranka: The commanded pose is no homogeneous transformation: " +
-                                franka_core::transformFault(command.O_T_EE_c) + ".");
+    throw std::invalid_argument(
+        "libfranka: The commanded pose is not a homogeneous transformation: " +
+        franka_core::transformFault(command.O_T_EE_c) + ".");
   }
   if (shaping.limits != nullptr) {
     const auto& [v, a, j] = shaping.limits->translation;
@@ -119,8 +117,8 @@ void shape(const Shaping& shaping, const CartesianPose& pose, const RobotState& 
   shapeElbow(shaping, pose.hasElbow(), pose.elbow, state, command);
 }
 
-void shape(const Shaping& shaping, const CartesianVelocities& velocities, const RobotState& state,
-           RobotCommand& command) {
+void shape(const Shaping& shaping, const CartesianVelocities& velocities,
+           const franka_core::RobotState& state, franka_core::RobotCommand& command) {
   requireFinite(velocities.O_dP_EE,
                 "libfranka: A commanded Cartesian velocity is infinite or not a number.");
   command.O_dP_EE_c = velocities.O_dP_EE;

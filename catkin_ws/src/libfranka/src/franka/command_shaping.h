@@ -17,9 +17,9 @@ struct Shaping {
 };
 
 /// Each function filters a value against the state that it answers, limits it, checks it and writes
-/// it into the command. No allocation, lock or log; safe in the 1 kHz loop.
-/// @throws std::invalid_argument if a value is not finite, a pose no homogeneous transformation, or
-/// an elbow's sign neither +1 nor -1.
+/// it into the command. Real-time safe.
+/// @throws std::invalid_argument if a value is not finite, a pose is not a homogeneous
+/// transformation, or an elbow's sign is neither +1 nor -1.
 void shape(const Shaping& shaping, const Torques& torques, const franka_core::RobotState& state,
            franka_core::RobotCommand& command);
 void shape(const Shaping& shaping, const JointPositions& positions,

@@ -10,17 +10,17 @@ namespace franka {
 
 static_assert(franka_core::kErrorCount == 41, "franka::Errors names each error of the table");
 
-Errors::Errors() : Errors(std::array<bool, 41>{}) {}
+Errors::Errors() noexcept : Errors(std::array<bool, 41>{}) {}
 
-Errors::Errors(const Errors& other) : Errors(other.errors_) {}
+Errors::Errors(const Errors& other) noexcept : Errors(other.errors_) {}
 
-Errors& Errors::operator=(Errors other) {
+Errors& Errors::operator=(Errors other) noexcept {
   // The references stay bound to this object's own flags; only the flags are copied.
   errors_ = other.errors_;
   return *this;
 }
 
-Errors::Errors(const std::array<bool, 41>& errors)
+Errors::Errors(const std::array<bool, 41>& errors) noexcept
     : errors_(errors),
       joint_position_limits_violation(errors_[0]),
       cartesian_position_limits_violation(errors_[1]),

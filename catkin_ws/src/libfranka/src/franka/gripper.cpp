@@ -7,32 +7,32 @@
 namespace franka {
 
 namespace fci = franka_core::fci;
-namespace codec = franka_core::fci::gripper;
+namespace gripper_codec = franka_core::fci::gripper;
 
 namespace {
 
 struct HandProtocol {
-  using Request = codec::Request;
-  using Reply = codec::Reply;
-  using State = codec::State;
-  using ConnectRequest = codec::ConnectRequest;
-  using RequestMessage = codec::RequestMessage;
-  using StateBuffer = codec::StateBuffer;
+  using Request = gripper_codec::Request;
+  using Reply = gripper_codec::Reply;
+  using State = gripper_codec::State;
+  using ConnectRequest = gripper_codec::ConnectRequest;
+  using RequestMessage = gripper_codec::RequestMessage;
+  using StateBuffer = gripper_codec::StateBuffer;
   static constexpr std::uint16_t kPort = fci::kGripperPort;
   static constexpr std::uint16_t kOldest = fci::kOldestGripperVersion;
   static constexpr std::uint16_t kNewest = fci::kNewestGripperVersion;
-  static constexpr std::size_t kMaxReplySize = codec::kMaxReceivedReplySize;
+  static constexpr std::size_t kMaxReplySize = gripper_codec::kMaxReceivedReplySize;
   static constexpr const char* kTextPrefix = fci::kGripper;
 
   static void encodeRequest(std::uint32_t id, const Request& request, RequestMessage& message) {
-    codec::encodeRequest(id, request, message);
+    gripper_codec::encodeRequest(id, request, message);
   }
   static fci::CodecError decodeReply(const Request& request, fci::Bytes message,
-                                     codec::Header& header, Reply& reply) {
-    return codec::decodeReply(codec::commandOf(request), message, header, reply);
+                                     gripper_codec::Header& header, Reply& reply) {
+    return gripper_codec::decodeReply(gripper_codec::commandOf(request), message, header, reply);
   }
   static fci::CodecError decodeState(fci::Bytes datagram, State& state) {
-    return codec::decodeState(datagram, state);
+    return gripper_codec::decodeState(datagram, state);
   }
 };
 
@@ -49,11 +49,13 @@ Gripper::Gripper(Gripper&& gripper) noexcept = default;
 Gripper& Gripper::operator=(Gripper&& gripper) noexcept = default;
 Gripper::~Gripper() noexcept = default;
 
-bool Gripper::homing() const { return impl_->execute(codec::HomingRequest{}, impl_->longBound()); }
+bool Gripper::homing() const {
+  return impl_->execute(gripper_codec::HomingRequest{}, impl_->longBound());
+}
 
 bool Gripper::grasp(double width, double speed, double force, double epsilon_inner,
                     double epsilon_outer) const {
-  codec::GraspRequest request;
+  gripper_codec::GraspRequest request;
   request.width = width;
   request.epsilon_inner = epsilon_inner;
   request.epsilon_outer = epsilon_outer;
@@ -63,13 +65,15 @@ bool Gripper::grasp(double width, double speed, double force, double epsilon_inn
 }
 
 bool Gripper::move(double width, double speed) const {
-  return impl_->execute(codec::MoveRequest{width, speed}, impl_->longBound());
+  return impl_->execute(gripper_codec::MoveRequest{width, speed}, impl_->longBound());
 }
 
-bool Gripper::stop() const { return impl_->execute(codec::StopRequest{}, impl_->longBound()); }
+bool Gripper::stop() const {
+  return impl_->execute(gripper_codec::StopRequest{}, impl_->longBound());
+}
 
 GripperState Gripper::readOnce() const {
-  const codec::State received = impl_->readOnce();
+  const gripper_codec::State received = impl_->readOnce();
   GripperState state;
   state.width = received.width;
   state.max_width = received.max_width;

@@ -8,6 +8,7 @@
 #include <franka_core/fci/gripper_codec.h>
 #include <franka_core/fci/texts.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <cstdint>
@@ -37,7 +38,7 @@ class GripperConnection {
 
   /// @throws NetworkException, IncompatibleVersionException
   explicit GripperConnection(const std::string& address)
-      : timeouts_(timeouts()), datagrams_(timeouts_.state) {
+      : timeouts_(timeouts()), datagrams_(std::min(timeouts_.state, kSlice)) {
     const network::Endpoint endpoint = network::parseEndpoint(address, Protocol::kPort);
     const Deadline deadline = network::Clock::now() + timeouts_.connect;
     const std::optional<std::uint16_t> required = offer(endpoint, Protocol::kNewest, deadline);
@@ -83,10 +84,16 @@ class GripperConnection {
     typename Protocol::StateBuffer buffer;
     while (datagrams_.tryReceive(buffer.data(), buffer.size()).any) {
     }
-    const auto received = datagrams_.receive(buffer.data(), buffer.size());
-    if (!received.any) {
-      throw NetworkException(channel_->closedByServer() ? franka_core::fci::kServerClosed
-                                                        : franka_core::fci::kStateTimeout);
+    const Deadline deadline = network::Clock::now() + stateBound();
+    auto received = datagrams_.receive(buffer.data(), buffer.size());
+    while (!received.any) {
+      if (channel_->closedByServer()) {
+        throw NetworkException(franka_core::fci::kServerClosed);
+      }
+      if (network::Clock::now() >= deadline) {
+        throw NetworkException(franka_core::fci::kStateTimeout);
+      }
+      received = datagrams_.receive(buffer.data(), buffer.size());
     }
     State state;
     if (Protocol::decodeState({buffer.data(), received.size}, state) !=
@@ -102,6 +109,15 @@ class GripperConnection {
 
  private:
   using Deadline = network::Clock::time_point;
+
+  // Period at which a wait for a state checks the connection.
+  static constexpr std::chrono::milliseconds kSlice{50};
+
+  // Load may stop a simulated hand for a while.
+  std::chrono::milliseconds stateBound() const noexcept {
+    return channel_->serverIsLoopback() ? std::max(timeouts_.state, timeouts_.silence)
+                                        : timeouts_.state;
+  }
 
   static std::string text(const std::string& ending) { return Protocol::kTextPrefix + ending; }
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/log.h>
 
+#include <limits>
 #include <sstream>
 
 namespace franka {
@@ -45,6 +46,8 @@ std::string logToCSV(const std::vector<Record>& log) {
     return "";
   }
   std::ostringstream csv;
+  // All digits: jerks can be computed from the positions.
+  csv.precision(std::numeric_limits<double>::max_digits10);
   csv << "time,success_rate";
   forEachColumn(log.front(),
                 [&csv](const char* name, const auto& values) { writeNames(csv, name, values); });

@@ -12,7 +12,7 @@
 
 namespace franka {
 
-/// Computes the results of a Model. All functions are real-time safe; layouts as in Model.
+/// Computes the results of a Model. Layouts as in Model. Real-time safe. Thread-safe.
 class Model::Source {
  public:
   virtual ~Source() = default;

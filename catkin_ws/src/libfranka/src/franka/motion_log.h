@@ -11,8 +11,7 @@
 
 namespace franka {
 
-/// Stores the last states and commands of a motion. Memory is allocated at construction; add is
-/// real-time safe.
+/// Stores the last states and commands of a motion. Memory is allocated at construction.
 class MotionLog {
  public:
   /// A received state and the command sent just before it.
@@ -21,7 +20,7 @@ class MotionLog {
   /// @param size number of entries; may be 0.
   explicit MotionLog(std::size_t size) : ring_(size) {}
 
-  /// Adds an entry, replacing the oldest.
+  /// Adds an entry, replacing the oldest. Real-time safe.
   void add(const franka_core::RobotState& state, const franka_core::RobotCommand& command) noexcept;
   /// All entries, oldest first.
   std::vector<Entry> entries() const;

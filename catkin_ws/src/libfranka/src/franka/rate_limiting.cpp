@@ -220,7 +220,7 @@ std::array<double, 16> limitRate(double max_translational_velocity,
   requireFinite(O_T_EE_c);
   if (!isHomogeneousTransformation(O_T_EE_c)) {
     throw std::invalid_argument(
-        "libfranka rate limiting: the commanded pose is no homogeneous transformation: " +
+        "libfranka rate limiting: the commanded pose is not a homogeneous transformation: " +
         franka_core::transformFault(O_T_EE_c) + ".");
   }
   const Eigen::Map<const Eigen::Matrix4d> desired(O_T_EE_c.data());

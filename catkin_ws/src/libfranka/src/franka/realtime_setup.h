@@ -7,8 +7,8 @@
 namespace franka {
 
 /// Prepares the calling thread for the 1 kHz loop: highest priority of SCHED_FIFO and, if enforced,
-/// memory locked as far as permitted (a failure to lock is no error). With kIgnore a failure to get
-/// the priority is ignored.
+/// memory locked as far as permitted (a failure to lock is not an error). With kIgnore a failure to
+/// get the priority is ignored. Not real-time safe.
 /// @throws RealtimeException if enforced and the kernel or the priority is not available.
 void prepareControlThread(RealtimeConfig realtime_config);
 

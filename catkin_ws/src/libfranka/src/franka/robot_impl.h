@@ -24,8 +24,8 @@ namespace franka {
 /// The connection itself: requests and replies over TCP, states and commands over UDP, in the
 /// robot's protocol version.
 ///
-/// Functions for requests may be called from any thread; functions for states only by the holder of
-/// an Operation. The latter neither allocate nor lock.
+/// Functions for requests are called by any thread, functions for states only by the holder of an
+/// Operation.
 class Robot::Impl {
  public:
   using Clock = network::Clock;
@@ -63,7 +63,7 @@ class Robot::Impl {
   void read(const std::function<bool(const RobotState&)>& callback);
   RobotState readOnce();
 
-  /// @name Requests
+  /// @name Requests. Thread-safe. Not real-time safe.
   /// @{
 
   /// Sends a request and waits for its reply.
@@ -78,7 +78,7 @@ class Robot::Impl {
   /// Sends a request; its replies are kept until forget. @throws CommandException if this version
   /// of the protocol has no such request.
   std::uint32_t send(const Request& request);
-  void forget(std::uint32_t id) { channel_->forget(id); }
+  void forget(std::uint32_t id) noexcept { channel_->forget(id); }
   /// The next reply if it has arrived.
   std::optional<Reply> tryReceive(Command command, std::uint32_t id);
   /// Waits for the next reply. @param owns_states whether the caller holds an Operation.
@@ -89,7 +89,7 @@ class Robot::Impl {
   franka_core::RobotMode mode() const noexcept { return mode_.load(std::memory_order_relaxed); }
   /// @}
 
-  /// @name States: for the holder of an Operation
+  /// @name States, for the holder of an Operation. Real-time safe.
   /// @{
 
   /// The newest state.
@@ -97,8 +97,8 @@ class Robot::Impl {
   /// Waits for a newer state. Older and repeated ones are dropped; but a robot that repeats its
   /// last state waits for another client (a simulated one in lock-step), so the wait is extended.
   /// Time in which this process itself does not run does not count.
-  /// @throws NetworkException after Timeouts::state, or Timeouts::silence if keepsOtherTime; at
-  /// once if the connection is closed.
+  /// @throws NetworkException after Timeouts::state, or Timeouts::silence if mayBeStarved; at once
+  /// if the connection is closed.
   /// @throws ProtocolException for an invalid datagram.
   const franka_core::RobotState& receiveState();
   /// Reads datagrams that have arrived, without waiting. @returns whether there was a newer state.
@@ -112,6 +112,9 @@ class Robot::Impl {
   /// Whether the robot's clock differs from this machine's in this motion. Real robots keep time; a
   /// simulated one that waits for its client's answers does not, and load may delay it.
   bool keepsOtherTime() const noexcept;
+  /// Whether the robot is a simulated one, which load may stop for a while: one on this machine, or
+  /// one that keepsOtherTime.
+  bool mayBeStarved() const noexcept;
 
   /// Whether the newest state shows an active motion generator or external controller.
   bool isMoving() const noexcept;

@@ -14,7 +14,7 @@
 namespace franka {
 
 /// One motion on the robot, from Move to its second reply. The holder of the robot's Operation
-/// drives it from one thread; send and receive neither allocate nor lock while the motion runs.
+/// drives it from one thread.
 class RunningMotion {
  public:
   /// Starts the motion; returns when the robot's states show it.
@@ -25,7 +25,8 @@ class RunningMotion {
   RunningMotion(const RunningMotion&) = delete;
   RunningMotion& operator=(const RunningMotion&) = delete;
 
-  /// Answers the newest state. @throws the end of the motion, if receive or finish has thrown it.
+  /// Answers the newest state. Real-time safe.
+  /// @throws the end of the motion, if receive or finish has thrown it.
   void send(const franka_core::RobotCommand& command);
   /// Waits for the next state. @throws ControlException if it shows that the motion has ended, also
   /// in all later calls.

@@ -11,17 +11,17 @@
 namespace franka {
 
 namespace fci = franka_core::fci;
-namespace codec = franka_core::fci::vacuum;
+namespace vacuum_codec = franka_core::fci::vacuum;
 
 namespace {
 
 struct VacuumProtocol {
-  using Request = codec::Request;
-  using Reply = codec::Reply;
-  using State = codec::State;
-  using ConnectRequest = codec::ConnectRequest;
-  using RequestMessage = codec::RequestMessage;
-  using StateBuffer = codec::StateBuffer;
+  using Request = vacuum_codec::Request;
+  using Reply = vacuum_codec::Reply;
+  using State = vacuum_codec::State;
+  using ConnectRequest = vacuum_codec::ConnectRequest;
+  using RequestMessage = vacuum_codec::RequestMessage;
+  using StateBuffer = vacuum_codec::StateBuffer;
   static constexpr std::uint16_t kPort = fci::kVacuumGripperPort;
   static constexpr std::uint16_t kOldest = fci::kVacuumGripperVersion;
   static constexpr std::uint16_t kNewest = fci::kVacuumGripperVersion;
@@ -29,14 +29,14 @@ struct VacuumProtocol {
   static constexpr const char* kTextPrefix = fci::kVacuumGripper;
 
   static void encodeRequest(std::uint32_t id, const Request& request, RequestMessage& message) {
-    codec::encodeRequest(id, request, message);
+    vacuum_codec::encodeRequest(id, request, message);
   }
   static fci::CodecError decodeReply(const Request& request, fci::Bytes message,
-                                     codec::Header& header, Reply& reply) {
-    return codec::decodeReply(codec::commandOf(request), message, header, reply);
+                                     vacuum_codec::Header& header, Reply& reply) {
+    return vacuum_codec::decodeReply(vacuum_codec::commandOf(request), message, header, reply);
   }
   static fci::CodecError decodeState(fci::Bytes datagram, State& state) {
-    return codec::decodeState(datagram, state);
+    return vacuum_codec::decodeState(datagram, state);
   }
 };
 
@@ -60,23 +60,24 @@ VacuumGripper::~VacuumGripper() noexcept = default;
 
 bool VacuumGripper::vacuum(uint8_t vacuum, std::chrono::milliseconds timeout,
                            ProductionSetupProfile profile) const {
-  codec::VacuumRequest request;
+  vacuum_codec::VacuumRequest request;
   request.vacuum = vacuum;
-  request.profile = static_cast<codec::Profile>(profile);
+  request.profile = static_cast<vacuum_codec::Profile>(profile);
   request.timeout_ms = timeout.count();
   return impl_->execute(request, timeout + impl_->longBound());
 }
 
 bool VacuumGripper::dropOff(std::chrono::milliseconds timeout) const {
-  return impl_->execute(codec::DropOffRequest{timeout.count()}, timeout + impl_->longBound());
+  return impl_->execute(vacuum_codec::DropOffRequest{timeout.count()},
+                        timeout + impl_->longBound());
 }
 
 bool VacuumGripper::stop() const {
-  return impl_->execute(codec::StopRequest{}, impl_->longBound());
+  return impl_->execute(vacuum_codec::StopRequest{}, impl_->longBound());
 }
 
 VacuumGripperState VacuumGripper::readOnce() const {
-  const codec::State received = impl_->readOnce();
+  const vacuum_codec::State received = impl_->readOnce();
   VacuumGripperState state;
   state.in_control_range = received.in_control_range;
   state.part_detached = received.part_detached;

@@ -6,8 +6,8 @@
 
 namespace franka::logging {
 
-/// A warning of the library itself: to the program's sinks or, without any, to standard error. Not
-/// real-time safe. Thread-safe.
+/// A warning of the library itself: to the program's sinks or, without any, to standard error.
+/// Not real-time safe. Thread-safe.
 void warn(const std::string& message);
 
 }  // namespace franka::logging

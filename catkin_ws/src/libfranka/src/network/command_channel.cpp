@@ -72,7 +72,8 @@ Descriptor connectTo(const Endpoint& endpoint, Clock::time_point deadline) {
   return socket;
 }
 
-// Without keepalives a robot without power cannot be told from a silent one (protocol 2.2).
+// Without keepalives a robot without power cannot be distinguished from a silent one
+// (protocol 2.2).
 void enableKeepalive(int socket) {
   const auto set = [socket](int level, int option, int value) {
     setsockopt(socket, level, option, &value, sizeof(value));
@@ -101,7 +102,7 @@ std::uint32_t CommandChannel::expect() {
   return id;
 }
 
-void CommandChannel::forget(std::uint32_t id) {
+void CommandChannel::forget(std::uint32_t id) noexcept {
   const std::lock_guard<std::mutex> lock(receive_mutex_);
   replies_.erase(id);
 }

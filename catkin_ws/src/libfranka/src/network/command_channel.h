@@ -25,8 +25,7 @@ using Clock = std::chrono::steady_clock;
 ///
 /// Replies belong to requests by their id. They are kept until requested, also if another thread
 /// reads them from the socket; two replies to one request are queued. Unexpected replies (see
-/// expect, forget) are dropped. All functions may be called from any thread and end in bounded
-/// time; only closedByServer is for the 1 kHz loop.
+/// expect, forget) are dropped. All functions end in bounded time. Thread-safe.
 class CommandChannel {
  public:
   /// Finds the first message of the stream: its id and size (see fci::nextMessage).
@@ -47,7 +46,7 @@ class CommandChannel {
   /// A new request's id, starting at 0; its replies are kept from now on.
   std::uint32_t expect();
   /// Drops all present and future replies to this id.
-  void forget(std::uint32_t id);
+  void forget(std::uint32_t id) noexcept;
   /// Sends one request.
   /// @throws NetworkException if the connection is lost or takes no bytes for kSendTimeout.
   void send(franka_core::fci::Bytes request);
@@ -63,7 +62,7 @@ class CommandChannel {
                                  const std::function<void()>& watch = {});
 
   /// Whether the server has closed the connection or vanished, as far as visible without reading
-  /// earlier data. One system call; safe in the 1 kHz loop.
+  /// earlier data. One system call. Real-time safe.
   bool closedByServer() const noexcept;
 
   /// Whether the server is on this machine (see franka_core::isLoopback). Real-time safe.

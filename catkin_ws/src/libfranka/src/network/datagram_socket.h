@@ -15,8 +15,8 @@ namespace franka::network {
 
 /// The UDP socket that receives states and sends commands back to their sender.
 ///
-/// The robot is the sender of the first accepted datagram; others are ignored from then on. One
-/// thread at a time. After construction nothing allocates, locks or throws: safe in the 1 kHz loop.
+/// The robot is the sender of the first accepted datagram; others are ignored from then on. Called
+/// by one thread at a time. After construction no function throws. Real-time safe.
 class DatagramSocket {
  public:
   /// One datagram, or none.
@@ -34,8 +34,8 @@ class DatagramSocket {
 
   /// The oldest received datagram, without waiting.
   Received tryReceive(std::uint8_t* buffer, std::size_t capacity) noexcept;
-  /// The same, waiting up to the timeout. Waits for the robot's reaction to a command as
-  /// setWaitMode says; others sleep.
+  /// The same, waiting up to the timeout. Waits for the robot's reaction to a command in the mode
+  /// of setWaitMode; other waits sleep.
   Received receive(std::uint8_t* buffer, std::size_t capacity) noexcept;
   /// How to wait for the state that follows an answer; without this call: asleep.
   void setWaitMode(franka_core::WaitMode mode) noexcept {

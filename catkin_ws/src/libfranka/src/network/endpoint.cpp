@@ -22,7 +22,7 @@ std::uint16_t parsePort(const std::string& text, const std::string& address) {
   const int port = digits ? std::stoi(text) : 0;
   if (port < 1 || port > 65535) {
     throw NetworkException("libfranka: \"" + text + "\" in the address \"" + address +
-                           "\" is no port. Please give an IP address or host name, and after a "
+                           "\" is not a port. Please give an IP address or host name, and after a "
                            "colon, if at all, a number from 1 to 65535.");
   }
   return static_cast<std::uint16_t>(port);

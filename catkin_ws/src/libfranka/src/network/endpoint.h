@@ -21,7 +21,7 @@ struct Endpoint {
 /// @throws NetworkException with a sentence if the host is empty or the port no port.
 Endpoint parseEndpoint(const std::string& address, std::uint16_t default_port);
 
-/// The IPv4 address of an endpoint. May ask the system's name resolver.
+/// The IPv4 address of an endpoint. May call the system's name resolver.
 /// @throws NetworkException if there is none.
 sockaddr_in resolve(const Endpoint& endpoint);
 
@@ -42,7 +42,7 @@ class Descriptor {
   int fd_;
 };
 
-/// "libfranka: <what>: <what errno says>".
+/// "libfranka: <what>: <text of errno>".
 std::string systemError(const char* what, int error);
 
 }  // namespace franka::network

@@ -112,7 +112,7 @@ TEST_F(Switching, RefusalOfAMemberRevertsPreparations) {
   EXPECT_EQ("new(e: l1;)|old(e: l2;)", text(left_.prepared[0]));
   EXPECT_EQ("old(e: l2;)|new(e: l1;)", text(left_.prepared[1])) << "the way back";
   EXPECT_EQ(1u, right_.prepared.size());
-  EXPECT_THAT(third.prepared, IsEmpty()) << "not asked at all";
+  EXPECT_THAT(third.prepared, IsEmpty()) << "not called at all";
 }
 
 TEST_F(Switching, ExceptionOfAMemberIsARefusal) {

@@ -9,8 +9,8 @@
 namespace control_toolbox {
 
 bool Dither::init(double amplitude, double seed) {
-  constexpr double kLargestSeed = std::numeric_limits<std::uint32_t>::max();
-  if (!std::isfinite(amplitude) || amplitude < 0.0 || !(std::abs(seed) <= kLargestSeed)) {
+  constexpr double kMaxSeed = std::numeric_limits<std::uint32_t>::max();
+  if (!std::isfinite(amplitude) || amplitude < 0.0 || !(std::abs(seed) <= kMaxSeed)) {
     return false;
   }
   amplitude_ = amplitude;

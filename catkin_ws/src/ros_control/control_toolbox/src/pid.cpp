@@ -15,7 +15,7 @@ namespace control_toolbox {
 Pid::Pid(double p, double i, double d, double i_max, double i_min, bool antiwindup)
     : gains_(Gains(p, i, d, i_max, i_min, antiwindup)) {}
 
-Pid::Pid(const Pid& source) : gains_(source.gains_.get()) {}
+Pid::Pid(const Pid& source) noexcept : gains_(source.gains_.get()) {}
 
 Pid& Pid::operator=(const Pid& source) {
   if (this != &source) {
@@ -32,12 +32,12 @@ void Pid::initPid(double p, double i, double d, double i_max, double i_min, bool
   reset();
 }
 
-void Pid::reset() {
+void Pid::reset() noexcept {
   reset(0.0, 0.0);
   error_last_valid_ = true;
 }
 
-void Pid::reset(double d_error, double i_error) {
+void Pid::reset(double d_error, double i_error) noexcept {
   p_error_last_ = 0.0;
   p_error_ = 0.0;
   i_error_ = i_error;

@@ -27,7 +27,7 @@ void PidGainsSetter::advertise(const ros::NodeHandle& n) {
 bool PidGainsSetter::setGains(SetPidGains::Request& req, SetPidGains::Response& /*resp*/) {
   for (const double gain : {req.p, req.i, req.d, req.i_clamp}) {
     if (!std::isfinite(gain)) {
-      ROS_ERROR("The gains given to %s are refused: %f is no finite number.",
+      ROS_ERROR("The gains given to %s are refused: %f is not a finite number.",
                 serve_set_gains_.getService().c_str(), gain);
       return false;
     }

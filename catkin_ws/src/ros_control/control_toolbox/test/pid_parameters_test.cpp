@@ -3,6 +3,7 @@
 #include <dynamic_reconfigure/Reconfigure.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <ros_test/eventually.h>
 #include <tinyxml.h>
 
 #include <chrono>
@@ -14,20 +15,9 @@
 #include "control_toolbox/pid.h"
 
 using control_toolbox::Pid;
+using ros_test::eventually;
 
 namespace {
-
-template <class Condition>
-bool eventually(Condition condition) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) {
-      return false;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  return true;
-}
 
 /// Expects the gains p, i, d, i_max, i_min.
 void expectGains(Pid& pid, const std::vector<double>& expected, bool antiwindup) {

@@ -202,7 +202,7 @@ bool ControllerManager::watchController(ControllerSpec& spec, const ros::NodeHan
   }
   std::vector<std::string> fallbacks;
   if (nh.hasParam("fallback_controllers") && !nh.getParam("fallback_controllers", fallbacks)) {
-    ROS_ERROR("Could not load controller '%s' because '%s' is no list of controllers' names",
+    ROS_ERROR("Could not load controller '%s' because '%s' is not a list of controllers' names",
               spec.info.name.c_str(), nh.resolveName("fallback_controllers").c_str());
     return false;
   }

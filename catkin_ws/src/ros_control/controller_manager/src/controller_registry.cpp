@@ -7,11 +7,6 @@
 namespace controller_manager {
 namespace internal {
 
-namespace {
-// Far above a cycle of a millisecond: beyond it the loop hangs inside a controller.
-constexpr std::chrono::milliseconds kLongestCycle{1000};
-}  // namespace
-
 ControllerList::ControllerList(std::vector<ControllerSpec> specs) : specs_(std::move(specs)) {
   controllers_.reserve(specs_.size());
   for (const ControllerSpec& spec : specs_) {
@@ -46,7 +41,7 @@ void ControllerRegistry::replace(std::vector<ControllerSpec> specs) {
     current_ = std::move(next);
     for_loop_.store(current_.get(), std::memory_order_seq_cst);
   }
-  if (gate_.waitUntilLeft(kLongestCycle)) {
+  if (gate_.waitUntilLeft(LoopGate::kMaxCycleTime)) {
     outdated_.clear();
   }
 }

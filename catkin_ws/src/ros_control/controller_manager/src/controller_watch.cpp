@@ -114,7 +114,7 @@ std::string ControllerWatch::reason() const {
     case Fault::kRestart:
       return std::string("its restart threw: ") + text_.data();
     case Fault::kNotFinite:
-      return std::string("it commanded joint '") + text_.data() + "' a value that is no number";
+      return std::string("it commanded joint '") + text_.data() + "' a value that is not a number";
     case Fault::kTooSlow: {
       std::array<char, 128> text;
       std::snprintf(text.data(), text.size(),

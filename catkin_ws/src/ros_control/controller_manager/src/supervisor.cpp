@@ -15,8 +15,6 @@ namespace {
 
 // Period of handling faults; too short for users to notice.
 constexpr std::chrono::milliseconds kFaultPeriod{2};
-// Far above a cycle of a millisecond: beyond it the loop hangs inside a controller.
-constexpr std::chrono::milliseconds kLongestCycle{1000};
 
 double readPositive(const ros::NodeHandle& nh, const std::string& name) {
   XmlRpc::XmlRpcValue value;
@@ -180,7 +178,7 @@ void Supervisor::publish() {
   const ControllerListPtr list = registry_.snapshot();
   const std::size_t filled = window_.load(std::memory_order_relaxed);
   window_.store(1 - filled, std::memory_order_seq_cst);
-  if (!gate_.waitUntilLeft(kLongestCycle)) {
+  if (!gate_.waitUntilLeft(LoopGate::kMaxCycleTime)) {
     // The loop may still write the statistics to read: try again next time.
     window_.store(filled, std::memory_order_seq_cst);
     return;

@@ -310,8 +310,8 @@ bool ControllerManager::settleFault(const std::string& name, bool first) {
   if (!turn) {
     if (first && !handover_->mustEnd()) {
       ROS_ERROR(
-          "The robot could not be told yet that controller '%s' was aborted: another switch is "
-          "under way. It will be told as soon as that has ended.",
+          "The robot could not be notified yet that controller '%s' was aborted: another switch is "
+          "under way. It will be notified when that has ended.",
           name.c_str());
     }
     return false;

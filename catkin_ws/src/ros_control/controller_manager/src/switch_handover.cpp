@@ -16,8 +16,6 @@ namespace {
 constexpr std::chrono::microseconds kPollPeriod{200};
 // The original's extra time beyond the timeout, for a loop whose clock stands still.
 constexpr double kExtraTime = 1.0;
-// Far above a cycle of a millisecond.
-constexpr std::chrono::milliseconds kLongestCycle{1000};
 }  // namespace
 
 SwitchHandover::SwitchHandover(LoopGate& gate) : gate_(gate) {}
@@ -123,7 +121,7 @@ bool SwitchHandover::Turn::withdraw() {
     return false;
   }
   handover_.for_loop_.store(nullptr, std::memory_order_seq_cst);
-  const bool left = handover_.gate_.waitUntilLeft(kLongestCycle);
+  const bool left = handover_.gate_.waitUntilLeft(LoopGate::kMaxCycleTime);
   const std::lock_guard<std::mutex> lock(handover_.mutex_);
   handover_.withdrawn_.push_back(std::move(handover_.request_));
   if (left) {

@@ -20,7 +20,7 @@
 
 namespace dummies {
 
-/// Claims the joints of its parameter `joints` and counts its callbacks; real-time safe.
+/// Claims the joints of its parameter `joints` and counts its callbacks. Real-time safe.
 class DummyController
     : public controller_interface::Controller<hardware_interface::EffortJointInterface> {
  public:

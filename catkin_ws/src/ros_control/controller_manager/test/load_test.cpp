@@ -75,7 +75,7 @@ TEST_F(LoadTest, LoadsANameAgainAfterAFailure) {
   EXPECT_TRUE(manager_->loadController("x"));
 }
 
-TEST_F(LoadTest, EarlierLoadersAreAskedFirst) {
+TEST_F(LoadTest, EarlierLoadersAreSearchedFirst) {
   const auto second = std::make_shared<dummies::DummyLoader>();
   manager_->registerControllerLoader(second);
   load({"a"});

@@ -4,43 +4,24 @@
 
 #include <controller_manager/controller_manager.h>
 #include <gmock/gmock.h>
-#include <ros/console.h>
 #include <ros/node_handle.h>
+#include <ros_test/eventually.h>
+#include <ros_test/log_catcher.h>
 
 #include <chrono>
 #include <future>
 #include <memory>
-#include <mutex>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "dummies.h"
 
 namespace dummies {
 
+using ros_test::LogCatcher;
+
 constexpr int kStrict = 2;
 constexpr int kBestEffort = 1;
-
-/// Captures log messages during its lifetime.
-class LogCatcher : public ros::console::LogAppender {
- public:
-  LogCatcher() { ros::console::register_appender(this); }
-  ~LogCatcher() override { ros::console::deregister_appender(this); }
-  void log(ros::console::Level /*level*/, const char* text, const char* /*file*/,
-           const char* /*function*/, int /*line*/) override {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    all_ += std::string(text) + "\n";
-  }
-  std::string text() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return all_;
-  }
-
- private:
-  mutable std::mutex mutex_;
-  std::string all_;
-};
 
 /// A manager with dummies a, b (joint j0), c (j1) and d (j2) on the parameter server. Time advances
 /// only by the test's steps.
@@ -101,13 +82,9 @@ class ManagerTest : public testing::Test {
 
   template <class Condition>
   static void waitFor(Condition condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > deadline) {
-        ADD_FAILURE() << "what the test waits for did not happen";
-        std::abort();
-      }
-      std::this_thread::sleep_for(std::chrono::microseconds(100));
+    if (!ros_test::eventually(condition, std::chrono::microseconds(100))) {
+      ADD_FAILURE() << "what the test waits for did not happen";
+      std::abort();
     }
   }
 

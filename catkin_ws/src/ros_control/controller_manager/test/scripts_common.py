@@ -2,8 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """Helpers of the tests of services and scripts."""
 
+import os
 import signal
 import subprocess
+import threading
 import time
 
 import roslib.packages
@@ -55,12 +57,20 @@ class Running:
     """A script in its own process, ended with the test."""
 
     def __init__(self, name, *arguments):
+        self.output = ""  # so far
         self.process = subprocess.Popen(
             [program(name), *arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
+            env=dict(os.environ, PYTHONUNBUFFERED="1"),
         )
+        self._reader = threading.Thread(target=self._read)
+        self._reader.start()
+
+    def _read(self):
+        for line in self.process.stdout:
+            self.output += line
 
     def __enter__(self):
         return self
@@ -68,7 +78,11 @@ class Running:
     def __exit__(self, *_):
         if self.process.poll() is None:
             self.process.kill()
-        self.process.communicate()
+        self.finish()
+        self.process.stdout.close()
+
+    def wait_to_print(self, text):
+        wait_until(lambda: text in self.output, f"never printed '{text}': {self.output}")
 
     def is_running(self):
         return self.process.poll() is None
@@ -79,5 +93,6 @@ class Running:
 
     def finish(self):
         """Waits for the end. Returns exit status and output."""
-        output, _ = self.process.communicate(timeout=DEADLINE)
-        return self.process.returncode, output
+        self.process.wait(DEADLINE)
+        self._reader.join()
+        return self.process.returncode, self.output

@@ -33,7 +33,6 @@ from controller_manager_msgs.srv import *
 def switch(request):
     if request.stop_controllers:
         os._exit(0)
-    rospy.set_param("/mortal/started", True)
     return SwitchControllerResponse(ok=True)
 
 rospy.init_node("mortal_manager")
@@ -107,8 +106,8 @@ class SpawnerTest(unittest.TestCase):
 
     def test_a_conflict_is_reported_and_cleaned_up(self):
         with Running("spawner", "a", "b") as spawner:
+            spawner.wait_to_print("Failed to start controllers: a, b")
             self.expect({"a": "initialized", "b": "initialized"})
-            time.sleep(1.0)
             _, output = spawner.interrupt()
         self.assertIn("Failed to start controllers: a, b", output)
         self.expect({})
@@ -120,7 +119,7 @@ class SpawnerTest(unittest.TestCase):
             publisher.publish(False)
             with Running("spawner", *timeout, "--wait-for", "initialized", "a") as spawner:
                 wait_until(lambda: publisher.get_num_connections() > 0, "no subscriber")
-                time.sleep(0.5)
+                time.sleep(0.5)  # at least: it must not start anything meanwhile
                 self.assertEqual({}, self.manager.states())
                 publisher.publish(True)
                 self.expect({"a": "running"})
@@ -142,14 +141,14 @@ class SpawnerTest(unittest.TestCase):
         publisher = rospy.Publisher("late", Bool, queue_size=1, latch=True)
         with Running("spawner", "--timeout", "0.5", "--wait-for", "late", "a") as running:
             wait_until(lambda: publisher.get_num_connections() > 0, "no subscriber")
-            time.sleep(1.0)  # twice its timeout for the controller manager
+            time.sleep(1.0)  # at least twice its timeout for the controller manager
             self.assertTrue(running.is_running())
             publisher.publish(True)
             self.expect({"a": "running"})
             running.interrupt()
         self.expect({})
 
-    def test_reports_what_it_waits_for(self):
+    def test_reports_the_topic_that_it_waits_for(self):
         publisher = rospy.Publisher("reported", Bool, queue_size=1, latch=True)
         reports = []
 
@@ -160,13 +159,13 @@ class SpawnerTest(unittest.TestCase):
         def take(text, *values):
             reports.append(text % values)
             # Times of the reports, and then the awaited topic.
-            publisher.publish("only said false" in reports[-1])
+            publisher.publish("only sent false" in reports[-1])
 
         short_ending = mock.patch.multiple(spawner, FIRST_REPORT=0.0, REPORT_PERIOD=0.5)
         with short_ending, mock.patch.object(spawner.rospy, "logwarn", take):
             spawner.wait_for_true("reported", ShortEnding())
         self.assertIn("/reported", reports[0])
-        self.assertIn("has only said false so far", reports[-1])
+        self.assertIn("has only sent false so far", reports[-1])
 
     def test_gives_up_without_a_manager(self):
         with Running("spawner", "--timeout", "0.5", "--namespace", "/nowhere", "a") as spawner:
@@ -181,7 +180,8 @@ class SpawnerTest(unittest.TestCase):
         rospy.set_param("/use_sim_time", True)
         try:
             with Running("spawner", "--timeout", "0.5", "--namespace", "/nowhere", "a") as spawner:
-                time.sleep(4.0)
+                spawner.wait_to_print("Waiting for /clock to be available...")
+                time.sleep(1.0)  # at least twice its timeout
                 self.assertTrue(spawner.is_running())
                 publisher = rospy.Publisher("/clock", Clock, queue_size=1, latch=True)
                 publisher.publish(Clock(rospy.Time(1)))
@@ -272,19 +272,34 @@ class SpawnerTest(unittest.TestCase):
             self.assertEqual(2, status)
             self.assertIn("usage: spawner", output)
 
-    def test_a_manager_that_exits_at_the_same_time_causes_no_error(self):
+    @contextlib.contextmanager
+    def mortal_manager(self):
+        """A manager of its own process, and a spawner that has started a controller in it."""
         manager = subprocess.Popen([sys.executable, "-c", MORTAL_MANAGER])
         try:
             with Running("spawner", "--namespace", "/mortal", "a") as spawner:
-                wait_until(lambda: rospy.has_param("/mortal/started"), "never started")
-                status, output = spawner.interrupt()
+                spawner.wait_to_print("Started controllers: a")
+                yield manager, spawner
+        finally:
+            manager.kill()
+            manager.wait()
+
+    def test_a_manager_that_exits_at_the_same_time_causes_no_error(self):
+        with self.mortal_manager() as (manager, spawner):
+            status, output = spawner.interrupt()
             self.assertEqual(0, status, output)
             self.assertIn("has ended meanwhile", output)
             self.assertNotIn("WARN", output)
             self.assertEqual(0, manager.wait(10))
-        finally:
-            manager.kill()
+
+    def test_a_manager_that_died_before_causes_no_error(self):
+        with self.mortal_manager() as (manager, spawner):
+            manager.kill()  # the master still lists its services
             manager.wait()
+            status, output = spawner.interrupt()
+            self.assertEqual(0, status, output)
+            self.assertIn("has ended already", output)
+            self.assertNotIn("WARN", output)
 
     def test_exits_in_time_if_the_loop_stands_still(self):
         with Running("spawner", "a") as spawner:

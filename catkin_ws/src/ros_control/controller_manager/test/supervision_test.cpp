@@ -112,7 +112,8 @@ TEST_F(SupervisionTest, NanCommandsDoNotReachTheRobot) {
   renewGuarded();
   LogCatcher log;
   failOnce(FaultKind::kNan);
-  EXPECT_THAT(log.text(), testing::HasSubstr("it commanded joint 'j3' a value that is no number"));
+  EXPECT_THAT(log.text(),
+              testing::HasSubstr("it commanded joint 'j3' a value that is not a number"));
   EXPECT_EQ(7.0, command("j3"));
 }
 
@@ -299,7 +300,7 @@ TEST_F(SupervisionTest, FallbacksMustBeNames) {
   LogCatcher log;
   EXPECT_FALSE(manager_->loadController("faulty"));
   EXPECT_TRUE(loaded().empty());
-  EXPECT_THAT(log.text(), testing::HasSubstr("is no list of controllers' names"));
+  EXPECT_THAT(log.text(), testing::HasSubstr("is not a list of controllers' names"));
 }
 
 TEST_F(SupervisionTest, DefaultTimeoutEndsASwitchWithoutTheLoop) {

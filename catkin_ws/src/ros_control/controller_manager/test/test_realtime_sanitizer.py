@@ -47,7 +47,7 @@ def program(tmp_path_factory):
     folder = tmp_path_factory.mktemp("realtime_sanitizer")
     found = [name for name in COMPILERS if shutil.which(name) and accepts(name, folder)]
     if not found:
-        pytest.skip("no clang++ here accepts -fsanitize=realtime; clang 20 was the first")
+        pytest.skip("clang-20 or newer, which accepts -fsanitize=realtime, is not installed")
     path = folder / "program"
     command = [found[0], "-std=c++17", "-O1", "-g", "-fsanitize=realtime", *INCLUDES]
     command += [*map(str, SOURCES), "-o", str(path), *LIBRARIES]

@@ -84,7 +84,7 @@ TEST_F(Forwarding, EffortStartsAndEndsAtZeroAndRefusesNonFiniteCommands) {
   LogCatcher log;
   publisher.publish(one(kNan));
   ASSERT_TRUE(stepsUntil([&] { return log.text().find("joint 'arm'") != std::string::npos; }));
-  EXPECT_THAT(log.text(), HasSubstr("no finite number"));
+  EXPECT_THAT(log.text(), HasSubstr("not a finite number"));
   step();
   EXPECT_EQ(3.0, robot_.effort_command_[kArm]);
   stop();

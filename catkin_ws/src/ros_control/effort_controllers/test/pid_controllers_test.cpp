@@ -14,6 +14,7 @@
 #include "three_joint_robot.h"
 
 using testing::HasSubstr;
+using three_joints::eventually;
 using three_joints::kArm;
 using three_joints::kSlide;
 using three_joints::kWheel;

@@ -10,20 +10,22 @@
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <hardware_interface/robot_hw.h>
-#include <ros/console.h>
 #include <ros/ros.h>
+#include <ros_test/eventually.h>
+#include <ros_test/log_catcher.h>
 
 #include <array>
 #include <chrono>
 #include <future>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <thread>
 #include <vector>
 
 namespace three_joints {
 
+using ros_test::eventually;
+using ros_test::LogCatcher;
 typedef std::vector<std::string> Names;
 
 enum Joint { kArm, kWheel, kSlide };
@@ -54,26 +56,6 @@ class Robot : public hardware_interface::RobotHW {
   hardware_interface::PositionJointInterface positions_;
   hardware_interface::VelocityJointInterface velocities_;
   hardware_interface::EffortJointInterface efforts_;
-};
-
-/// Captures log messages during its lifetime.
-class LogCatcher : public ros::console::LogAppender {
- public:
-  LogCatcher() { ros::console::register_appender(this); }
-  ~LogCatcher() override { ros::console::deregister_appender(this); }
-  void log(ros::console::Level /*level*/, const char* text, const char* /*file*/,
-           const char* /*function*/, int /*line*/) override {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    text_ += std::string(text) + "\n";
-  }
-  std::string text() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return text_;
-  }
-
- private:
-  mutable std::mutex mutex_;
-  std::string text_;
 };
 
 /// Each test has its own namespace, named after it.
@@ -133,18 +115,6 @@ class ControllerTest : public testing::Test {
     const bool succeeded = answer.get();
     step();
     return succeeded;
-  }
-
-  template <class Condition>
-  static bool eventually(Condition condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > deadline) {
-        return false;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
   }
 
   /// Steps until a condition holds.

@@ -9,6 +9,7 @@
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/ros.h>
+#include <ros_test/eventually.h>
 #include <rt_guard/rt_guard.h>
 
 #include <algorithm>
@@ -103,12 +104,9 @@ class GripperTest : public testing::TestWithParam<const char*> {
 
   template <class Condition>
   void until(Condition condition, const std::string& what, int cycles = 1) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!condition()) {
-      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "in vain: waited for " << what;
-      steps(cycles);
-      std::this_thread::sleep_for(std::chrono::microseconds(20));
-    }
+    const auto after_cycles = [&] { return condition() || (steps(cycles), false); };
+    ASSERT_TRUE(ros_test::eventually(after_cycles, std::chrono::microseconds(20)))
+        << "in vain: waited for " << what;
   }
 
   Client::GoalHandle send(double position, double max_effort = 20.0) {

@@ -7,22 +7,14 @@
 
 #include <string>
 
+#include "refusal.h"
+
 using namespace hardware_interface;
+using hardware_interface_test::textOf;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
 namespace {
-
-/// The text of the exception that `action` throws; a marker if it throws none of that type.
-template <class Exception, class Action>
-std::string textOf(Action action) {
-  try {
-    action();
-  } catch (const Exception& error) {
-    return error.what();
-  }
-  return "(nothing was thrown)";
-}
 
 class HandlesTest : public testing::Test {
  protected:

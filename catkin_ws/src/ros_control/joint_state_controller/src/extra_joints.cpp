@@ -29,7 +29,7 @@ bool readNumber(XmlRpcValue& entry, const char* key, const std::string& joint, d
     number = static_cast<int>(value);
     return true;
   }
-  ROS_ERROR("The extra joint '%s' is skipped: its %s is no number.", joint.c_str(), key);
+  ROS_ERROR("The extra joint '%s' is skipped: its %s is not a number.", joint.c_str(), key);
   return false;
 }
 
@@ -68,7 +68,7 @@ void addExtraJoints(const ros::NodeHandle& node, sensor_msgs::JointState& messag
     return;
   }
   if (list.getType() != XmlRpcValue::TypeArray) {
-    ROS_ERROR("The parameter 'extra_joints' (namespace: %s) is no list: no extra joints.",
+    ROS_ERROR("The parameter 'extra_joints' (namespace: %s) is not a list: no extra joints.",
               node.getNamespace().c_str());
     return;
   }

@@ -25,7 +25,7 @@ bool JointStateController::init(hardware_interface::JointStateInterface* hw,
   std::vector<std::string> names;
   if (controller_nh.hasParam("joints")) {
     if (!controller_nh.getParam("joints", names)) {
-      ROS_ERROR("The parameter 'joints' (namespace: %s) is no list of joint names.",
+      ROS_ERROR("The parameter 'joints' (namespace: %s) is not a list of joint names.",
                 controller_nh.getNamespace().c_str());
       return false;
     }

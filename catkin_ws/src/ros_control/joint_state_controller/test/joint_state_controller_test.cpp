@@ -5,8 +5,9 @@
 #include <controller_manager/controller_manager.h>
 #include <gmock/gmock.h>
 #include <hardware_interface/robot_hw.h>
-#include <ros/console.h>
 #include <ros/ros.h>
+#include <ros_test/eventually.h>
+#include <ros_test/log_catcher.h>
 #include <rt_guard/rt_guard.h>
 
 #include <array>
@@ -16,6 +17,8 @@
 #include <thread>
 #include <vector>
 
+using ros_test::eventually;
+using ros_test::LogCatcher;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
@@ -38,26 +41,6 @@ class Robot : public hardware_interface::RobotHW {
   hardware_interface::JointStateInterface states_;
 };
 
-/// Captures log messages during its lifetime.
-class LogCatcher : public ros::console::LogAppender {
- public:
-  LogCatcher() { ros::console::register_appender(this); }
-  ~LogCatcher() override { ros::console::deregister_appender(this); }
-  void log(ros::console::Level /*level*/, const char* text, const char* /*file*/,
-           const char* /*function*/, int /*line*/) override {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    text_ += std::string(text) + "\n";
-  }
-  std::string text() const {
-    const std::lock_guard<std::mutex> lock(mutex_);
-    return text_;
-  }
-
- private:
-  mutable std::mutex mutex_;
-  std::string text_;
-};
-
 /// A controller "c" in a namespace named after the test; collects its messages.
 class JointStateControllerTest : public testing::Test {
  protected:
@@ -76,18 +59,6 @@ class JointStateControllerTest : public testing::Test {
           messages_.push_back(*message);
         });
     ASSERT_TRUE(eventually([&] { return subscriber_.getNumPublishers() > 0; }));
-  }
-
-  template <class Condition>
-  static bool eventually(Condition condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > deadline) {
-        return false;
-      }
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    }
-    return true;
   }
 
   std::vector<sensor_msgs::JointState> messages() {
@@ -152,7 +123,7 @@ TEST_F(JointStateControllerTest, PublishesRequestedJointsInOrderAndExtraJoints) 
   EXPECT_THAT(log.text(), HasSubstr("An entry of extra_joints is skipped"));
   EXPECT_THAT(log.text(), HasSubstr("The extra joint 'b' is skipped"));
   EXPECT_THAT(log.text(),
-              HasSubstr("The extra joint 'wrong' is skipped: its velocity is no number"));
+              HasSubstr("The extra joint 'wrong' is skipped: its velocity is not a number"));
   controller_->startRequest(ros::Time(10.0));
   ASSERT_TRUE(publishesAt(10.001));
   const sensor_msgs::JointState message = messages().front();
@@ -203,7 +174,7 @@ TEST_F(JointStateControllerTest, ReportsMissingParameters) {
   EXPECT_FALSE(manager_.loadController("c"));
   EXPECT_THAT(log.text(),
               HasSubstr("The parameter 'joints' (namespace: /ReportsMissingParameters/c) is "
-                        "no list of joint names"));
+                        "not a list of joint names"));
   nh_.setParam("c/joints", std::vector<std::string>{"leg"});
   EXPECT_FALSE(manager_.loadController("c"));
   EXPECT_THAT(log.text(), HasSubstr("leg"));

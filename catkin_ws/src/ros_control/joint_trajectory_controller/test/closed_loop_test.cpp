@@ -9,6 +9,7 @@
 #include <controller_manager/controller_manager.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <ros_test/eventually.h>
 #include <rt_guard/rt_guard.h>
 
 #include <atomic>
@@ -89,22 +90,15 @@ class ClosedLoop : public testing::Test {
   /// Steps until a condition holds, while callbacks get processor time.
   template <class Condition>
   void until(Condition condition, const std::string& what) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!condition()) {
-      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "in vain: waited for " << what;
-      step();
-      std::this_thread::sleep_for(std::chrono::microseconds(20));
-    }
+    const auto after_a_step = [&] { return condition() || (step(), false); };
+    ASSERT_TRUE(ros_test::eventually(after_a_step, std::chrono::microseconds(20)))
+        << "in vain: waited for " << what;
   }
 
   /// Waits without steps until a condition holds in the callbacks.
   template <class Condition>
   void standStillUntil(Condition condition, const std::string& what) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (!condition()) {
-      ASSERT_LT(std::chrono::steady_clock::now(), deadline) << "in vain: waited for " << what;
-      std::this_thread::sleep_for(std::chrono::microseconds(200));
-    }
+    ASSERT_TRUE(ros_test::eventually(condition)) << "in vain: waited for " << what;
   }
 
   /// From the present position to `target` in `duration`, in `count` points on a cosine.

@@ -7,19 +7,9 @@
 namespace realtime_tools {
 namespace detail {
 
-namespace {
-
-// Twice in a cycle of the fastest loops, so that a message is taken before the next one is due,
-// whatever the phase of the checks.
-constexpr std::chrono::microseconds kFirstWait{500};
-constexpr std::chrono::microseconds kLongestWait{5000};
-
-constexpr int kMaxIdleChecks = 20;  // the longest wait is reached
-
-}  // namespace
-
-PublishingThread& PublishingThread::instance() {
+PublishingThread& PublishingThread::instance() noexcept {
   // Never destroyed: publishers with static storage may outlive all other objects.
+  // Without memory the program ends. NOLINTNEXTLINE(bugprone-unhandled-exception-at-new)
   static PublishingThread* const thread = new PublishingThread();
   return *thread;
 }
@@ -36,7 +26,7 @@ void PublishingThread::add(Sender* sender) {
   }
 }
 
-void PublishingThread::remove(Sender* sender) {
+void PublishingThread::remove(Sender* sender) noexcept {
   const std::lock_guard<std::mutex> lifetime(lifetime_mutex_);
   bool last = false;
   {
@@ -53,17 +43,21 @@ void PublishingThread::remove(Sender* sender) {
 
 void PublishingThread::run() {
   std::unique_lock<std::mutex> lock(mutex_);
-  int idle_checks = 0;
   while (!senders_.empty()) {
-    bool sent = false;
-    for (Sender* const sender : senders_) {
-      sent = sender->sendHandedOver() || sent;
-    }
-    idle_checks = sent ? 0 : std::min(idle_checks + 1, kMaxIdleChecks);
-    // The longer the pause, the longer the next message may wait.
-    const auto wait = std::min(kFirstWait * (1 + idle_checks / 2), kLongestWait);
-    changed_.wait_for(lock, wait);
+    changed_.wait_until(lock, sendAll());
   }
+}
+
+// Returns the time of the next look.
+PublishingSchedule::Clock::time_point PublishingThread::sendAll() {
+  auto next = PublishingSchedule::Clock::time_point::max();
+  for (Sender* const sender : senders_) {
+    if (const auto handed_over = sender->sendHandedOver()) {
+      sender->schedule_.found(*handed_over);
+    }
+    next = std::min(next, sender->schedule_.next(PublishingSchedule::Clock::now()));
+  }
+  return next;
 }
 
 }  // namespace detail

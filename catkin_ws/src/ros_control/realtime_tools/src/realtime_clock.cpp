@@ -35,12 +35,12 @@ ros::Time RealtimeClock::getSystemTime(const ros::Time& realtime_time) {
   }
   last_realtime_time_ = now;
 
-  // ros::Time's own sum throws if the result is no valid time.
+  // ros::Time's own sum throws if the result is not a valid time.
   const double offset_ns = offset_ * 1e9;
   const std::int64_t sum =
       static_cast<std::int64_t>(realtime_time.toNSec()) + static_cast<std::int64_t>(offset_ns);
-  constexpr std::int64_t kLatest = std::int64_t{0xffffffff} * kNanosecondsPerSecond;
-  if (sum < 0 || sum > kLatest) {
+  constexpr std::int64_t kMaxTime = std::int64_t{0xffffffff} * kNanosecondsPerSecond;
+  if (sum < 0 || sum > kMaxTime) {
     return realtime_time;
   }
   ros::Time result;

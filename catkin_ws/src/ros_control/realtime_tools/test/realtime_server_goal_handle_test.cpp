@@ -7,6 +7,7 @@
 #include <actionlib/server/action_server.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
+#include <ros_test/eventually.h>
 #include <rt_guard/rt_guard.h>
 
 #include <chrono>
@@ -22,15 +23,10 @@ typedef actionlib::ActionServer<actionlib::TestAction> Server;
 
 template <class Condition>
 bool eventually(Condition condition) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) {
-      return false;
-    }
+  return ros_test::eventually([&] {
     ros::spinOnce();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
+    return condition();
+  });
 }
 
 /// A server that accepts every goal, and a client that has sent one.

@@ -3,6 +3,7 @@
 #include "realtime_tools/detail/turn_lock.h"
 
 #include <gtest/gtest.h>
+#include <ros_test/eventually.h>
 
 #include <atomic>
 #include <chrono>
@@ -10,24 +11,7 @@
 #include <thread>
 
 using realtime_tools::detail::TurnLock;
-
-namespace {
-
-/// Polls until `condition` holds, at most 10 s, and not again afterwards.
-/// @return whether it holds.
-template <class Condition>
-bool eventually(Condition condition) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);
-  while (!condition()) {
-    if (std::chrono::steady_clock::now() > deadline) {
-      return false;
-    }
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  return true;
-}
-
-}  // namespace
+using ros_test::eventually;
 
 TEST(TurnLock, IsClosedUntilOpened) {
   TurnLock turn;

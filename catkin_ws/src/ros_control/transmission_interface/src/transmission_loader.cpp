@@ -78,7 +78,8 @@ TiXmlElement TransmissionLoader::loadXmlElement(const std::string& element_str) 
   document.Parse(element_str.c_str());
   const TiXmlElement* root = document.RootElement();
   if (document.Error() || root == nullptr) {
-    ROS_ERROR_STREAM("Part of a transmission's description is no XML: '" << element_str << "'.");
+    ROS_ERROR_STREAM("Part of a transmission's description is not valid XML: '" << element_str
+                                                                                << "'.");
     return TiXmlElement("");
   }
   return *root;

@@ -22,9 +22,7 @@ import rospy
 from rospy.impl.registration import RegManager, get_topic_manager
 from rospy.impl.tcpros_pubsub import TCPROSHandler
 
-LONGEST_WAIT = (
-    1.0  # [s] for a publisher that is blocked by another subscriber, which must not hold up all others
-)
+MAX_WAIT = 1.0  # [s] for a publisher that is blocked by another subscriber, which must not hold up all others
 
 
 def _publisher_update(self, resolved_name, uris):
@@ -42,7 +40,7 @@ def _topic_connection_handler(self, sock, client_addr, header):
     """TCPROSHandler.topic_connection_handler, during which nothing is published on the topic."""
     topic = get_topic_manager().get_publisher_impl(header.get("topic"))
     lock = topic and topic.publock
-    locked = bool(lock) and lock.acquire(timeout=LONGEST_WAIT)
+    locked = bool(lock) and lock.acquire(timeout=MAX_WAIT)
     try:
         return _rospys_handler(self, sock, client_addr, header)
     finally:

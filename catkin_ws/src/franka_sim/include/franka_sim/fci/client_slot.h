@@ -39,19 +39,21 @@ struct SlotRules {
 /// served (the rest stays in the system's buffers), none while the client does not read its
 /// answers; a few connections are accepted, and a limited number that have not identified
 /// themselves are kept. Beyond that the oldest is closed, of the new one's own address if that has
-/// more than its share.
+/// more than its share. Yet so many are accepted and kept that one program that connects as fast as
+/// it can does not fill the system's queue, in which a genuine client would be lost for a second.
 ///
-/// One thread. serve() allocates only when a connection comes, ends or is slower than its answers.
+/// Called by one thread. serve() allocates only when a connection begins or ends, or when its
+/// client reads more slowly than its answers arrive.
 class ClientSlot {
  public:
-  static constexpr int kRequestsAtOnce = 8;             ///< per connection and millisecond
-  static constexpr int kAcceptedAtOnce = 32;            ///< connections per millisecond
-  static constexpr std::size_t kMostPending = 32;       ///< not yet identified connections
-  static constexpr std::size_t kMostOfOneAddress = 24;  ///< of those, from one address
+  static constexpr int kRequestsAtOnce = 8;                  ///< per connection and millisecond
+  static constexpr int kAcceptedAtOnce = 40;                 ///< connections per millisecond
+  static constexpr std::size_t kMaxPending = 192;            ///< not yet identified connections
+  static constexpr std::size_t kMaxPendingPerAddress = 160;  ///< of those, from one address
 
   using ServeOne = std::function<Served(Connection&)>;
   using Gone = std::function<void()>;
-  using Tell = std::function<void(const std::string&)>;
+  using Report = std::function<void(const std::string&)>;
 
   /// @throws std::runtime_error with a sentence when the port cannot be opened.
   ClientSlot(const std::string& address, std::uint16_t port, const SlotRules& rules = SlotRules())
@@ -68,6 +70,10 @@ class ClientSlot {
   }
   /// The connection that is being served has identified itself: it becomes the client.
   void confirm() noexcept;
+  /// Whether there is no connection, identified or not, and none has come in this millisecond.
+  bool idle() const noexcept {
+    return !client_ && pending_.empty() && accepts_left_ == kAcceptedAtOnce;
+  }
   /// Ends all connections.
   void drop() noexcept;
 
@@ -77,7 +83,7 @@ class ClientSlot {
   }
   /// Sets the receiver of reasons why connections were closed: a sentence, of each kind at most one
   /// in ten seconds.
-  void onRefusal(Tell tell) { tell_ = std::move(tell); }
+  void onRefusal(Report report) { report_ = std::move(report); }
 
   /// Accepts, reads and answers.
   /// @param serve_one serves the first request in a connection's buffer.
@@ -99,30 +105,34 @@ class ClientSlot {
     bool confirmed;
   };
   enum Reason : std::size_t { kBusy, kLate, kNoRequest, kTooMany, kReasons };
-  struct Report {
+  struct PastReport {
     Clock::time_point at;
     unsigned silent{0};  // cases not reported since
   };
 
   void beginMillisecond(Clock::time_point now);
-  void acceptPending(Clock::time_point now);
-  void makeRoom();
+  bool isCrowded(Clock::time_point now) const noexcept;
+  std::size_t acceptPending(Clock::time_point now);
+  void refuseExcess();
   bool serveEntry(Entry& entry, const ServeOne& serve_one, Clock::time_point now);
-  void servePending(const ServeOne& serve_one, const Gone& gone, Clock::time_point now);
-  void turnAway();
+  void pollPending(std::size_t first);
+  void servePending(std::size_t first, const ServeOne& serve_one, const Gone& gone,
+                    Clock::time_point now);
+  void refuseOthers();
   void refuse(Entry& entry, Reason reason);
   void reportRefusal(const sockaddr_in& peer, Reason reason);
   void addEntry(const Entry& entry, std::vector<pollfd>& fds) const;
 
   Listener listener_;
   SlotRules rules_;
-  Tell tell_;
+  Report report_;
   std::optional<Entry> client_;
   std::vector<Entry> pending_;  // oldest first
+  std::vector<pollfd> polled_;  // what poll() reports of them
   Entry* served_{nullptr};
   Clock::time_point millisecond_{};
   int accepts_left_{kAcceptedAtOnce};
-  std::array<std::optional<Report>, kReasons> reports_{};
+  std::array<std::optional<PastReport>, kReasons> past_reports_{};
 };
 
 }  // namespace franka_sim::fci

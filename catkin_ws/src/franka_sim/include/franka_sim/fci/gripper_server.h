@@ -21,7 +21,7 @@ struct GripperDevice {
 
   static constexpr std::size_t kMaxRequestSize = franka_core::fci::gripper::kMaxRequestSize;
   static constexpr std::uint16_t kNewestVersion = franka_core::fci::kNewestGripperVersion;
-  static bool speaks(std::uint16_t version) noexcept {
+  static bool supportsVersion(std::uint16_t version) noexcept {
     return franka_core::fci::isGripperVersion(version);
   }
   /// Hands a request other than Connect to the unit. @returns 0 when it refuses.

@@ -20,7 +20,7 @@ namespace franka_sim::fci {
 /// times a second (the real rate is not published). One client at a time, as with RobotServer. A
 /// command that replaces another one ends it: the earlier one's reply is Aborted.
 ///
-/// One thread; serve allocates only when a client connects.
+/// Called by one thread. serve allocates only when a client connects.
 /// @tparam Device defines what differs between gripper and vacuum gripper (gripper_server.h).
 template <typename Device>
 class HandServer {
@@ -34,9 +34,10 @@ class HandServer {
 
   std::uint16_t port() const noexcept { return slot_.port(); }
   bool hasClient() const noexcept { return slot_.confirmed(); }
+  bool idle() const noexcept { return slot_.idle(); }
   /// See ClientSlot::onRefusal.
-  void onRefusal(ClientSlot::Tell tell) { slot_.onRefusal(std::move(tell)); }
-  /// Whether a command runs, of whomever. It continues after its client has disconnected: a hand
+  void onRefusal(ClientSlot::Report report) { slot_.onRefusal(std::move(report)); }
+  /// Whether a command of any client runs. It continues after its client has disconnected: a hand
   /// must not drop an object because a program ends.
   bool busy() const noexcept { return unit_.isBusy(); }
 
@@ -69,7 +70,7 @@ class HandServer {
   bool start(const Header& header, const Request& request);
   bool reply(Command command, std::uint32_t id, Status status, std::uint16_t version = 0);
   bool replyToEnded();
-  void forgetClient() noexcept { running_.reset(); }
+  void clearClient() noexcept { running_.reset(); }
 
   Unit& unit_;
   ClientSlot slot_;
@@ -96,14 +97,14 @@ void HandServer<Device>::setOpen(bool open) noexcept {
   slot_.setOpen(open);
   if (!open) {
     slot_.drop();
-    forgetClient();
+    clearClient();
   }
 }
 
 template <typename Device>
 void HandServer<Device>::serve(bool stops_only) {
   slot_.serve([this, stops_only](Connection& client) { return serveOne(client, stops_only); },
-              [this] { forgetClient(); });
+              [this] { clearClient(); });
 }
 
 template <typename Device>
@@ -125,14 +126,14 @@ Served HandServer<Device>::serveOne(Connection& client, bool stops_only) {
   }
   client.consume(header.size);
   const auto* connection = std::get_if<ConnectRequest>(&request);
-  const bool goes_on = connection != nullptr ? connect(header, *connection)
-                                             : slot_.confirmed() && start(header, request);
-  return goes_on ? Served::kDone : Served::kBroken;
+  const bool connection_valid = connection != nullptr ? connect(header, *connection)
+                                                      : slot_.confirmed() && start(header, request);
+  return connection_valid ? Served::kDone : Served::kBroken;
 }
 
 template <typename Device>
 bool HandServer<Device>::connect(const Header& header, const ConnectRequest& request) {
-  const bool fits = Device::speaks(request.version);
+  const bool fits = Device::supportsVersion(request.version);
   if (!reply(Command::kConnect, header.command_id, fits ? Status::kSuccess : Status::kFail,
              fits ? request.version : Device::kNewestVersion)) {
     return false;
@@ -198,7 +199,7 @@ void HandServer<Device>::publish(std::uint64_t milliseconds) {
   }
   if (!replyToEnded()) {
     slot_.drop();
-    forgetClient();
+    clearClient();
   }
 }
 

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <utility>
 #include <vector>
 
 namespace franka_sim::fci {
@@ -33,6 +34,9 @@ enum class PaceMode {
 };
 
 struct Pace {
+  /// A patience without end: a hundred years, which nanoseconds can represent.
+  static constexpr std::chrono::hours kForever{24 * 365 * 100};
+
   PaceMode mode{PaceMode::kRealTime};
   /// Simulated time per wall-clock time, in kRealTime and kPatient.
   double factor{1.0};
@@ -50,7 +54,8 @@ struct Pace {
   bool standsStill() const noexcept { return mode == PaceMode::kLockStep; }
 };
 
-/// One robot as the host drives it: a control unit on a plant, with its servers. One thread.
+/// One robot as the host drives it: a control unit on a plant, with its servers. Called by one
+/// thread.
 class HostedRobot {
  public:
   virtual ~HostedRobot() = default;
@@ -62,6 +67,9 @@ class HostedRobot {
 
   /// Reads and answers requests. @param stops_only serves only requests that stop something.
   virtual void serve(bool stops_only) = 0;
+  /// Whether no client is connected: then serve() has nothing to do until a poll reports a new one,
+  /// except for opening and closing ports.
+  virtual bool idle() const { return false; }
   /// Sends states, `ticks` after the last ones. @param same_moment whether time has stood still
   /// since.
   virtual void publish(std::uint64_t ticks, bool same_moment) = 0;
@@ -79,11 +87,11 @@ class HostedRobot {
   virtual bool asynchronous() const = 0;
   /// Whether that motion has had its first command.
   virtual bool motionHasBegun() const = 0;
-  /// Whether the arm stops, recovers or is pushed, or its client has disconnected in a motion: time
-  /// must go on though no client answers.
+  /// Whether the arm stops, recovers or is pushed, or its client has disconnected in a motion: then
+  /// time advances even if no client answers.
   virtual bool settling() const = 0;
   /// Whether it settles for a time that is known: however long that is, requests wait for its end.
-  virtual bool settlesInTime() const { return false; }
+  virtual bool settlesInKnownTime() const { return false; }
   /// Whether a command of the hand runs.
   virtual bool handBusy() const = 0;
 
@@ -97,8 +105,10 @@ class Service {
  public:
   virtual ~Service() = default;
   virtual void serve() = 0;
-  /// States have gone out that show the effect of earlier requests; or, where time waits for the
-  /// command of a client in motion, are to follow that command.
+  /// Whether serve() has nothing to do until a poll reports something, or for some milliseconds.
+  virtual bool idle() const { return false; }
+  /// Called when states that show the effect of earlier requests have been sent; or, if time waits
+  /// for the command of a client in motion, when they will follow that command.
   virtual void published() {}
   virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
 };
@@ -115,14 +125,20 @@ class Host {
   void add(HostedRobot& robot);
   void add(Service& service);
   /// Call between ticks, like all functions below.
-  void remove(const HostedRobot& robot);
-  void remove(const Service& service);
+  void remove(const HostedRobot& robot) noexcept;
+  void remove(const Service& service) noexcept;
   void setPace(const Pace& pace);
+  /// Sets a function that is called about 20 times per second while a tick waits for a client. If
+  /// it returns false, the tick continues as after the end of patience.
+  void whileWaiting(std::function<bool()> keep_waiting) { keep_waiting_ = std::move(keep_waiting); }
+  /// In real time, while all robots and services are idle: lets the ticks of this time run
+  /// together, which needs fewer wake-ups. A world with other users must leave it at 0: one by one.
+  void setIdleInterval(std::chrono::milliseconds interval) { idle_interval_ = interval; }
   bool empty() const noexcept { return entries_.empty() && services_.empty(); }
 
   /// Runs until `stop` is set.
   void run(const std::atomic<bool>& stop);
-  /// One tick. In lock-step it first waits until time may go on.
+  /// One tick. In lock-step it first waits until time may advance.
   void tick();
   /// One tick that ignores the clock: it waits only for the answers of clients in motion.
   void tickAtOnce();
@@ -130,16 +146,16 @@ class Host {
   /// shows them that the robots are there. A running motion is suspended along with its client's
   /// time.
   void standStill();
-  /// Call after a delay that must not be made up for.
+  /// Call after a delay that must not be recovered by faster ticks.
   void restartClock() noexcept { deadline_ = Clock::now(); }
   /// For lock-step: lets this many ticks run without waiting for clients, so that an external
   /// change of the world (a push) can take effect.
-  void letRun(std::uint64_t ticks);
-  /// The same for exactly this many ticks, where nothing else makes time go on.
+  void runFree(std::uint64_t ticks);
+  /// The same for exactly this many ticks, if nothing else advances the time.
   void advance(std::uint64_t ticks);
-  /// Call after a reset of the world: lets one tick run and cancels ticks of earlier letRun()
+  /// Call after a reset of the world: lets one tick run and cancels ticks of earlier runFree()
   /// calls.
-  void beginAnew();
+  void restartAfterReset();
 
   /// Whether the world has come to rest: in lock-step, that no motion runs and time stands still
   /// (or that it did not come to rest within 10 s of simulated time); otherwise always true.
@@ -148,7 +164,7 @@ class Host {
   /// time stands still.
   bool atRest() const;
   /// Whether, in lock-step, the world has not come to rest within 10 s of simulated time.
-  bool isRestless() const;
+  bool failsToSettle() const;
   /// Whether a motion runs for a client.
   bool inMotion() const;
 
@@ -176,36 +192,45 @@ class Host {
   bool receiveAll();
   void pollUntil(Clock::time_point deadline);
   void waitInRealTime();
+  void waitIdle(Clock::time_point end);
+  bool isIdle() const;
   Clock::time_point nextDeadline();
   void listenUntil(Clock::time_point end);
   void waitInLockStep();
   void beginWait();
   bool waitForClients();
-  void showThatTimeStandsStill(Clock::time_point now);
+  void publishWhileWaiting(Clock::time_point now);
   bool clientsAreDue() const;
-  bool clientsAreAtLeisure() const;
-  bool heedsClock() const;
+  bool hasAsynchronousMotion() const;
+  bool followsClock() const;
   bool answersAreMissing() const;
-  bool timeMustGoOn();
-  bool settlesInTime() const;
-  void giveUpOnTheSilent();
+  bool mustAdvanceTime();
+  bool settlesInKnownTime() const;
+  bool patienceHasEnded(Clock::time_point now);
+  void giveUpSilentClients();
   bool stopped() const;
 
   std::function<void()> step_;
   std::function<void()> prepare_;
+  std::function<bool()> keep_waiting_;
   Pace pace_;
   std::vector<Entry> entries_;
   std::vector<Service*> services_;
   std::vector<pollfd> fds_;
   bool requests_ready_{true};
   bool requests_left_{false};  // read, but deferred
+  bool polled_{false};         // since robots and services were served
+  Clock::duration idle_interval_{};
+  Clock::time_point slept_until_{};  ///< in real time
   Clock::time_point served_at_{};
+  Clock::time_point served_idle_at_{};
   const std::atomic<bool>* stop_{nullptr};
   Clock::duration period_{};
   Clock::time_point deadline_{};
   franka_core::SpinRule spin_rule_;
   Clock::time_point published_at_{};
-  Clock::time_point looked_at_{};
+  Clock::time_point waited_until_{};
+  Clock::time_point keep_waiting_called_at_{};
   Clock::duration waited_{};  // in this tick, without time in which this process did not run
   std::uint64_t rolling_{0};
   std::uint64_t held_back_{0};  // consecutive ticks in which requests were deferred

@@ -16,7 +16,7 @@
 
 namespace franka_sim::fci {
 
-/// What a line is answered with: a value, at once or when the line's effect has come about.
+/// The answer to a line: a value, at once or when the line has taken effect.
 class Reply {
  public:
   /// The value; nothing while it has to wait. Throws std::exception whose text becomes the error.
@@ -64,6 +64,8 @@ class LineClient {
     return arrival_ == 0 && accepted_at_ <= time;
   }
   bool lineIsTooLong() const noexcept;
+  /// Whether there is nothing to do until its socket reports something.
+  bool isQuiet() const noexcept;
   /// Whether it sends no more; it may still wait for answers.
   bool hasEnded() const noexcept { return has_ended_; }
   /// Whether it has been released or has vanished, or has ended and has all its answers.

@@ -16,19 +16,19 @@
 
 namespace franka_sim::fci {
 
-/// The control interface, which stands for the operator beside the robot: commands of one line each
+/// The control interface, which represents the operator beside the robot: commands of one line each
 /// over TCP, answered by one line, "ok", "ok <value>" or "error: <sentence>". `nc` suffices as a
 /// client. Commands are executed between two ticks, by the thread that runs the host, and answered
 /// once states that show their effect have been sent.
 ///
 /// Several clients at a time, each with one line in progress. Lines are executed in the order of
 /// their arrival; one that waits, or whose effect takes time, delays no line of another client.
-/// A client beyond kMostClients is refused with a sentence, unless one of the others has not sent a
-/// line for 5 s since it came; then that one is closed with a sentence. While there is room, there
-/// is no time limit.
+/// A client beyond kMaxClients is refused with a sentence, unless one of the others has not sent a
+/// line for 5 s since it came; then that one is closed with a sentence. Below that number of
+/// clients there is no time limit.
 class LineServer final : public Service {
  public:
-  static constexpr std::size_t kMostClients = 8;
+  static constexpr std::size_t kMaxClients = 8;
 
   using Words = std::vector<std::string>;
   /// Gets the words after the command's name; returns what to answer, "" for a plain "ok".
@@ -53,6 +53,7 @@ class LineServer final : public Service {
   void add(const std::string& usage, Handler handler, Ready ready = [] { return true; });
 
   void serve() override;
+  bool idle() const override;
   void published() override;
   void addDescriptors(std::vector<pollfd>& fds) const override;
 
@@ -64,7 +65,7 @@ class LineServer final : public Service {
     Ready ready;
   };
   /// A refused connection: it is closed once its peer has read the reason.
-  struct Leaving {
+  struct Refused {
     std::unique_ptr<Connection> connection;
     Clock::time_point until;
   };
@@ -72,20 +73,20 @@ class LineServer final : public Service {
   void receiveAll();
   /// @returns whether a client is new.
   bool accept();
-  void makeRoom();
+  void freeSlot();
   void executeLines();
   Reply execute(const std::string& line) const;
   bool isReady(const std::string& line) const;
   std::string help() const;
   void dismiss(std::unique_ptr<Connection> connection, const std::string& sentence);
-  void closeLeaving();
+  void closeRefused();
 
   Listener listener_;
   Clock::duration first_line_;
   std::list<LineClient> clients_;
   std::uint64_t arrivals_{0};  ///< lines until now
   Clock::duration busy_{};     ///< with lines, since states were sent
-  std::vector<Leaving> leaving_;
+  std::vector<Refused> refused_;
   std::map<std::string, Entry> entries_;
 };
 

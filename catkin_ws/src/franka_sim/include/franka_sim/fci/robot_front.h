@@ -38,15 +38,16 @@ class RobotFront : public HostedRobot {
   /// Sets the function that reports a self-collision or a contact reflex, once each time the error
   /// appears. Its argument is the text after the robot's name and a colon. It is called within
   /// `observe`.
-  void onCollision(std::function<void(const std::string&)> tell) { tell_ = std::move(tell); }
+  void onCollision(std::function<void(const std::string&)> report) { report_ = std::move(report); }
 
   /// Sets the function that reports why connections were ended (ClientSlot::onRefusal). Its
   /// argument is the text after the robot's name and a colon. It is called within `serve`.
-  void onRefusal(const ClientSlot::Tell& tell);
+  void onRefusal(const ClientSlot::Report& report);
 
   void observe() override;
   void actuate() override;
   void serve(bool stops_only) override;
+  bool idle() const override;
   void publish(std::uint64_t ticks, bool same_moment) override;
   void repeat() override;
   bool hasNews() const override { return server_.hasNews(); }
@@ -55,7 +56,7 @@ class RobotFront : public HostedRobot {
   bool asynchronous() const override { return server_.asynchronous(); }
   bool motionHasBegun() const override { return server_.motionHasBegun(); }
   bool settling() const override;
-  bool settlesInTime() const override { return robot_.safety().busy(); }
+  bool settlesInKnownTime() const override { return robot_.safety().busy(); }
   bool handBusy() const override;
   /// Whether a client is connected to the arm or to the hand.
   bool hasClients() const;
@@ -77,7 +78,7 @@ class RobotFront : public HostedRobot {
   RobotServer server_;
   std::unique_ptr<GripperServer> hand_;
   std::unique_ptr<VacuumServer> vacuum_;
-  std::function<void(const std::string&)> tell_;
+  std::function<void(const std::string&)> report_;
 };
 
 }  // namespace franka_sim::fci

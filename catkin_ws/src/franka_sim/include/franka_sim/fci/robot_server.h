@@ -41,9 +41,8 @@ struct RobotServerParameters {
 /// as lost commands. When the interface is switched off (see ArmRequestHandler::active), the client
 /// is dropped after its pending answers, and no client can connect.
 ///
-/// Called by one thread. publish, receiveCommand and takeCommand are real-time safe if the client
-/// reads its answers; serve allocates only when connections begin or end, or when a client reads
-/// more slowly than its answers arrive.
+/// Called by one thread. serve allocates only when connections begin or end, or when a client reads
+/// more slowly than its answers arrive; publish only in the second case.
 class RobotServer {
  public:
   /// @throws std::runtime_error if the port cannot be opened.
@@ -52,8 +51,9 @@ class RobotServer {
 
   std::uint16_t port() const noexcept { return slot_.port(); }
   bool hasClient() const noexcept { return version_ != 0; }
+  bool idle() const noexcept { return slot_.idle(); }
   /// See ClientSlot::onRefusal.
-  void onRefusal(ClientSlot::Tell tell) { slot_.onRefusal(std::move(tell)); }
+  void onRefusal(ClientSlot::Report report) { slot_.onRefusal(std::move(report)); }
   /// The bytes that the client has not read yet; models are not copied for this purpose.
   std::size_t unsentBytes() noexcept {
     return slot_.client() == nullptr ? 0 : slot_.client()->unsentBytes();
@@ -69,7 +69,7 @@ class RobotServer {
   void serve(bool stops_only = false);
 
   /// Sends the handler's state, `ticks` after the last one, then the replies that had to wait until
-  /// this state was sent.
+  /// this state was sent. Real-time safe.
   /// @param same_moment time has not advanced since the last state: an answer to any state of this
   /// moment is accepted.
   void publish(std::uint64_t ticks = 1, bool same_moment = false);
@@ -82,9 +82,9 @@ class RobotServer {
   }
 
   /// Reads datagrams and keeps the command that answers the last state. @returns whether it has
-  /// arrived.
+  /// arrived. Real-time safe.
   bool receiveCommand() noexcept;
-  /// The answer to the last state, returned once; nothing if there is none.
+  /// The answer to the last state, returned once; nothing if there is none. Real-time safe.
   const franka_core::RobotCommand* takeCommand() noexcept;
   /// Whether a motion runs that this client commands.
   bool expectsCommands() const noexcept;
@@ -108,10 +108,10 @@ class RobotServer {
     Pending request;
     franka_core::fci::Status status;
   };
-  static constexpr std::size_t kMostAnswered = 8;  // genuine clients have one pending
-  static constexpr int kDatagramsAtOnce = 64;      // that are no answer, between calls of serve
+  static constexpr std::size_t kMaxAnswered = 8;  // genuine clients have one pending
+  static constexpr int kDatagramsAtOnce = 64;     // that are not an answer, between calls of serve
 
-  void forgetClient() noexcept;
+  void clearClient() noexcept;
   void dropClient() noexcept;
   Served serveOne(Connection& client, bool stops_only);
   bool connect(const franka_core::fci::Header& header,
@@ -136,7 +136,7 @@ class RobotServer {
   std::uint16_t version_{0};
 
   std::optional<Pending> move_, stop_, recovery_;
-  std::array<Answered, kMostAnswered> answered_setters_{};
+  std::array<Answered, kMaxAnswered> answered_setters_{};
   std::size_t answered_setter_count_{0};
   std::optional<franka_core::fci::Status> motion_end_, stop_end_, recovery_end_;
 

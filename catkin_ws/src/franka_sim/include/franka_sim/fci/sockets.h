@@ -12,7 +12,7 @@
 #include <vector>
 
 /// @file
-/// The server's sockets. None of them blocks; one thread owns each.
+/// The server's sockets. None of them blocks. Each is called by one thread.
 
 namespace franka_sim::fci {
 
@@ -73,18 +73,22 @@ class Listener {
 };
 
 /// One TCP connection. Requests collect in a buffer of fixed size; bytes that the peer does not
-/// take at once are kept and sent by later calls of flush. A peer that vanishes silently, or takes
-/// nothing, is detected after 5 s.
+/// take at once are kept and sent by later calls of flush.
 class Connection {
  public:
   explicit Connection(Descriptor socket);
+
+  /// From now on a peer that vanishes silently, or takes nothing, is detected after 5 s, and no
+  /// message waits for the acknowledgement of another one. (Six system calls, which connections
+  /// that say nothing are not worth.)
+  void watchPeer() noexcept;
 
   int descriptor() const noexcept { return socket_.get(); }
   bool open() const noexcept { return static_cast<bool>(socket_); }
   bool hasUnsent() const noexcept { return !unsent_.empty(); }
   /// Bytes that are kept for the peer, shared ones included.
   std::size_t unsentBytes() const noexcept;
-  /// Whether the buffer has no room: nothing is received until something is consumed.
+  /// Whether the buffer is full: nothing is received until something is consumed.
   bool isFull() const noexcept { return filled_ == kCapacity; }
 
   /// Reads available bytes. @returns false once the peer has closed or vanished.

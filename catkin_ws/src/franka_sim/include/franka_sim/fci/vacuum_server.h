@@ -22,7 +22,7 @@ struct VacuumDevice {
 
   static constexpr std::size_t kMaxRequestSize = franka_core::fci::vacuum::kMaxRequestSize;
   static constexpr std::uint16_t kNewestVersion = franka_core::fci::kVacuumGripperVersion;
-  static bool speaks(std::uint16_t version) noexcept {
+  static bool supportsVersion(std::uint16_t version) noexcept {
     return franka_core::fci::isVacuumGripperVersion(version);
   }
   /// Hands a request other than Connect to the unit. @returns 0 when it refuses.

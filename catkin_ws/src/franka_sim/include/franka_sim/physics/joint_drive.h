@@ -9,7 +9,7 @@ struct JointMeasurement {
 };
 
 /// The drive of a single joint of another device, such as a lift, a wheel or another gripper.
-/// Called from the thread that steps the world; no function allocates or throws.
+/// Called by the thread that steps the world. No function throws. Real-time safe.
 class JointDrive {
  public:
   virtual ~JointDrive() = default;

@@ -16,12 +16,12 @@ namespace franka_sim {
 
 /// The physics of one robot.
 struct RobotPhysics {
-  JointPhysics joints;
-  SensorPhysics sensors;
+  JointPhysics joints;                     ///< friction and more
+  SensorPhysics sensors;                   ///< noise and more
   std::array<double, 7> torque_offset{};   ///< of the torque sensors [Nm]
   std::array<LinkError, 8> link_errors{};  ///< of the links 1 to 8, the flange
-  GripperLatency gripper;
-  unsigned command_delay{0};  ///< [ms]
+  GripperLatency gripper;                  ///< of the hand
+  unsigned command_delay{0};               ///< [ms]
 };
 
 /// Reads franka_description's physics.yaml, then the realism's own file.
@@ -34,7 +34,7 @@ RobotPhysics readRobotPhysics(const std::string& file, const std::string& robot_
 void applyPhysics(const RobotPhysics& physics, const std::string& arm_id,
                   RobotDescription& description);
 
-/// Sets what the control unit knows of its motors, and how its sensors read.
+/// Sets the control unit's motor parameters and the errors of its sensors.
 void applyPhysics(const RobotPhysics& physics, ControlUnitParameters& parameters);
 
 /// Start pose of the arms of franka_sim and of the original's launch files [rad].
@@ -48,7 +48,7 @@ void startAt(const std::array<double, 7>& q, const std::string& arm_id,
 /// its model of gravity is wrong by a few tenths of a newton metre, which the stiffness [Nm/rad] of
 /// the hold turns into about 1e-4 rad (docs/fidelity.md). Clients are never tested with a position
 /// that equals its target to the last bit. Joints without an initial position do not change.
-void comeToRest(const std::array<double, 7>& stiffness, const std::string& arm_id,
-                RobotDescription& description);
+void applyRestOffset(const std::array<double, 7>& stiffness, const std::string& arm_id,
+                     RobotDescription& description);
 
 }  // namespace franka_sim

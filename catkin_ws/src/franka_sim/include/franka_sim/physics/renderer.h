@@ -26,6 +26,8 @@ struct Scene {
   std::map<std::string, Pose> bodies;    ///< free bodies
   std::map<std::string, double> joints;  ///< joints with one degree of freedom [rad] or [m]
   std::vector<Contact> contacts;         ///< for the window's arrows
+  double time{0};                        ///< of the world [s]
+  std::string fault;                     ///< World::fault
 };
 
 struct Picture {
@@ -41,9 +43,12 @@ Scene captureScene(World& world);
 
 /// Draws scenes without a display, by EGL surfaceless or OSMesa, whichever the machine has. To save
 /// memory the shadow map has at most 1024 texels a side, without multisampling (decision 38). One
-/// thread owns a renderer.
+/// thread at a time. In a process that was forked after the first picture, all functions but
+/// the destructor throw.
 class Renderer {
  public:
+  static constexpr int kMaxPictureSide = 4096;  ///< [pixel] per side, chosen here
+
   /// @throws std::runtime_error with a sentence when neither is available.
   Renderer();
   ~Renderer();

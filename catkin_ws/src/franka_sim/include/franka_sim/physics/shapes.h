@@ -44,8 +44,8 @@ struct WorldShapes {
 
 /// Prepares reading what a renderer would draw of a world. The stepping thread calls it between
 /// ticks; it allocates. The returned function reads meshes and compiles a model, which takes
-/// seconds: any thread may call it, also after the world has changed or gone.
-/// @throws (the function) std::runtime_error with a sentence when the model does not compile
+/// seconds: any thread may call it, also after the world has changed or has been destroyed.
+/// @throws std::runtime_error (the function does) with a sentence when the model does not compile
 std::function<WorldShapes()> shapesOf(World& world);
 
 }  // namespace franka_sim

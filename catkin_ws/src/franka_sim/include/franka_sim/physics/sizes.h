@@ -12,10 +12,10 @@
 
 namespace franka_sim::sizes {
 
-constexpr double kFarthest = 1e3;   ///< from the world's origin [m]; of a joint [m] or [rad]
-constexpr double kFastest = 1e3;    ///< [m/s] or [rad/s]
-constexpr double kStrongest = 1e4;  ///< [N] or [Nm]
-constexpr double kGravity = 1e2;    ///< [m/s^2]
+constexpr double kMaxPosition = 1e3;  ///< from the world's origin [m]; of a joint [m] or [rad]
+constexpr double kMaxVelocity = 1e3;  ///< [m/s] or [rad/s]
+constexpr double kMaxForce = 1e4;     ///< [N] or [Nm]
+constexpr double kMaxGravity = 1e2;   ///< [m/s^2]
 
 /// @param what the start of the sentence, for example "The force"
 /// @throws std::runtime_error with a sentence that names the first number which is not finite or

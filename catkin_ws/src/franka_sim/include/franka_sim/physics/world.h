@@ -18,12 +18,12 @@ namespace franka_sim {
 
 /// Position [m] and unit quaternion (w, x, y, z) in the world frame.
 struct Pose {
-  std::array<double, 3> position{};
-  std::array<double, 4> orientation{{1, 0, 0, 0}};
+  std::array<double, 3> position{};                 ///< [m]
+  std::array<double, 4> orientation{{1, 0, 0, 0}};  ///< w, x, y, z
 };
 
-/// Turns `package://name/path` (or `model://`, `file://`, or a plain path) into a file name; empty
-/// when unknown.
+/// Turns an address (`package://name/path`, or one that begins with `model` or `file`) or a plain
+/// path into a file name; empty when unknown.
 using ResourceResolver = std::function<std::string(const std::string& uri)>;
 
 /// How a robot's link differs from its URDF.
@@ -33,6 +33,7 @@ struct LinkError {
   double added_mass{0};              ///< a point mass on the link [kg]
   std::array<double, 3> added_at{};  ///< where, in the link's frame [m]
 
+  /// Whether there is a difference.
   bool exists() const noexcept {
     return mass != 0.0 || added_mass != 0.0 || centre != std::array<double, 3>{};
   }
@@ -40,49 +41,56 @@ struct LinkError {
 
 /// A robot to add to the world: its simulatable URDF (xacro argument gazebo:=true).
 struct RobotDescription {
-  std::string name;  ///< unique in the world; the arm_id for an arm
-  std::string urdf;  ///< the text; link and joint names are kept as they are
-  ResourceResolver resolve;
-  Pose base;  ///< of the URDF's root, unless that is a link named `world`
+  std::string name;          ///< unique in the world; the arm_id for an arm
+  std::string urdf;          ///< the text; link and joint names are kept as they are
+  ResourceResolver resolve;  ///< finds its meshes
+  Pose base;                 ///< of the URDF's root, unless that is a link named `world`
   std::map<std::string, double> initial_positions;  ///< joint name -> [rad] or [m]
   std::map<std::string, double> rotor_inertia;      ///< joint name -> armature [kg m^2]; else none
   /// Joint name -> friction, beside that of the URDF's <dynamics>, which the joints of Franka arms
   /// and hands do not have.
   std::map<std::string, JointFriction> friction;
-  /// Joint name -> offset of its torque sensor [Nm]: an arm's motors bring the reading, not the
+  /// Joint name -> offset of its torque sensor [Nm]: an arm's motors produce the reading, not the
   /// torque itself, to the commanded value.
   std::map<std::string, double> torque_offset;
-  std::map<std::string, LinkError> link_errors;  ///< link name -> what its URDF does not say
+  std::map<std::string, LinkError> link_errors;  ///< link name -> difference from its URDF
   /// Joint stops that differ from the URDF's limits (decision 8): name -> {lower, upper}.
   std::map<std::string, std::array<double, 2>> stops;
 };
 
+/// A contact between two bodies.
 struct Contact {
-  std::string body1, body2;
+  std::string body1, body2;        ///< names
   std::array<double, 3> position;  ///< world [m]
   std::array<double, 3> force;     ///< on body2, world axes [N]
 };
 
+/// What touches a body.
+struct Touches {
+  std::vector<std::string> robots;  ///< each once
+  bool others{false};               ///< anything else
+};
+
 /// A robot's link and a body of something else that penetrate each other.
 struct Overlap {
-  std::string link, body;
-  double depth;  ///< [m]
+  std::string link, body;  ///< names
+  double depth;            ///< [m]
 };
 
 /// Velocity of a body: linear of its origin [m/s] and angular [rad/s], world axes.
 struct Twist {
-  std::array<double, 3> linear{}, angular{};
+  std::array<double, 3> linear{}, angular{};  ///< [m/s] and [rad/s]
 };
 
 /// Pose and velocity of a body.
 struct BodyState {
-  Pose pose;
-  Twist twist;
+  Pose pose;    ///< in the world frame
+  Twist twist;  ///< along world axes
 };
 
 /// A joint with one degree of freedom.
 struct WorldJoint {
-  std::string name;
+  std::string name;     ///< in the world
   bool slides{false};   ///< prismatic, else revolute
   bool limited{false};  ///< has stops
   double damping{0};    ///< [Nm s/rad] or [N s/m]
@@ -91,27 +99,34 @@ struct WorldJoint {
 /// What Gazebo calls a model: a robot, an object, or a top-level body of the world file, with all
 /// bodies attached to it.
 struct WorldModel {
-  std::string name;
+  std::string name;                ///< of the robot, object or body
   std::string body;                ///< its pose is the model's
   std::vector<std::string> links;  ///< names of bodies; those of SDF models begin with `model::`
-  std::vector<WorldJoint> joints;
-  bool is_static{false};
+  std::vector<WorldJoint> joints;  ///< all with one degree of freedom
+  bool is_static{false};           ///< whether nothing of it can move
 };
 
 /// A camera fixed to the world or to a body: MJCF's <camera> or SDF's camera sensor.
 struct WorldCamera {
-  std::string name;
+  std::string name;             ///< in the world
   double field_of_view{45};     ///< vertical [deg]
   int width{640}, height{480};  ///< [pixel]; MJCF: attribute user="width height rate"
   double rate{30};              ///< desired pictures per simulated second [Hz]
 };
 
-/// The dynamic state of a world at a tick. Copies share it.
+/// How many physics steps a tick has.
+enum class Substeps {
+  kAdaptive,  ///< one while robots move freely, World::kSmallSteps otherwise (decision 58)
+  kSmall,     ///< always World::kSmallSteps
+};
+
+/// The dynamic state of a world at a tick. Copies share it; it may outlive its world.
 class Snapshot {
  public:
   struct Content;
   explicit Snapshot(std::shared_ptr<const Content> content = nullptr)
       : content_(std::move(content)) {}
+  /// For World; empty for a snapshot of nothing.
   const Content* content() const noexcept { return content_.get(); }
 
  private:
@@ -120,8 +135,8 @@ class Snapshot {
 
 /// The simulated world: an MJCF or SDF world file with robots from URDFs, stepped in ticks of 1 ms.
 ///
-/// Only one thread at a time may call it. Functions that change the set of robots allocate and
-/// throw std::runtime_error with a sentence; `step` and the plants neither allocate nor throw.
+/// Called by one thread at a time. Functions that change the set of robots allocate and throw
+/// std::runtime_error with a sentence.
 class World {
  public:
   /// @param file the world, MJCF or SDF; empty: ground, light and sky only.
@@ -133,30 +148,33 @@ class World {
   World& operator=(const World&) = delete;
 
   static constexpr double kTick = franka_core::kTick;  ///< [s]
-  static constexpr int kSubsteps = 2;  ///< per tick: a grasp slips above 0.5 ms (decision 18)
+  /// Physics steps of a tick in which something is close: a grasp slips above 0.5 ms (decision 18).
+  static constexpr int kSmallSteps = 2;
 
   /// Adds a robot; the state of everything else is kept. Nothing changes when it throws.
   void addRobot(const RobotDescription& robot);
-  void removeRobot(const std::string& name);
-  std::vector<std::string> robots() const;
+  void removeRobot(const std::string& name);  ///< its state is lost
+  std::vector<std::string> robots() const;    ///< names
 
   /// Adds an object: SDF with one model, MJCF with bodies, or a lone MJCF <body>. The state of
   /// everything else is kept; nothing changes when it throws.
   /// @param pose of the text's origin in the world
   void addObject(const std::string& name, const std::string& text, const Pose& pose);
-  void removeObject(const std::string& name);
-  std::vector<std::string> objects() const;
+  void removeObject(const std::string& name);  ///< its state is lost
+  std::vector<std::string> objects() const;    ///< names
   /// One sentence that names elements of the world file's SDF (or of an object) that are not
   /// simulated; empty when there are none.
   std::string unsupported(const std::string& object = "") const;
 
   /// Names of all bodies (links included) and of all joints with one degree of freedom.
   std::vector<std::string> bodies() const;
+  /// @copydoc bodies()
   std::vector<std::string> joints() const;
-  std::vector<WorldCamera> cameras() const;
+  std::vector<WorldCamera> cameras() const;  ///< of the world file and of objects
   /// Robots first.
   std::vector<WorldModel> models() const;
-  /// A number that changes when a robot or an object comes or goes.
+  /// A number that changes when a robot or an object comes or goes. No other world of this process
+  /// has it.
   std::uint64_t generation() const noexcept;
   /// Names of all bodies, links included, for drawing: unnamed ones too, each once. The order is
   /// that of framePoses(), as long as generation() is the same.
@@ -166,50 +184,69 @@ class World {
   /// @throws std::runtime_error when the robot has no joints `<arm_id>_joint1..7` (arm) or no
   /// `<arm_id>_finger_joint1..2` (hand).
   ArmPlant& arm(const std::string& robot, const std::string& arm_id);
+  /// @copydoc arm()
   HandPlant& hand(const std::string& robot, const std::string& arm_id);
+  /// Whether hand() would find one.
   bool hasHand(const std::string& robot, const std::string& arm_id) const;
   /// The drive of a single joint, valid as long as plants are. A joint is driven either by a plant
   /// or by this. A joint that follows another (mimic) takes efforts, but no positions.
   /// @throws std::runtime_error when there is no such joint or it does not move
   JointDrive& drive(const std::string& robot, const std::string& joint);
 
-  /// One tick of 1 ms. Does nothing once the world has stopped.
+  /// One tick of 1 ms. Does nothing once the world has stopped. Real-time safe.
   void step() noexcept;
   /// Computes in advance the part of the next tick that no input can change, for a moment of idle
-  /// time. Neither the visible state nor later results change.
+  /// time. Neither the visible state nor later results change. Real-time safe.
   void prepareStep() noexcept;
+  /// Gives the world a thread that prepares steps, or takes it away. It occupies a processor while
+  /// requests come, unless others need that. Not real-time safe.
+  void setPreparesBeside(bool beside);
+  /// Starts prepareStep() on that thread, if there is one; call right after step(). All functions
+  /// of this class wait for its end; plants need not, except to close or open brakes.
+  void prepareBeside() noexcept;
   /// Whether the physics has diverged: a position, velocity or acceleration was not finite or
-  /// beyond 1e10. The world then stands still, unchanged, until reset() or restore(), and functions
-  /// that change its state throw. (MuJoCo alone would reset it silently.) Real-time safe.
+  /// beyond 1e10, or MuJoCo has failed. The world then stands still, unchanged, until reset() or
+  /// restore(), and functions that change its state throw. (MuJoCo alone would reset it silently.)
+  /// Real-time safe.
   bool stopped() const noexcept;
   /// Why it has stopped: a sentence; empty while it runs.
   std::string fault() const;
   /// Sentences for MuJoCo's warnings since the last call, each once until a reset.
   std::vector<std::string> takeWarnings();
   std::uint64_t ticks() const noexcept;  ///< since the start; reset() sets it to 0
-  double time() const noexcept;          ///< [s]
+  /// Physics steps of the last tick: 1 or kSmallSteps (decision 58). Real-time safe.
+  int substeps() const noexcept;
+  /// kAdaptive at the start.
+  void setSubsteps(Substeps substeps) noexcept;
+  double time() const noexcept;  ///< [s]
 
-  /// Resets everything to where it was first put, warm starts included.
+  /// Resets everything to its initial state, warm starts included.
   void reset();
 
-  /// Saves the complete state for restore(): what follows is the same to the last bit. A snapshot
-  /// is valid until a robot or object comes or goes (then restore throws); it includes the tick
-  /// count.
+  /// Saves the complete state for restore(): what follows is the same to the last bit. It includes
+  /// the tick count.
   Snapshot snapshot() const;
+  /// Goes back to a snapshot.
+  /// @param snapshot of this world, or of another one with equal robots and objects
+  /// @throws std::runtime_error if the robots or objects differ; nothing has changed
   void restore(const Snapshot& snapshot);
 
   // Limits of these arguments: physics/sizes.h.
-  std::array<double, 3> gravity() const;
+  std::array<double, 3> gravity() const;                  ///< [m/s^2]
   void setGravity(const std::array<double, 3>& gravity);  ///< [m/s^2]; a reset does not change it
-  Pose bodyPose(const std::string& body) const;
+  Pose bodyPose(const std::string& body) const;           ///< in the world frame
   /// Poses of all frames().
   std::vector<Pose> framePoses() const;
+  /// @throws std::runtime_error if a body that is not free, or such a pose, cannot be set
+  void checkBodyPose(const std::string& body, const Pose& pose) const;
   void setBodyPose(const std::string& body,
                    const Pose& pose);  ///< free bodies only; velocity becomes 0
+  /// Velocity of a body, along world axes.
   Twist bodyTwist(const std::string& body) const;
   /// For many bodies in one call, which is faster. @throws std::runtime_error for an unknown one
   std::vector<BodyState> bodyStates(const std::vector<std::string>& names) const;
   void setBodyTwist(const std::string& body, const Twist& twist);  ///< free bodies only
+  /// Position, velocity and torque of a joint.
   JointMeasurement joint(const std::string& joint) const;
   void setJointPosition(const std::string& joint,
                         double position);  ///< teleport; velocity becomes 0
@@ -217,9 +254,12 @@ class World {
   /// A force and torque on a body at its origin or at `point` (world), for `ticks` ticks from now.
   void push(const std::string& body, const std::array<double, 3>& force,
             const std::array<double, 3>& torque, std::uint64_t ticks);
+  /// The same force at a point, without a torque of its own.
   void pushAt(const std::string& body, const std::array<double, 3>& point,
               const std::array<double, 3>& force, std::uint64_t ticks);
-  std::vector<Contact> contacts() const;
+  std::vector<Contact> contacts() const;  ///< at this tick
+  /// What contacts() shows of one body, in brief. @throws std::runtime_error for an unknown one
+  Touches touches(const std::string& body) const;
   /// Where a robot penetrates other bodies, by more than 1 mm. Allocates.
   std::vector<Overlap> overlaps(const std::string& robot) const;
   /// A sentence about them; empty when there are none.
@@ -232,10 +272,22 @@ class World {
   std::string mjcf(bool visuals) const;
 
   struct Impl;
-  Impl& impl() noexcept { return *impl_; }
+  Impl& impl() noexcept { return *impl_; }  ///< for the simulator itself
 
  private:
-  std::unique_ptr<Impl> impl_;
+  /// Access to the implementation, which waits for what is being prepared.
+  class Access {
+   public:
+    explicit Access(std::unique_ptr<Impl> impl);
+    ~Access();
+    Impl* operator->() const noexcept { return &**this; }
+    Impl& operator*() const noexcept;
+
+   private:
+    std::unique_ptr<Impl> impl_;
+  };
+
+  Access impl_;
 };
 
 }  // namespace franka_sim

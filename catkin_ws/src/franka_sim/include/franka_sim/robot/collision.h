@@ -30,8 +30,8 @@ std::array<double, N> above(const std::array<double, N>& values,
 
 /// "joint 4: external torque 23.4 Nm, upper threshold 20 Nm". Not real-time safe.
 std::string describeJointCollision(const Collision& collision);
-/// "along z of O: external force -25.1 N, upper threshold 20 N", or about it, or of K. Not
-/// real-time safe.
+/// "along z of O: external force -25.1 N, upper threshold 20 N", or about it, or of K.
+/// Not real-time safe.
 std::string describeCartesianCollision(const Collision& collision, InterfaceRules rules);
 
 }  // namespace franka_sim

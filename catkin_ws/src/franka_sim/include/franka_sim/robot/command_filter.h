@@ -9,7 +9,7 @@ namespace franka_sim {
 
 /// The low-pass filters that clients up to protocol 5 can set for motion generators and torque
 /// controller (SetFilters). First order (protocol 5.6); at 1000 Hz a signal passes unchanged.
-/// Rotations are filtered along the shortest arc. Real-time safe; one thread.
+/// Rotations are filtered along the shortest arc. Called by one thread. Real-time safe.
 class CommandFilter {
  public:
   /// @returns whether all cutoffs are within 1 and 1000 Hz.

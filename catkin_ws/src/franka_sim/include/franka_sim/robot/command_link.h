@@ -12,10 +12,10 @@
 namespace franka_sim {
 
 /// A simulated link for commands, worse than loopback: it loses some commands and delays all by
-/// whole ticks. The same seed loses the same commands. One thread; pass is real-time safe.
+/// whole ticks. The same seed loses the same commands. Called by one thread.
 class CommandLink {
  public:
-  static constexpr unsigned kLongestDelay = kLongestCommandDelay;  ///< [ticks] (decision 20)
+  static constexpr unsigned kMaxDelay = kMaxCommandDelay;  ///< [ticks] (decision 20)
 
   /// @param probability of loss of each command, 0 to 1.
   /// @throws std::invalid_argument with a sentence for any other.
@@ -31,7 +31,7 @@ class CommandLink {
   void restart() noexcept;
 
   /// One tick: takes the incoming command, or null, and returns the outgoing one, or null. The
-  /// result is valid until the next call.
+  /// result is valid until the next call. Real-time safe.
   const franka_core::RobotCommand* pass(const franka_core::RobotCommand* command) noexcept;
 
  private:
@@ -47,7 +47,7 @@ class CommandLink {
   unsigned lose_next_{0};
   unsigned delay_{0};
   std::mt19937_64 engine_;
-  std::array<Slot, kLongestDelay + 1> slots_{};
+  std::array<Slot, kMaxDelay + 1> slots_{};
   std::size_t now_{0};
 };
 

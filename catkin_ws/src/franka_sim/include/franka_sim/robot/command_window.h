@@ -7,8 +7,8 @@
 
 namespace franka_sim {
 
-/// Which of the last 100 ticks of a motion brought a command: control_command_success_rate
-/// (protocol 5.3). Real-time safe; one thread.
+/// Which of the last 100 ticks of a motion had a command: control_command_success_rate
+/// (protocol 5.3). Called by one thread. Real-time safe.
 class CommandWindow {
  public:
   static constexpr std::size_t kSlots = 100;

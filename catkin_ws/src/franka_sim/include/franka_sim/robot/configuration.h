@@ -11,17 +11,19 @@
 namespace franka_sim {
 
 /// The configuration of a control unit: its initial parameters with the changes by requests. Called
-/// by one thread. Except for the constructor: Real-time safe.
+/// by one thread. Real-time safe. Exception: the constructor.
 class Configuration {
  public:
   /// @throws std::invalid_argument that names the invalid parameter.
   explicit Configuration(const ControlUnitParameters& parameters);
 
+  /// The parameters of the constructor.
   const ControlUnitParameters& parameters() const noexcept { return parameters_; }
   /// Payload of end effector and load together.
   const franka_core::Payload& payload() const noexcept { return payload_; }
   /// Stiffness of joint impedance control [Nm/rad].
   const std::array<double, 7>& jointStiffness() const noexcept { return joint_stiffness_; }
+  /// Whether collisions and violated limits stop the robot.
   bool hasReflexes() const noexcept { return franka_sim::hasReflexes(parameters_.rules); }
 
   /// Each function applies a request, or refuses it (kInvalidArgumentRejected) and changes nothing:

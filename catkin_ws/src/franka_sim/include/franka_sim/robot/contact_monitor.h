@@ -10,7 +10,7 @@ namespace franka_sim {
 
 /// Contact and collision of N signals (decision 15). Contact is 1 while lower < |x| <= upper;
 /// collision becomes 1 when |x| > upper, and stays until it is cleared. Flags are 0 or 1, as in
-/// RobotState. Real-time safe; one thread.
+/// RobotState. Called by one thread. Real-time safe.
 template <std::size_t N>
 class ContactMonitor {
  public:

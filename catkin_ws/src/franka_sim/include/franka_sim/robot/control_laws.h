@@ -4,6 +4,7 @@
 
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/configuration.h>
+#include <franka_sim/robot/fixed_pointer.h>
 #include <franka_sim/robot/state_estimator.h>
 #include <franka_sim/robot/torque_blend.h>
 
@@ -18,7 +19,7 @@ enum class LawSwitch {
   kFromZero,  ///< the next law starts at zero: its torque acts at once
 };
 
-/// What holds a guided arm along the axes that are not free.
+/// The impedance of a guided arm along the axes that are not free.
 struct GuidingTask {
   std::array<bool, 6> free{{true, true, true, true, true, true}};  ///< x, y, z, R, P, Y of K
   bool elbow_free{true};
@@ -48,7 +49,7 @@ class ControlLaws {
  public:
   /// @param configuration outlives the laws.
   explicit ControlLaws(const Configuration& configuration) noexcept
-      : configuration_(configuration) {}
+      : configuration_(&configuration) {}
 
   /// The motor torques of the next tick [Nm]. @param estimate of the measured state
   const std::array<double, 7>& torques(const ControlTask& task,
@@ -66,7 +67,7 @@ class ControlLaws {
   std::array<double, 7> law(const ControlTask& task, const franka_core::RobotState& state,
                             const Estimate& estimate) const noexcept;
 
-  const Configuration& configuration_;
+  FixedPointer<const Configuration> configuration_;
   TorqueBlend blend_;
   std::array<double, 7> law_{};
   std::array<double, 7> motor_torques_{};

@@ -23,8 +23,8 @@ namespace franka_sim {
 /// made between these calls. `state()` shows modes and settings of a request at once; values
 /// computed from them follow with the next `observe`.
 ///
-/// Its parts: StateEstimator, MotionSupervisor, ControlLaws. Called by one thread. Except for the
-/// constructor: Real-time safe. Uses no clock, so the same inputs give bitwise identical states.
+/// Its parts: StateEstimator, MotionSupervisor, ControlLaws. Called by one thread. Real-time safe.
+/// Exception: the constructor. Uses no clock, so the same inputs give bitwise identical states.
 /// Frames and units: franka_core::RobotState.
 class ControlUnit {
  public:
@@ -34,6 +34,11 @@ class ControlUnit {
   ~ControlUnit();
   ControlUnit(ControlUnit&& other) noexcept;
   ControlUnit& operator=(ControlUnit&& other) noexcept;
+  /// A unit in the same condition: with the same inputs, both continue bitwise identically.
+  /// Not real-time safe.
+  ControlUnit(const ControlUnit& other);
+  /// Takes over condition and configuration of the other one; `state()` keeps its address.
+  ControlUnit& operator=(const ControlUnit& other) noexcept;
 
   /// First half of a tick. The reference stays valid for the unit's life. The first sample after
   /// the start or a restart gives gravity as tau_J and no external torque; a sample that is not
@@ -49,7 +54,10 @@ class ControlUnit {
   /// finite counts as a lost command.
   const std::array<double, 7>& actuate(const franka_core::RobotCommand* command) noexcept;
 
+  /// The state of this tick. Real-time safe.
   const franka_core::RobotState& state() const noexcept;
+  /// The model's quantities of the last measurement, frame EE.
+  const franka_core::ArmDynamics& dynamics() const noexcept;
 
   /// Makes a request. @returns its answer, or nothing if takeAnswer() returns it later.
   ///
@@ -83,6 +91,7 @@ class ControlUnit {
   /// as at rest. Otherwise the mode and the configuration stay.
   void restart() noexcept;
 
+  /// What clients and operators see of it. Real-time safe.
   UnitStatus status() const noexcept;
   /// The parameters with the changes by requests.
   const ControlUnitParameters& configuration() const noexcept;

@@ -12,8 +12,8 @@ namespace franka_sim {
 
 /// Thresholds of contact (lower) and collision (upper), [Nm] and [N, N, N, Nm, Nm, Nm].
 struct CollisionThresholds {
-  std::array<double, 7> lower_torque, upper_torque;
-  std::array<double, 6> lower_force, upper_force;
+  std::array<double, 7> lower_torque, upper_torque;  ///< seven joints
+  std::array<double, 6> lower_force, upper_force;    ///< x, y, z
 };
 
 /// The rules of the interface that commands a robot (protocol 5.1) (decision 15).
@@ -28,9 +28,11 @@ enum class InterfaceRules {
   kRosControlWithReflexes,
 };
 
+/// Whether collisions and violated limits stop the robot.
 constexpr bool hasReflexes(InterfaceRules rules) noexcept {
   return rules != InterfaceRules::kRosControl;
 }
+/// Whether setters are accepted in Move.
 constexpr bool acceptsSettersInMotion(InterfaceRules rules) noexcept {
   return rules != InterfaceRules::kFci;
 }
@@ -50,29 +52,29 @@ constexpr std::array<double, 7> kJointStiffness{3000, 3000, 3000, 2500, 2500, 20
 /// The initial configuration of a control unit. Default thresholds are those of the original
 /// franka_gazebo; the source of each other default stands beside it.
 struct ControlUnitParameters {
-  franka_core::ArmModel model;
+  franka_core::ArmModel model;                                     ///< of the arm, for estimates
   std::array<double, 7> max_torque{{87, 87, 87, 87, 12, 12, 12}};  ///< [Nm] (protocol 5.5)
   std::array<double, 7> rotor_inertia{
-      {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};  ///< B [kg m^2] (decision 1)
-  SensorPhysics sensors{};
-  int substeps{2};                               ///< of the physics per tick (decision 3)
-  std::array<double, 3> gravity{{0, 0, -9.81}};  ///< O_ddP_O, in O [m/s^2]
-  std::array<double, 16> F_T_NE{franka_core::kIdentityTransform};
-  std::array<double, 16> NE_T_EE{franka_core::kIdentityTransform};
-  std::array<double, 16> EE_T_K{franka_core::kIdentityTransform};
-  franka_core::Payload end_effector{};  ///< m_ee, F_x_Cee, I_ee
-  franka_core::Payload load{};          ///< m_load, F_x_Cload, I_load
+      {0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};                         ///< B [kg m^2] (decision 1)
+  SensorPhysics sensors{};                                          ///< noise and offsets
+  std::array<double, 3> gravity{{0, 0, -9.81}};                     ///< O_ddP_O, in O [m/s^2]
+  std::array<double, 16> F_T_NE{franka_core::kIdentityTransform};   ///< column-major
+  std::array<double, 16> NE_T_EE{franka_core::kIdentityTransform};  ///< column-major
+  std::array<double, 16> EE_T_K{franka_core::kIdentityTransform};   ///< column-major
+  franka_core::Payload end_effector{};                              ///< m_ee, F_x_Cee, I_ee
+  franka_core::Payload load{};                                      ///< m_load, F_x_Cload, I_load
+  /// Thresholds of motions without acceleration.
   CollisionThresholds nominal{{{20, 20, 18, 18, 16, 14, 12}},
                               {{20, 20, 18, 18, 16, 14, 12}},
                               {{20, 20, 20, 25, 25, 25}},
                               {{20, 20, 20, 25, 25, 25}}};
-  CollisionThresholds acceleration{nominal};
-  std::array<double, 7> joint_stiffness{kJointStiffness};
+  CollisionThresholds acceleration{nominal};               ///< while a motion accelerates
+  std::array<double, 7> joint_stiffness{kJointStiffness};  ///< [Nm/rad]
   /// Initial value of Cartesian impedance control [N/m, Nm/rad] (decision 11).
   std::array<double, 6> cartesian_stiffness{{3000, 3000, 3000, 300, 300, 300}};
-  bool has_hand{true};           ///< for the avoidance of self-collisions
-  unsigned protocol_version{5};  ///< selects the limits (decisions 8, 25)
-  InterfaceRules rules{InterfaceRules::kRosControl};
+  bool has_hand{true};                                ///< for the avoidance of self-collisions
+  unsigned protocol_version{5};                       ///< selects the limits (decisions 8, 25)
+  InterfaceRules rules{InterfaceRules::kRosControl};  ///< who commands it
 };
 
 }  // namespace franka_sim

@@ -14,28 +14,32 @@ namespace franka_sim {
 ///
 /// tau_J is a mean over the tick. With n physics substeps the plant evaluates its dynamics at the
 /// start of each; their mean lies at alpha = (n - 1) / (2 n) of the tick, so the model is evaluated
-/// there. The robot's own force counts positive: an outside force F on the arm reads -J^T F
-/// (decision 4). Real-time safe; one thread.
+/// there. With one step that is the start of the tick, whose model was computed in the tick before.
+/// The robot's own force counts positive: an outside force F on the arm reads -J^T F
+/// (decision 4). Called by one thread. Real-time safe.
 class ExternalTorque {
  public:
-  /// @param substeps of the physics per tick, 1 or more
-  explicit ExternalTorque(int substeps) noexcept : alpha_((substeps - 1.0) / (2.0 * substeps)) {}
-
-  /// @param now sensors at the end of the tick @param payload the configured one
-  /// @param gravity_earth in O [m/s^2] @returns tau_ext over the last tick [Nm], zero without a
-  /// previous sample
+  /// @param payload the configured one @param gravity_earth in O [m/s^2]
+  /// @param now sensors at the end of the tick @param dynamics of the model there, with this
+  /// payload and gravity @returns tau_ext over the last tick [Nm], zero without a previous sample
   std::array<double, 7> update(const franka_core::ArmModel& model,
                                const franka_core::Payload& payload,
                                const std::array<double, 3>& gravity_earth,
-                               const ArmMeasurement& now) noexcept;
+                               const ArmMeasurement& now,
+                               const franka_core::ArmDynamics& dynamics) noexcept;
 
   /// Restarts from this sample: motor torques do not explain the motion before it.
-  void restart(const ArmMeasurement& now) noexcept;
+  void restart(const franka_core::Payload& payload, const ArmMeasurement& now,
+               const franka_core::ArmDynamics& dynamics) noexcept;
 
  private:
-  double alpha_;
+  std::array<double, 7> atStart(const std::array<double, 7>& ddq) const noexcept;
+
   bool has_previous_{false};
   std::array<double, 7> q_{}, dq_{};
+  franka_core::Payload payload_;
+  std::array<double, 49> mass_{};     ///< at the last sample [kg m^2]
+  std::array<double, 7> constant_{};  ///< torques without acceleration there [Nm]
 };
 
 }  // namespace franka_sim

@@ -11,7 +11,7 @@ namespace franka_sim {
 /// Wrench at the stiffness frame K from joint torques (decision 5): the undamped pseudo-inverse of
 /// J^T, F = (J J^T)^-1 J tau. Where the arm is singular (smallest singular value of J below 0.02)
 /// the wrench is not observable and zero is shown. Forces first [N], then moments about the origin
-/// of K [Nm]. Real-time safe; one thread.
+/// of K [Nm]. Called by one thread. Real-time safe.
 class ExternalWrench {
  public:
   /// Computes the map for the present pose.
@@ -28,8 +28,9 @@ class ExternalWrench {
 
  private:
   bool singular_{true};
-  std::array<double, 42> inverse_{};  // 6x7 column-major
-  std::array<double, 9> O_R_K_{};     // column-major
+  std::array<double, 42> jacobian_{};  // of K in O, 6x7 column-major
+  std::array<double, 36> factor_{};    // Cholesky's, of J J^T; the lower triangle, column-major
+  std::array<double, 9> O_R_K_{};      // column-major
 };
 
 }  // namespace franka_sim

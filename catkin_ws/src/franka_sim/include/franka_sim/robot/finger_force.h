@@ -12,8 +12,8 @@ struct FingerGains {
 /// Force law of one finger that follows a desired position: PID on the position with the derivative
 /// taken of the speeds, plus the drive's own damping about the desired speed.
 /// With the manual's gains (100, 0, 1) alone a finger with its drive's inertia oscillates for half
-/// a second, at a seventh of critical damping; a real hand does not. Real-time safe; one thread.
-/// safe; one thread.
+/// a second, at a seventh of critical damping; a real hand does not. Called by one thread.
+/// Real-time safe.
 class FingerForce {
  public:
   /// [N s/m], chosen here: at or above critical for moving finger masses up to 0.16 kg at p = 100

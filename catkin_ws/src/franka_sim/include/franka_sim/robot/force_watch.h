@@ -13,8 +13,8 @@ namespace franka_sim {
 /// force_control_safety_violation: an external torque on a joint exceeds what its motor can give,
 /// whatever the collision thresholds are.
 /// force_controller_desired_force_tolerance_violation: the link-side torque has missed the
-/// commanded one by more than 10 Nm for 100 ms: the joint does not follow its command. Real-time
-/// safe; one thread.
+/// commanded one by more than 10 Nm for 100 ms: the joint does not follow its command. Called by
+/// one thread. Real-time safe.
 class ForceWatch {
  public:
   void restart() noexcept { missed_ = 0; }

@@ -13,7 +13,7 @@
 
 namespace franka_sim {
 
-/// How long a hand takes beside the way of its fingers.
+/// Delays of a hand's commands, in addition to the motion of the fingers.
 struct GripperLatency {
   double start{0};     ///< from a command to the first motion [s]
   double shortest{0};  ///< from a command to its outcome, at least [s]
@@ -39,7 +39,7 @@ enum class GripperState { kIdle, kHolding, kMoving, kGrasping };
 
 /// The hand's controller: state machine and force law behind both interfaces (FCI and ROS), stepped
 /// once a millisecond by the thread that steps the world. Commands come from that thread too,
-/// between steps. Allocation-free, deterministic; only the constructor throws. Widths are totals of
+/// between steps. Deterministic. Real-time safe. Exception: the constructor. Widths are totals of
 /// both fingers [m], speeds of the width [m/s], forces the hand's total [N]: each finger presses
 /// with half (decision 29).
 ///
@@ -79,10 +79,10 @@ class GripperUnit {
       const noexcept;  ///< whether an object is held within the epsilons of the last grasp
   /// Whether a command runs, or waits for its latency.
   bool isBusy() const noexcept { return tickets_.isOpen(); }
-  /// Whether the hand knows its widths: from the start, or after forgetHoming() since a homing has
-  /// succeeded. Without it, moves and grasps are refused.
+  /// Whether the widths are known: from the start on, and after invalidateHoming() again once a
+  /// homing has succeeded. Otherwise moves and grasps are refused.
   bool isHomed() const noexcept { return homed_; }
-  void forgetHoming() noexcept { homed_ = false; }
+  void invalidateHoming() noexcept { homed_ = false; }
 
   /// Motor temperature [deg C]: a first-order lag of the squared force, like the heat loss in a
   /// motor's windings.
@@ -94,6 +94,10 @@ class GripperUnit {
   /// One tick. @param period [s] @returns force on each finger, positive opens [N]; zero for a
   /// measurement that is not finite.
   std::array<double, 2> step(const HandMeasurement& measurement, double period) noexcept;
+
+  /// Call after the state of another hand was assigned: earlier tickets of this one then count as
+  /// interrupted.
+  void renumberTickets() noexcept { tickets_.renumber(); }
 
   /// Call after a reset of the world: idle at the present width; interrupts the running command.
   void restart() noexcept;

@@ -12,7 +12,7 @@ constexpr double kDampingFactor = 1.4;
 
 /// Joint impedance law (decision 10): a spring K to the desired position, a damper D_i =
 /// kDampingFactor sqrt(K_i (M_ii + B_i)) to the desired velocity, and the Coriolis torques. A joint
-/// without stiffness has no damping either. Real-time safe; one thread.
+/// without stiffness has no damping either. Called by one thread. Real-time safe.
 class JointImpedance {
  public:
   /// @param stiffness K [Nm/rad] @param rotor_inertia B [kg m^2]

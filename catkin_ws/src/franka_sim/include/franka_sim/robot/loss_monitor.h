@@ -6,7 +6,8 @@
 
 namespace franka_sim {
 
-/// Counts received and lost commands of a motion (protocol 5.3). Real-time safe; one thread.
+/// Counts received and lost commands of a motion (protocol 5.3). Called by one thread.
+/// Real-time safe.
 class LossMonitor {
  public:
   /// This many lost commands in a row end a motion.

@@ -9,8 +9,8 @@
 
 namespace franka_sim {
 
-/// First-order low-pass filters for N signals sampled once a tick (protocol 5.6). Real-time safe;
-/// one thread.
+/// First-order low-pass filters for N signals sampled once a tick (protocol 5.6). Called by one
+/// thread. Real-time safe.
 template <std::size_t N>
 class LowPass {
  public:

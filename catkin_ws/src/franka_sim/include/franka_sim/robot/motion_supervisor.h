@@ -6,6 +6,7 @@
 #include <franka_sim/robot/command_filter.h>
 #include <franka_sim/robot/configuration.h>
 #include <franka_sim/robot/control_laws.h>
+#include <franka_sim/robot/fixed_pointer.h>
 #include <franka_sim/robot/loss_monitor.h>
 #include <franka_sim/robot/mode_machine.h>
 #include <franka_sim/robot/motion/motion_generator.h>
@@ -80,13 +81,13 @@ class MotionSupervisor {
 
  private:
   franka_core::RobotMode mode() const noexcept { return modes_.mode(); }
-  bool hasReflexes() const noexcept { return configuration_.hasReflexes(); }
+  bool hasReflexes() const noexcept { return configuration_->hasReflexes(); }
   bool controlledOutside() const noexcept;
   const CollisionThresholds& thresholds() const noexcept;
   const std::array<double, 7>& brakingRate() const noexcept { return generator_.limits().arm.ddq; }
 
   // a tick
-  void beginHere() noexcept;
+  void initializeFromMeasurement() noexcept;
   void updateDesired() noexcept;
   void advanceMotion(const franka_core::RobotCommand* command) noexcept;
   const franka_core::RobotCommand* receive(const franka_core::RobotCommand* command) noexcept;
@@ -110,7 +111,7 @@ class MotionSupervisor {
   void enter(franka_core::RobotMode before) noexcept;
   void enterMove() noexcept;
   void settle() noexcept;
-  void forgetMotion() noexcept;
+  void clearMotionData() noexcept;
   void clearErrors() noexcept;
   void brake() noexcept;
   void stopAndClose() noexcept;
@@ -123,9 +124,9 @@ class MotionSupervisor {
   void showDesired(const DesiredMotion& desired) noexcept;
   void showModes() noexcept;
 
-  const Configuration& configuration_;
-  StateEstimator& estimator_;
-  franka_core::RobotState& state_;
+  FixedPointer<const Configuration> configuration_;
+  FixedPointer<StateEstimator> estimator_;
+  FixedPointer<franka_core::RobotState> state_;
 
   ModeMachine modes_;
   bool user_stop_{false}, brakes_requested_{false};

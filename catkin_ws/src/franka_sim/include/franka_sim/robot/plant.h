@@ -14,6 +14,8 @@ struct ArmMeasurement {
   /// Link-side torque, mean over the last tick [Nm], of the motors or the closed brakes
   /// (decision 2).
   std::array<double, 7> tau_J{};
+  /// Physics steps of a simulated arm in the last tick, for its external torque (decision 3).
+  int substeps{1};
 };
 
 /// Friction torque of a joint at the velocity dq [rad/s] (decision 1); it acts against the motion.
@@ -30,6 +32,7 @@ struct JointFriction {
   double viscous{0};    ///< [Nm s/rad]
   double coulomb{0};    ///< [Nm]
 
+  /// Whether there is any friction.
   bool acts() const noexcept { return amplitude != 0.0 || coulomb != 0.0 || viscous != 0.0; }
 };
 
@@ -37,7 +40,8 @@ struct JointFriction {
 struct JointPhysics {
   /// Apparent inertia of the motor side behind the torque loop [kg m^2].
   std::array<double, 7> rotor_inertia{{0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1}};
-  std::array<JointFriction, 7> friction{};
+  std::array<JointFriction, 7> friction{};  ///< of each joint
+  /// The mechanical ends of the joints.
   struct Stops {
     std::array<double, 7> lower, upper;  ///< [rad]
   };
@@ -45,7 +49,7 @@ struct JointPhysics {
 };
 
 /// A seven-joint arm as its control unit sees it. Implemented by physics/, faked by tests. Called
-/// from the thread that steps the world; no function allocates or throws.
+/// by the thread that steps the world. No function throws. Real-time safe.
 class ArmPlant {
  public:
   virtual ~ArmPlant() = default;
@@ -63,10 +67,12 @@ struct HandMeasurement {
   std::array<double, 2> dq{};  ///< [m/s]
 };
 
-/// The two fingers of a hand. Same thread and rules as ArmPlant.
+/// The two fingers of a hand. Called by the same thread as ArmPlant. No function throws.
+/// Real-time safe.
 class HandPlant {
  public:
   virtual ~HandPlant() = default;
+  /// The present state of the fingers.
   virtual HandMeasurement measure() const noexcept = 0;
   /// Force on each finger over the coming tick, positive opens [N].
   virtual void applyForces(const std::array<double, 2>& force) noexcept = 0;

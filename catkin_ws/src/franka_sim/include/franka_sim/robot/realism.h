@@ -21,13 +21,16 @@ struct Realism {
   std::string file;         ///< figures of one's own robot, which replace those of physics.yaml
 };
 
+/// Whether robots of both behave in the same way: seeds count only where something is drawn.
+bool behaveAlike(const Realism& one, const Realism& other);
+
 /// Longest delay of commands [ms].
-constexpr unsigned kLongestCommandDelay = 20;
+constexpr unsigned kMaxCommandDelay = 20;
 
 /// Default profiles: of robots on the network, and of robots that are driven by the process that
 /// simulates them.
 constexpr const char* kServedProfile = "real";
-constexpr const char* kInProcessProfile = "ideal";
+constexpr const char* kInProcessProfile = "ideal";  ///< robots under ros_control
 
 /// Reads `[PROFILE][,NAME=VALUE]...`: a profile (ideal, real or recorded), then changes of it:
 /// motors, friction, bandwidth, gripper, noise and model_error =on or =off, delay=0 to 20 [ms],

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_sim/robot/control_unit.h>
+#include <franka_sim/robot/fixed_pointer.h>
 #include <franka_sim/robot/safety_state.h>
 
 #include <array>
@@ -10,7 +11,7 @@
 
 namespace franka_sim {
 
-/// Who decides whether clients may connect and whether the arm is free.
+/// The rules that decide whether clients may connect and the arm may move.
 enum class SafetyRules {
   /// Each request is executed at once: a robot that is always ready.
   kOpen,
@@ -19,15 +20,15 @@ enum class SafetyRules {
   kDesk,
 };
 
-/// The safety controller of one robot: brakes, stops, operating mode, self-test and errors that a
-/// person acknowledges. It makes requests of the control unit; the operator makes requests here.
+/// The safety controller of one robot: brakes, stops, operating mode, self-test and errors that the
+/// operator acknowledges. It sends requests to the control unit; the operator's requests come here.
 ///
-/// The rules: (decision 54). Called by one thread between
-/// ticks. Real-time safe.
+/// The rules are listed in the decisions (decision 54). Called by one thread, between two ticks.
+/// Real-time safe.
 class SafetyController {
  public:
   /// @param unit outlives the controller. @param fr3 an FR3, otherwise a Panda
-  SafetyController(ControlUnit& unit, bool fr3) noexcept : unit_(unit), fr3_(fr3) {}
+  SafetyController(ControlUnit& unit, bool fr3) noexcept : unit_(&unit), fr3_(fr3) {}
 
   /// The condition after power-up: brakes closed, FCI inactive, no errors. With kOpen: ready.
   void start(SafetyRules rules) noexcept;
@@ -38,7 +39,7 @@ class SafetyController {
 
   /// Opens the brakes joint by joint; ends when `state().brakes_moving` becomes false.
   Refusal unlock() noexcept;
-  /// Ends a motion and the FCI, then closes the brakes joint by joint. Never refused.
+  /// Ends a motion, with Desk's rules also the FCI, then closes the brakes. Never refused.
   void lock() noexcept;
   Refusal activateFci() noexcept;
   /// A running motion ends (kAborted), and clients are disconnected.
@@ -47,6 +48,8 @@ class SafetyController {
   Refusal setOperatingMode(OperatingMode mode) noexcept;
   void press(SafetyInput input, bool pressed) noexcept;
   void press(std::size_t button, bool pressed) noexcept { state_.buttons[button] = pressed; }
+  /// Presses the user stop: X3.1 of an FR3, X4 of a Panda.
+  void pressUserStop(bool pressed) noexcept;
   /// Presses the guiding button. @returns why the arm does not become free, kNone if it does
   Refusal guide(bool active) noexcept;
   /// @param axes x, y, z, turns about them, elbow: only for GuidingMode::kUser
@@ -62,8 +65,8 @@ class SafetyController {
   void inject(RecoverableError error, bool active) noexcept;
   void inject(DemandedRecovery recovery, std::size_t joint, bool active) noexcept;
   void setEndEffectorPower(bool on) noexcept { state_.end_effector_power = on; }
-  /// Off: no client can connect, and no request but this one is accepted.
-  void setPower(bool on) noexcept;
+  /// No client can connect, and no request is accepted until `start`.
+  void switchOff() noexcept;
   /// Whether the operator may move the arm by Desk now.
   Refusal allowsOperatorMotion() const noexcept;
 
@@ -76,10 +79,10 @@ class SafetyController {
   bool isFr3() const noexcept { return fr3_; }
   Light light() const noexcept;
   bool brakesClosed() const noexcept;
-  bool fciActive() const noexcept { return unit_.status().fci_active; }
+  bool fciActive() const noexcept { return unit_->status().fci_active; }
   /// Whether clients of the hand may connect.
   bool handServed() const noexcept;
-  /// Whether time must go on: brakes move, or the self-test runs.
+  /// Whether time must advance: brakes move, or the self-test runs.
   bool busy() const noexcept { return state_.brakes_moving || state_.self_test; }
 
  private:
@@ -89,13 +92,14 @@ class SafetyController {
   bool stopPressed() const noexcept;
   bool anyRecoverable() const noexcept;
   Refusal refusalOfMotors() const noexcept;
+  void moveBrakes(BrakeMotion motion) noexcept;
   void closeBrakes() noexcept;
   void advanceBrakes() noexcept;
   void advanceSelfTest() noexcept;
   void advanceClock() noexcept;
   void applyStops() noexcept;
 
-  ControlUnit& unit_;
+  FixedPointer<ControlUnit> unit_;
   bool fr3_;
   SafetyRules rules_{SafetyRules::kOpen};
   SafetyState state_;

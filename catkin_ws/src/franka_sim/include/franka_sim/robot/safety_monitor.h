@@ -6,6 +6,7 @@
 #include <franka_sim/robot/collision.h>
 #include <franka_sim/robot/configuration.h>
 #include <franka_sim/robot/error_set.h>
+#include <franka_sim/robot/fixed_pointer.h>
 #include <franka_sim/robot/force_watch.h>
 #include <franka_sim/robot/motion/motion_limits.h>
 #include <franka_sim/robot/self_collision.h>
@@ -23,9 +24,9 @@ class SafetyMonitor {
   /// @param configuration, estimator, state outlive the monitor.
   SafetyMonitor(const Configuration& configuration, const StateEstimator& estimator,
                 franka_core::RobotState& state) noexcept
-      : configuration_(configuration),
-        estimator_(estimator),
-        state_(state),
+      : configuration_(&configuration),
+        estimator_(&estimator),
+        state_(&state),
         self_collision_(configuration.parameters().has_hand) {}
 
   /// A motion begins at the measured pose: it may leave a present self-collision or virtual wall.
@@ -40,11 +41,13 @@ class SafetyMonitor {
                    const std::array<double, 7>& motor_torques) noexcept;
 
   /// Raises the errors' flags in the state.
-  void raise(const ErrorSet& errors) noexcept { errors.addTo(state_.errors); }
+  void raise(const ErrorSet& errors) noexcept { errors.addTo(state_->errors); }
   void clearCollisions() noexcept { joint_collision_ = cartesian_collision_ = Collision(); }
   const Collision& jointCollision() const noexcept { return joint_collision_; }
   const Collision& cartesianCollision() const noexcept { return cartesian_collision_; }
-  const SelfCollision::Pair& selfCollision() const noexcept { return self_collision_.culprit(); }
+  const SelfCollision::Pair& selfCollision() const noexcept {
+    return self_collision_.overlappingPair();
+  }
   VirtualWalls& walls() noexcept { return walls_; }
   const VirtualWalls& walls() const noexcept { return walls_; }
 
@@ -52,9 +55,9 @@ class SafetyMonitor {
   bool movesAgainstProfile(const franka_core::fci::MoveRequest& motion,
                            const MotionLimits& limits) const noexcept;
 
-  const Configuration& configuration_;
-  const StateEstimator& estimator_;
-  franka_core::RobotState& state_;
+  FixedPointer<const Configuration> configuration_;
+  FixedPointer<const StateEstimator> estimator_;
+  FixedPointer<franka_core::RobotState> state_;
   Collision joint_collision_, cartesian_collision_;
   ForceWatch force_watch_;
   SelfCollision self_collision_;

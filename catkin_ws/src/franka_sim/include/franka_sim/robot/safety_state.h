@@ -8,7 +8,7 @@
 #include <string_view>
 
 /// @file
-/// What a robot's safety controller shows to its operator, and the words for it. The names are
+/// The state that a robot's safety controller shows to the operator, and its names. The names are
 /// those of Desk's interface.
 
 namespace franka_sim {
@@ -49,7 +49,7 @@ constexpr std::array<std::string_view, kRecoverableErrorCount> kRecoverableError
     "jointPositionError",     "safeInputErrorX31",   "safeInputErrorX32", "safeInputErrorX33",
     "safeInputErrorX4",       "td2Timeout"};
 
-/// What a person must put right at the arm, joint by joint.
+/// Recoveries that the operator carries out at the arm, for each joint.
 enum class DemandedRecovery : std::size_t { kJointLimitViolation, kJointPositionError };
 constexpr std::array<std::string_view, 2> kDemandedRecoveryNames{"jointLimitViolation",
                                                                  "jointPositionErrorDemand"};

@@ -28,7 +28,7 @@ double segmentDistance(const std::array<double, 3>& a0, const std::array<double,
                        const std::array<double, 3>& b0, const std::array<double, 3>& b1) noexcept;
 
 /// Whether the arm comes too close to itself (decision 17). It checks pairs of links at least two
-/// apart, except 1 and 3, whose volumes always overlap. Real-time safe; one thread.
+/// apart, except 1 and 3, whose volumes always overlap. Called by one thread. Real-time safe.
 class SelfCollision {
  public:
   struct Pair {
@@ -43,18 +43,26 @@ class SelfCollision {
 
   /// Call when a motion begins: pairs that already overlap may separate, but not approach.
   void begin(const franka_core::ArmModel& model, const std::array<double, 7>& q) noexcept;
-  /// @returns whether a pair overlaps, and more than at begin(); `culprit` then names it.
+  /// @returns whether a pair overlaps, and more than at begin(); `overlappingPair` then names it.
   bool violated(const franka_core::ArmModel& model, const std::array<double, 7>& q) noexcept;
-  const Pair& culprit() const noexcept { return culprit_; }
+  const Pair& overlappingPair() const noexcept { return overlapping_pair_; }
 
  private:
   static constexpr std::size_t kPairs = kCapsuleCount * (kCapsuleCount - 1) / 2;
 
+  void fitReaches(const franka_core::ArmModel& model) noexcept;
   void measure(const franka_core::ArmModel& model, const std::array<double, 7>& q) noexcept;
+  /// Keeps from which pose on, and for which way, no pair can overlap.
+  void keepFreeWay(const std::array<double, 7>& q) noexcept;
+  bool isWithinFreeWay(const std::array<double, 7>& q) const noexcept;
 
   bool has_hand_;
+  /// The way of any point of a volume when a joint turns by 1 rad, at most [m].
+  std::array<double, 7> reaches_{};
+  std::array<double, 7> free_q_{};
+  double free_way_{0.0};  ///< [m]
   std::array<double, kPairs> distance_{}, allowed_{};
-  Pair culprit_;
+  Pair overlapping_pair_;
 };
 
 }  // namespace franka_sim

@@ -10,7 +10,7 @@
 
 namespace franka_sim {
 
-/// How the robot's sensors read, joints 1 to 7 (docs/fidelity.md).
+/// Errors of the robot's sensors, joints 1 to 7 (docs/fidelity.md).
 struct SensorPhysics {
   /// Of the first-order filter of tau_ext_hat_filtered [Hz].
   std::array<double, 7> tau_ext_cutoff{{kSignalCutoff, kSignalCutoff, kSignalCutoff, kSignalCutoff,
@@ -23,7 +23,7 @@ struct SensorPhysics {
 
 /// White noise and resolution of the readings of torque and velocity that the robot reports. The
 /// robot's own loops use the signals without them: how it filters those is not published.
-/// Real-time safe; one thread.
+/// Called by one thread. Real-time safe.
 class SensorNoise {
  public:
   explicit SensorNoise(const SensorPhysics& physics) noexcept;

@@ -6,7 +6,7 @@ namespace franka_sim {
 
 /// Whether a commanded motion has come to rest: enough consecutive samples below a threshold.
 /// Samples count after the first motion or, if nothing can move, after 0.2 s (decision 29): at the
-/// start everything still rests. Real-time safe; one thread.
+/// start everything still rests. Called by one thread. Real-time safe.
 class Standstill {
  public:
   explicit Standstill(int samples) noexcept : samples_(samples) {}

@@ -8,6 +8,7 @@
 #include <franka_sim/robot/contact_monitor.h>
 #include <franka_sim/robot/external_torque.h>
 #include <franka_sim/robot/external_wrench.h>
+#include <franka_sim/robot/fixed_pointer.h>
 #include <franka_sim/robot/low_pass.h>
 #include <franka_sim/robot/plant.h>
 
@@ -30,15 +31,14 @@ struct Estimate {
 /// From measurement to state: poses, torques, external torques and wrenches, contacts,
 /// accelerations. Writes the measured fields of the robot's state.
 ///
-/// Called by one thread. Except for the constructor: Real-time safe.
+/// Called by one thread. Real-time safe. Exception: the constructor.
 class StateEstimator {
  public:
   /// @param configuration, state outlive the estimator.
   StateEstimator(const Configuration& configuration, franka_core::RobotState& state) noexcept
-      : configuration_(configuration),
-        state_(state),
+      : configuration_(&configuration),
+        state_(&state),
         noise_(configuration.parameters().sensors),
-        external_torque_(configuration.parameters().substeps),
         tau_ext_filter_(configuration.parameters().sensors.tau_ext_cutoff) {}
 
   /// One tick. The first sample after the start or a restart has no motor torques of a previous
@@ -61,8 +61,8 @@ class StateEstimator {
   void updateContacts(const CollisionThresholds& thresholds) noexcept;
   void updateAccelerometers(const std::array<double, 7>& dq_before) noexcept;
 
-  const Configuration& configuration_;
-  franka_core::RobotState& state_;
+  FixedPointer<const Configuration> configuration_;
+  FixedPointer<franka_core::RobotState> state_;
   Estimate estimate_;
   bool started_{false};
   bool continuous_{false};  // the last sample was finite and of the same motion

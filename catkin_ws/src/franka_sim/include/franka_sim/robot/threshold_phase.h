@@ -5,7 +5,8 @@
 namespace franka_sim {
 
 /// Which collision thresholds are in effect: those of acceleration while a motion generator
-/// accelerates and 100 ms after; else the nominal ones (decision 15). Real-time safe; one thread.
+/// accelerates and 100 ms after; else the nominal ones (decision 15). Called by one thread.
+/// Real-time safe.
 class ThresholdPhase {
  public:
   /// One tick. @param accelerating more than a tenth of an acceleration limit is commanded

@@ -7,8 +7,8 @@
 namespace franka_sim {
 
 /// Changes from one control law to the next without a torque step: the difference of the laws at
-/// the switch is added and fades at the torque rate that the robot allows (protocol 5.5). Real-time
-/// safe; one thread.
+/// the switch is added and fades at the torque rate that the robot allows (protocol 5.5). Called by
+/// one thread. Real-time safe.
 class TorqueBlend {
  public:
   /// The law changes before the next `apply`.

@@ -7,12 +7,12 @@
 namespace franka_sim {
 
 /// Each torque saturated to the motor's range; values that are not finite become zero.
-/// @param limit [Nm] Real-time safe.
+/// Real-time safe. @param limit [Nm]
 std::array<double, 7> saturate(const std::array<double, 7>& tau,
                                const std::array<double, 7>& limit) noexcept;
 
 /// The torque of external control: the last commanded one, saturated to the motors' range and held
-/// while commands are missing (protocol 5.3). Real-time safe; one thread.
+/// while commands are missing (protocol 5.3). Called by one thread. Real-time safe.
 class TorqueCommand {
  public:
   explicit TorqueCommand(const std::array<double, 7>& limit) noexcept : limit_(limit) {}

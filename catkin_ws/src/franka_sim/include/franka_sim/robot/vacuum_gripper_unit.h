@@ -26,7 +26,7 @@ struct VacuumGripperParameters {
 };
 
 /// The vacuum gripper's controller and its pump, stepped once a millisecond. Commands come between
-/// steps, by the same thread. Allocation-free, deterministic; throws in the constructor only.
+/// steps, by the same thread. Deterministic. Real-time safe. Exception: the constructor.
 ///
 /// The vacuum follows first-order laws, solved exactly for each tick. `setPart` defines whether a
 /// part covers the cup. A vacuum that is reached is held until drop off, stop or a timeout: a lost

@@ -11,7 +11,7 @@
 namespace franka_sim {
 
 /// The cuboids that the end effector must not enter, as GetCartesianLimit reports them
-/// (protocol 3.2). Real-time safe; one thread.
+/// (protocol 3.2). Called by one thread. Real-time safe.
 class VirtualWalls {
  public:
   static constexpr std::size_t kCount = 8;  ///< numbers 0 to 7 (chosen here: none published)

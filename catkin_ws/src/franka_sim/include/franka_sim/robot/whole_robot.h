@@ -5,6 +5,7 @@
 #include <franka_core/fnv_hash.h>
 #include <franka_sim/robot/command_link.h>
 #include <franka_sim/robot/control_unit.h>
+#include <franka_sim/robot/fixed_pointer.h>
 #include <franka_sim/robot/gripper_unit.h>
 #include <franka_sim/robot/operator_motion.h>
 #include <franka_sim/robot/plant.h>
@@ -18,7 +19,7 @@ namespace franka_sim {
 
 /// The units of one robot on their plants, in ticks of 1 ms: control unit, hand and vacuum gripper,
 /// the link that commands come through, the safety controller and the operator's motion. Called by
-/// one thread. Except for the constructor, `renew` and `setPower`: Real-time safe.
+/// one thread. Real-time safe. Exceptions: the constructors, `renew` and `setPower`.
 class WholeRobot {
  public:
   struct Hand {
@@ -30,8 +31,12 @@ class WholeRobot {
   /// @throws std::invalid_argument if a parameter is invalid.
   WholeRobot(const ControlUnitParameters& unit, ArmPlant& arm, const std::optional<Hand>& hand,
              const std::optional<VacuumGripperParameters>& vacuum = {}, unsigned command_delay = 0);
-  WholeRobot(const WholeRobot&) = delete;
-  WholeRobot& operator=(const WholeRobot&) = delete;
+  /// A robot in the same condition on the same plants: keeps the condition, and is not stepped.
+  WholeRobot(const WholeRobot& other);
+  /// Takes over the condition of a robot with the same units; the plants stay. References to the
+  /// unit's state stay valid.
+  WholeRobot& operator=(const WholeRobot& other) = default;
+  ~WholeRobot() = default;
 
   ControlUnit& unit() noexcept { return unit_; }
   const ControlUnit& unit() const noexcept { return unit_; }
@@ -60,8 +65,8 @@ class WholeRobot {
   /// The condition after power-up, see SafetyController::start; with Desk's rules the hand must be
   /// homed before it moves.
   void start(SafetyRules rules) noexcept;
-  /// Switches the robot off or on, see SafetyController::setPower. It starts with a new control
-  /// unit, as `renew` does; then call `observe` once.
+  /// Switches the robot off or on. Switched on, it starts with a new control unit, as `renew`
+  /// does; then call `observe` once.
   void setPower(bool on);
   /// As `restart`, with a new control unit of the present configuration: without errors, idle,
   /// brakes open, at time 0, without virtual walls and filters. References to its state become
@@ -75,11 +80,11 @@ class WholeRobot {
   void updateHash() noexcept;
 
   ControlUnit unit_;
-  ArmPlant& arm_;
+  FixedPointer<ArmPlant> arm_;
   SafetyController safety_;
   OperatorMotion operator_motion_;
   CommandLink link_;
-  HandPlant* hand_plant_{nullptr};
+  FixedPointer<HandPlant> hand_plant_;
   std::optional<GripperUnit> hand_;
   std::optional<VacuumGripperUnit> vacuum_;
   bool halted_{false};

@@ -5,8 +5,8 @@
 namespace franka_sim {
 
 /// The desired width of a hand on its way to a target: accelerates and brakes at a constant rate,
-/// so that the fingers neither jerk nor overshoot. Widths [m], speeds of the width [m/s]. Real-time
-/// safe; one thread.
+/// so that the fingers neither jerk nor overshoot. Widths [m], speeds of the width [m/s]. Called by
+/// one thread. Real-time safe.
 class WidthRamp {
  public:
   /// Starts at rest at `width`. @param speed not negative; with zero it never arrives.

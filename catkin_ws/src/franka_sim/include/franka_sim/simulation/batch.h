@@ -7,6 +7,7 @@
 #include <sys/types.h>
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -18,7 +19,7 @@ namespace franka_sim {
 /// may be used as usual between calls.
 class SimulationBatch {
  public:
-  static constexpr int kMostThreads = 1024;  // chosen here
+  static constexpr int kMaxThreads = 1024;  ///< chosen here
 
   /// @param simulations of the same robots and world; they outlive the batch
   /// @param threads at most so many step at once, the caller's included; not more than the machine
@@ -31,22 +32,35 @@ class SimulationBatch {
   SimulationBatch& operator=(const SimulationBatch&) = delete;
 
   /// Advances all by `ticks` milliseconds and observes them.
+  /// @param keep_stepping is called now and then in the calling thread, and may end the step early
   /// @throws std::runtime_error once all others have been stepped, with the sentences of those
   /// whose physics has diverged; std::runtime_error in a process that was forked after construction
-  void step(std::uint64_t ticks);
+  void step(std::uint64_t ticks, const std::function<bool()>& keep_stepping = {});
   /// Observes the present state. @throws as step
   void observe();
+  /// Puts another simulation in the place of one, and observes it. It outlives the batch, too.
+  /// @throws std::invalid_argument if there is no such number, if the simulation is in the batch
+  /// already, or if it does not have what is observed; nothing has changed
+  void replace(std::size_t number, Simulation& simulation);
 
   /// One row a simulation. The address stays.
   const std::vector<double>& observations() const noexcept { return observations_; }
+  /// @name How a row is divided
+  /// @{
   std::size_t rowSize() const noexcept { return row_size_; }
   const std::vector<Observer::Value>& layout() const { return observers_.at(0).layout(); }
+  /// @}
 
  private:
   class Threads;
 
+  using Faults = std::vector<std::string>;  ///< a sentence each, or nothing
+
+  /// Calls `function(i)` for each world without a fault, and adds those that it throws.
   template <typename Function>
-  void forEach(Function function);
+  void forEach(Faults& faults, const Function& function);
+  static void report(const Faults& faults);
+  void advance(std::size_t number, std::uint64_t ticks);
 
   std::vector<Simulation*> simulations_;
   std::vector<Observer> observers_;

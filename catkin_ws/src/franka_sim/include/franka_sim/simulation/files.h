@@ -13,11 +13,11 @@ std::string readFile(const std::string& name);
 /// (../share/<package>), or else from the sources. Empty if there is none.
 std::string packageFile(const std::string& package, const std::string& file);
 
-/// The file of a world: a file's name, or the name of one that comes along (stone.xml); empty for
-/// the empty world. @throws std::runtime_error if there is none
+/// The file of a world: a file's name, or the name of one that is installed with franka_sim
+/// (stone.xml); empty for the empty world. @throws std::runtime_error if there is none
 std::string worldFile(const std::string& name);
 
-/// Converts `package://name/path` and `file://` to file names; empty if unknown.
+/// Converts `package://name/path` and addresses of files to file names; empty if unknown.
 std::string resolveUri(const std::string& uri);
 
 }  // namespace franka_sim

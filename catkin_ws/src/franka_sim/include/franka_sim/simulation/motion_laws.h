@@ -9,8 +9,8 @@
 
 /// @file
 /// Torque controllers that run at 1 kHz below a slow program, which gives them targets. They are
-/// clients of the robot: their torques pass the robot's limits and reflexes. One thread; real-time
-/// safe.
+/// clients of the robot: their torques pass the robot's limits and reflexes. Called by one thread.
+/// Real-time safe.
 
 namespace franka_sim {
 
@@ -28,9 +28,10 @@ class JointLaw {
   void setTarget(const std::array<double, 7>& q, double duration,
                  TargetMotion motion = TargetMotion::kSmooth) noexcept;
   void setStiffness(const std::array<double, 7>& K) noexcept { stiffness_ = K; }  ///< [Nm/rad]
-  /// The torque of one tick, without gravity [Nm].
+  /// The torque of one tick, without gravity [Nm]. @param dynamics of the state, frame EE
   std::array<double, 7> torque(const franka_core::RobotState& state,
-                               const ControlUnitParameters& unit) noexcept;
+                               const ControlUnitParameters& unit,
+                               const franka_core::ArmDynamics& dynamics) noexcept;
 
  private:
   std::array<double, 7> stiffness_;
@@ -51,9 +52,10 @@ class CartesianLaw {
                  TargetMotion motion = TargetMotion::kSmooth) noexcept;
   void setStiffness(const std::array<double, 6>& K) noexcept { stiffness_ = K; }  ///< [N/m, Nm/rad]
   void setNullspaceStiffness(double K) noexcept { nullspace_stiffness_ = K; }     ///< [Nm/rad]
-  /// The torque of one tick, without gravity [Nm].
+  /// The torque of one tick, without gravity [Nm]. @param dynamics of the state, frame EE
   std::array<double, 7> torque(const franka_core::RobotState& state,
-                               const ControlUnitParameters& unit) noexcept;
+                               const ControlUnitParameters& unit,
+                               const franka_core::ArmDynamics& dynamics) noexcept;
 
  private:
   void advance() noexcept;

@@ -19,21 +19,26 @@ namespace franka_sim {
 /// `robot_mode` (the number of franka_core::RobotMode) and `width` between the fingers [m].
 class Observer {
  public:
+  /// A value, and how many numbers it has.
   struct Value {
-    std::string name;
-    std::size_t size;
+    std::string name;  ///< as it is requested
+    std::size_t size;  ///< count of numbers
   };
 
   /// @throws std::invalid_argument with a sentence for a value that is not known or named twice
   Observer(Simulation& simulation, const std::vector<std::string>& names);
   Observer(Observer&&) = default;
+  Observer& operator=(Observer&&) = default;
 
-  /// What is usual: time; of each robot q, dq, O_T_EE, robot_mode and, with a hand, width; the pose
-  /// of each object that moves.
-  static std::vector<std::string> usualNames(Simulation& simulation);
+  /// The default values: time; of each robot q, dq, O_T_EE, robot_mode and, with a hand, width; the
+  /// pose of each object that moves.
+  static std::vector<std::string> defaultNames(Simulation& simulation);
 
   /// In the order of the array.
   const std::vector<Value>& layout() const noexcept { return layout_; }
+  /// Of the values, in the same order.
+  std::vector<std::string> names() const;
+  /// The number of values in the array.
   std::size_t size() const noexcept;
   /// Writes the present values. Allocates. @param values size() numbers
   void read(double* values) const;

@@ -12,12 +12,12 @@
 
 namespace franka_sim {
 
-/// What the commands of one robot's control interface change; all of it outlives the server.
+/// The objects that the commands of one robot's control interface change; all outlive the server.
 struct OperatorContext {
-  fci::SimRobot& robot;
-  std::string arm_id;  ///< the robot's prefix in the world
-  fci::Host& host;
-  World& world;
+  fci::SimRobot& robot;  ///< at whose address the line came
+  std::string arm_id;    ///< the robot's prefix in the world
+  fci::Host& host;       ///< of all robots
+  World& world;          ///< of all robots
   /// Sets the world and all robots to their initial state.
   /// @throws std::exception with a sentence, such as within a motion
   std::function<void()> reset;
@@ -28,12 +28,15 @@ struct OperatorContext {
 /// robot, its safety controller and hand, the quality of its link, and changes of the world.
 void addOperatorCommands(fci::LineServer& lines, const OperatorContext& context);
 
-/// The switches of the operator, by the rules that the robot has (SafetyRules).
+/// @name The switches of the operator
+/// By the rules that the robot has (SafetyRules).
 /// @throws std::runtime_error "CODE: Sentence." if a rule refuses it
+/// @{
 void setUserStop(WholeRobot& robot, bool pressed);
 void setGuiding(WholeRobot& robot, bool active);
 void setBrakes(WholeRobot& robot, bool closed);
 void setFci(WholeRobot& robot, bool active);
+/// @}
 
 /// The line `reset` of a world in which all robots are served.
 /// @throws std::invalid_argument with a sentence if a motion runs

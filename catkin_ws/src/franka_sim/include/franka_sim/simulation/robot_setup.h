@@ -13,26 +13,29 @@ namespace franka_sim {
 
 /// A robot of a world, as the user describes it.
 struct RobotSetup {
-  std::string robot{"panda"};    ///< "panda" or "fr3"
-  std::string arm_id;            ///< prefix in the URDF; unique in the world
-  std::string urdf;              ///< file; empty: the robot with hand that comes along
+  std::string robot{"panda"};  ///< "panda" or "fr3"
+  std::string arm_id;          ///< prefix in the URDF; unique in the world
+  std::string urdf;  ///< file; empty: the robot with hand that is installed with franka_sim
   std::array<double, 3> base{};  ///< position of the robot in the world [m]
   double yaw{0.0};               ///< rotation of the robot in the world about the vertical [rad]
   std::string realism;           ///< as readRealism reads it
+  bool meshes{false};  ///< shows the robot that is installed with franka_sim by its meshes, if they
+                       ///< are installed
 };
 
 /// A robot that was added to a world, and what its units need.
 struct RobotInWorld {
   ControlUnitParameters unit;  ///< of its own interface, in the newest version
-  RobotPhysics physics;
-  ArmPlant* arm;
-  HandPlant* hand;  ///< null if its description has none
+  RobotPhysics physics;        ///< of its parts
+  ArmPlant* arm;               ///< valid while the robot is in the world
+  HandPlant* hand;             ///< null if the robot has none
 };
 
 /// Adds the robot to the world, in the ready pose.
-/// @param profile if the realism names none
+/// @param profile if the realism names none @param hand false: the robot that comes along has none;
+/// a description of one's own keeps what it has
 /// @throws std::exception with a sentence for files, descriptions and values that cannot be used;
 /// then the world is unchanged.
-RobotInWorld addRobot(const RobotSetup& setup, const char* profile, World& world);
+RobotInWorld addRobot(const RobotSetup& setup, const char* profile, World& world, bool hand = true);
 
 }  // namespace franka_sim

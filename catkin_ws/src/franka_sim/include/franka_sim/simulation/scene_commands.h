@@ -17,8 +17,8 @@ namespace franka_sim {
 
 /// A robot, as programs that draw the world need it.
 struct SceneRobot {
-  std::string arm_id;
-  std::string type;  ///< "panda" or "fr3"
+  std::string arm_id;  ///< prefix of its links
+  std::string type;    ///< "panda" or "fr3"
 };
 
 /// The world's shapes as text, for several LineServers. They are read in a thread of their own,
@@ -26,25 +26,26 @@ struct SceneRobot {
 /// the stepping thread.
 class SceneText {
  public:
-  using Robots = std::function<std::vector<SceneRobot>()>;
+  using Robots = std::function<std::vector<SceneRobot>()>;  ///< returns the robots of the world
 
   /// Writes the model's text in advance, so that no tick has to.
   /// @param world outlives this @param robots of the world, now
   SceneText(World& world, Robots robots);
 
   /// Answers the line `scene`: a JSON object with bodies, shapes and robots.
-  /// @throws (the reply) std::runtime_error with a sentence when the model does not compile
+  /// @throws std::runtime_error (the reply does) with a sentence when the model does not compile
   fci::Reply describe();
   /// Answers the line `mesh`: a JSON object with the part of a mesh that begins at this byte.
-  /// @throws (the reply) std::invalid_argument with a sentence
+  /// @throws std::invalid_argument (the reply does) with a sentence
   fci::Reply mesh(const std::string& name, std::size_t offset);
 
  private:
   struct Content {
     std::string bodies_and_shapes;  ///< members of a JSON object, which is not closed
+    /// A triangle mesh.
     struct Mesh {
-      std::size_t vertices, faces;
-      std::string bytes;  ///< vertices as float32 x, y, z; faces as three uint32
+      std::size_t vertices, faces;  ///< counts
+      std::string bytes;            ///< vertices as float32 x, y, z; faces as three uint32
     };
     std::vector<Mesh> meshes;
   };

@@ -20,7 +20,7 @@ class RequestRefused : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// What is done at 1 kHz to torques that a slow program commands in steps, or to those of a law.
+/// Processing at 1 kHz of the torques that come from a slow program or from a law.
 struct TorqueShaping {
   bool limit_rate{false};           ///< they change no faster than the robot allows; laws always
   std::array<double, 7> damping{};  ///< times the joint velocity is subtracted [Nm s/rad]
@@ -31,13 +31,18 @@ struct TorqueShaping {
 /// thread.
 class SimulatedRobot {
  public:
-  /// @param hand whether its hand, if its description has one, is driven
+  /// @param hand false: the robot that comes along has none, and that of a description of one's own
+  /// is not driven
   /// @throws as addRobot
   SimulatedRobot(const RobotSetup& setup, bool hand, World& world);
 
+  /// The setup of the constructor.
   const RobotSetup& setup() const noexcept { return setup_; }
+  /// @name Its control unit, hand and safety controller
+  /// @{
   WholeRobot& units() noexcept { return robot_; }
   const WholeRobot& units() const noexcept { return robot_; }
+  /// @}
   /// The present state; the reference stays valid.
   const franka_core::RobotState& state() const noexcept { return state_; }
 
@@ -49,8 +54,9 @@ class SimulatedRobot {
   /// The same for torques, with the request that clients of this robot send.
   void commandTorques(const std::array<double, 7>& tau, const TorqueShaping& shaping = {});
   /// The law that drives the arm; a torque motion is started if none runs. A law replaces torques
-  /// and the other law, and then begins anew. @throws as command
+  /// and the other law, and then starts again. @throws as command
   JointLaw& jointLaw();
+  /// The same for the Cartesian law.
   CartesianLaw& cartesianLaw();
   /// Damps the joints beside the law that runs, until its motion ends or torques are commanded.
   void setDamping(const std::array<double, 7>& damping) noexcept { shaping_.damping = damping; }
@@ -76,16 +82,30 @@ class SimulatedRobot {
   void refresh() noexcept { state_ = robot_.unit().state(); }
   /// Call after a reset of the world or a teleport: idle, without errors, in its configuration.
   void restart();
-  /// Whether clients on the network use it too: a restart then keeps what they are to be answered.
+  /// @name Its condition, for snapshots
+  /// @{
+  /// A robot in the same condition, which keeps it and is not stepped.
+  SimulatedRobot(const SimulatedRobot&) = default;
+  ~SimulatedRobot() = default;
+  /// Whether the other one's condition can be restored here: same robot, hand and realism.
+  bool isLike(const SimulatedRobot& other) const;
+  /// Takes over the condition of a robot like this one: motion, commands, hand, settings, errors.
+  /// One that clients on the network use restarts instead, because their motions are theirs.
+  /// @param earlier whether it was this robot
+  void restore(const SimulatedRobot& then, bool earlier);
+  /// @}
+  /// Whether clients on the network use it too: a restart then keeps their pending answers.
   void setServed(bool served) noexcept { served_ = served; }
 
  private:
   SimulatedRobot(const RobotSetup& setup, bool hand, const RobotInWorld& in_world);
+  SimulatedRobot& operator=(const SimulatedRobot&) = default;
   template <typename Law>
   Law& law();
   franka_core::fci::MoveRequest torqueMotion() const noexcept;
   void start(const franka_core::fci::MoveRequest& motion);
   const franka_core::RobotCommand* nextCommand() noexcept;
+  void endOwnMotion() noexcept;
   [[noreturn]] void refuse(const std::string& what) const;
 
   RobotSetup setup_;

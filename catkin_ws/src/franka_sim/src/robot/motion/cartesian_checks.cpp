@@ -25,15 +25,15 @@ using MutableMatrix = Eigen::Map<Eigen::Matrix4d>;
 
 // A client's rate limiter shortens an acceleration that would leave the sphere of allowed speeds,
 // if necessary in one tick and beyond the jerk limit. A rate-limited client is never aborted, so
-// this is accepted here. What the limiter's margins (lost packets, 99 % of the rotation limits) may
-// cost:
-constexpr double kSpeedMargin = 0.005;  // [s]: acceleration times this is kept free
+// this is accepted here. Tolerances for the limiter's margins (lost packets, 99 % of the rotation
+// limits):
+constexpr double kBrakingTime = 0.005;  // [s]: acceleration times this is kept free
 constexpr double kSpeedShare = 0.985;
 constexpr double kBrakingShare = 0.999;
 constexpr double kElbowMargin = 1e-3;  // [rad/s]
 // Floats slightly skew a rotation, which turns the direction of a small acceleration.
-constexpr double kAccelerationNoise = 5e-4;   // [m/s^2], [rad/s^2]
-constexpr double kMostDirectionNoise = 0.01;  // [rad]
+constexpr double kAccelerationNoise = 5e-4;  // [m/s^2], [rad/s^2]
+constexpr double kMaxDirectionNoise = 0.01;  // [rad]
 
 Vector3d part(const Derivative& values, std::size_t first) noexcept {
   return {values[first], values[first + 1], values[first + 2]};
@@ -60,14 +60,14 @@ bool isShortened(const CartesianSample& step, const CartesianSample& last, std::
   const Vector3d before = part(last.acceleration, first);
   const Vector3d velocity = part(last.twist, first);
   const double size = acceleration.norm();
-  const double highest = kSpeedShare * (limits.velocity - kSpeedMargin * limits.acceleration);
+  const double highest = kSpeedShare * (limits.velocity - kBrakingTime * limits.acceleration);
   if (!(size > 0.0)) {
     return velocity.norm() >= highest;
   }
   const Vector3d direction = acceleration / size;
   const double gain = limits.jerk / limits.acceleration;
   const double reach = limits.jerk * kTick;
-  const double noise = std::min(kAccelerationNoise / size, kMostDirectionNoise) * limits.velocity;
+  const double noise = std::min(kAccelerationNoise / size, kMaxDirectionNoise) * limits.velocity;
   const double least = gain * (speedLeft(direction, velocity, highest) - noise) * kBrakingShare;
   const double hardest = gain * (noise - speedLeft(-direction, velocity, highest)) / kBrakingShare;
   return (size >= least && distanceToRay(direction, size, before) <= reach) ||

@@ -23,8 +23,8 @@ using Vector7 = Eigen::Matrix<double, 7, 1>;
 // Chosen from measured convergence (decision 12).
 constexpr double kSingularStart = 0.01;
 constexpr double kNearlySingular = 0.02;
-constexpr double kLargestDamping = 0.02;
-constexpr int kMostIterations = 8;
+constexpr double kMaxDamping = 0.02;
+constexpr int kMaxIterations = 8;
 constexpr double kTolerance = 1e-13;  // larger residuals become jerk
 
 Matrix7 withElbowRow(const std::array<double, 42>& jacobian) noexcept {
@@ -68,9 +68,11 @@ void reach(const Transform& F_T_EE, const ArmModel& model,
   solution.jacobian = model.zeroJacobian(ArmFrame::kEndEffector, solution.q, F_T_EE);
 }
 
+// One step of damped least squares: J^T (J J^T + damping I)^-1 error. The damping grows from zero
+// at the bound to kMaxDamping^2 at a singularity (Chiaverini, 1997).
 Vector7 dampedStep(const Matrix7& matrix, const Matrix7& gram, const Vector7& error) noexcept {
   const double share = smallestSingularValue(gram) / kNearlySingular;
-  const double damping = (1.0 - share * share) * kLargestDamping * kLargestDamping;
+  const double damping = (1.0 - share * share) * kMaxDamping * kMaxDamping;
   Matrix7 damped = gram;
   damped.diagonal().array() += damping;
   return matrix.transpose() * damped.llt().solve(error);
@@ -99,7 +101,7 @@ InverseKinematics::Solution InverseKinematics::solve(const Joints& q_last, const
     reach(F_T_EE, model, solution);
     return solution;
   }
-  for (int i = 0; i < kMostIterations && error.cwiseAbs().maxCoeff() >= kTolerance; i++) {
+  for (int i = 0; i < kMaxIterations && error.cwiseAbs().maxCoeff() >= kTolerance; i++) {
     add(matrix.partialPivLu().solve(error), solution.q);
     reach(F_T_EE, model, solution);
     error = residual(O_T_EE, q3, solution.O_T_EE, solution.q[2]);

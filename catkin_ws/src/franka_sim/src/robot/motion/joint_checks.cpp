@@ -16,8 +16,8 @@ namespace {
 
 // A velocity limit that shrinks with the position cannot be kept by braking within the jerk limit
 // (at 17 rad/s^2 not even within the acceleration limit). A client that brakes like the rate
-// limiter of its library is accepted nevertheless: a rate-limited client is never aborted. Share
-// that the limiter's margins may cost:
+// limiter of its library is accepted nevertheless: a rate-limited client is never aborted.
+// Tolerances for the limiter's margins:
 constexpr double kBrakingShare = 0.999;
 constexpr double kClientMargin = 1e-3;  // the client's margin to a velocity limit [rad/s]
 

@@ -88,7 +88,7 @@ MotionStep MotionGenerator::step(const franka_core::RobotCommand* command,
       async_.stop();
       finishing_ = true;
     }
-    // The finishing command is no target: genuine clients leave its numbers zero.
+    // The finishing command is not a target: genuine clients leave its numbers zero.
     result.errors = advanceAsync(finishing_ ? nullptr : command);
     result.finished = finishing_ && async_.atRest();
   } else {
@@ -111,15 +111,11 @@ ErrorSet MotionGenerator::advanceAsync(const franka_core::RobotCommand* command)
     }
     Joints target;
     for (std::size_t i = 0; i < 7; i++) {
-      // The arm may stay where it is, and return from beyond its reach.
-      const double here = async_.position()[i];
-      const franka_core::JointRange reach = limits_.reach(i);
-      const double highest = std::max(reach.highest, here);
-      const double lowest = std::min(reach.lowest, here);
-      if (command->q_c[i] > highest + kEcho || command->q_c[i] < lowest - kEcho) {
+      const franka_core::JointRange reach = limits_.reachFrom(i, async_.position()[i]);
+      if (command->q_c[i] > reach.highest + kEcho || command->q_c[i] < reach.lowest - kEcho) {
         return limits_.positionFlag(false);
       }
-      target[i] = std::min(std::max(command->q_c[i], lowest), highest);
+      target[i] = std::min(std::max(command->q_c[i], reach.lowest), reach.highest);
     }
     async_.setTarget(target);
   }

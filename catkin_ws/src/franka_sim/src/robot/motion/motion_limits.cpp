@@ -3,6 +3,8 @@
 #include <franka_sim/robot/motion/motion_limits.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdio>
 
 namespace franka_sim {
 
@@ -10,7 +12,7 @@ using franka_core::RobotError;
 
 namespace {
 constexpr unsigned kFirstFr3 = 6;
-constexpr unsigned kFirstOf572 = 9;  // system 5.7.2: flags 12 and 27 are gone
+constexpr unsigned kFirstOf572 = 9;  // system 5.7.2: without flags 12 and 27
 constexpr unsigned kFirstOf59 = 10;  // system 5.9: floats on the wire, its own limit tables
 }  // namespace
 
@@ -31,11 +33,26 @@ double MotionLimits::lowestVelocity(std::size_t joint, double q) const noexcept 
 franka_core::JointRange MotionLimits::reach(std::size_t joint) const noexcept {
   franka_core::JointRange range{arm.q_min[joint], arm.q_max[joint]};
   if (position_velocity) {
-    const franka_core::JointRange alive = franka_core::reachOf(velocity_near_ends, joint);
-    range.lowest = std::max(range.lowest, alive.lowest);
-    range.highest = std::min(range.highest, alive.highest);
+    const franka_core::JointRange reachable = franka_core::reachOf(velocity_near_ends, joint);
+    range.lowest = std::max(range.lowest, reachable.lowest);
+    range.highest = std::min(range.highest, reachable.highest);
   }
   return range;
+}
+
+franka_core::JointRange MotionLimits::reachFrom(std::size_t joint, double q) const noexcept {
+  const franka_core::JointRange range = reach(joint);
+  return {std::min(range.lowest, q), std::max(range.highest, q)};
+}
+
+std::string MotionLimits::reachText(std::size_t joint, double q) const {
+  constexpr double kDigits = 1e4;
+  const franka_core::JointRange range = reach(joint);
+  char text[96];
+  std::snprintf(text, sizeof(text), "between %.4f and %.4f rad, not at %.9g",
+                std::ceil(range.lowest * kDigits) / kDigits,
+                std::floor(range.highest * kDigits) / kDigits, q);
+  return text;
 }
 
 franka_core::DerivativeLimits MotionLimits::elbow() const noexcept {

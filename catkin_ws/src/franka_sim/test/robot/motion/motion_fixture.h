@@ -120,4 +120,14 @@ struct Motion {
   MotionGenerator generator;
 };
 
+inline Transform startPose() {
+  return model().pose(franka_core::ArmFrame::kEndEffector, kReady, kHandF_T_NE);
+}
+
+inline Transform shifted(double x) {
+  Transform pose = startPose();
+  pose[12] += x;
+  return pose;
+}
+
 }  // namespace franka_sim::test

@@ -17,7 +17,7 @@
 namespace franka {
 
 /// Moves the robot from one joint position to the next; a new target may be set at any time, also
-/// during a motion. Failures are returned, not thrown. Use from one thread; not for the 1 kHz loop.
+/// during a motion. Failures are returned, not thrown. Called by one thread. Not real-time safe.
 class AsyncPositionControlHandler {
  public:
   /// How targets are approached.
@@ -30,7 +30,7 @@ class AsyncPositionControlHandler {
     std::shared_ptr<AsyncPositionControlHandler> handler;
     std::optional<std::string> error_message;
   };
-  /// Where to go.
+  /// The target.
   struct JointPositionTarget {
     std::vector<double> joint_positions;  ///< seven positions [rad]
   };

@@ -10,7 +10,7 @@
 
 /// @file
 /// Messages for the sinks that the program registers. Without a sink only the library's own
-/// warnings are written, to standard error. All functions are thread-safe. Not real-time safe.
+/// warnings are written, to standard error. Thread-safe. Not real-time safe.
 ///
 ///   franka::logging::addLogger(std::make_shared<franka::CoutLoggingSink>());
 
@@ -32,8 +32,7 @@ void logError(const std::string& message);
 /// @}
 
 /// Replaces the placeholders of a text in order: each `{}`, also one with a format such as
-/// `{:.3f}`, which is not applied. `{{` and `}}` stand for braces. Placeholders without a value
-/// stay.
+/// `{:.3f}`, which is not applied. `{{` and `}}` mean braces. Placeholders without a value stay.
 std::string fill(const std::string& text, const std::vector<std::string>& values);
 
 /// A value as written by `std::ostream`.

@@ -9,8 +9,8 @@
 
 namespace franka {
 
-/// Receives messages; registered with franka::logging::addLogger. Its functions may be called from
-/// any thread, one at a time, and never from the 1 kHz loop. They must not call franka::logging.
+/// Receives messages; registered with franka::logging::addLogger. Its functions are called by any
+/// thread, one at a time, and outside the control loop. They must not call franka::logging.
 class LoggingSinkInterface {
  public:
   virtual ~LoggingSinkInterface() = default;

@@ -9,8 +9,8 @@
 #include <array>
 
 /// @file
-/// The command datagram, client to robot, one per state. Real-time safe: no allocation, lock or
-/// exception; the caller owns the buffers.
+/// The command datagram, client to robot, one per state. The caller owns the buffers; no function
+/// throws. Real-time safe. Thread-safe.
 
 namespace franka_core::fci {
 

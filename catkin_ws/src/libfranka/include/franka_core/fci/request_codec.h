@@ -10,8 +10,8 @@
 
 /// @file
 /// The robot's TCP channel, requests. Framing: a header of 12 bytes (u32 command, u32 command id,
-/// u32 size of header and payload), then the payload; little-endian, packed. Pure functions: no
-/// state, no allocation, no exception, thread-safe.
+/// u32 size of header and payload), then the payload; little-endian, packed. Pure functions that
+/// throw nothing. Real-time safe. Thread-safe.
 
 namespace franka_core::fci {
 

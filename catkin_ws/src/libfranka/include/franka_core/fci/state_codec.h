@@ -9,8 +9,8 @@
 #include <array>
 
 /// @file
-/// The state datagram, robot to client, once a millisecond. Real-time safe: no allocation, lock or
-/// exception; the caller owns the buffers.
+/// The state datagram, robot to client, once a millisecond. The caller owns the buffers; no
+/// function throws. Real-time safe. Thread-safe.
 
 namespace franka_core::fci {
 

@@ -7,8 +7,8 @@
 #include <string>
 
 /// @file
-/// The genuine client's texts about a reply, word for word (protocol 3.4). Not real-time safe:
-/// strings.
+/// The genuine client's texts about a reply, word for word (protocol 3.4). Not real-time safe.
+/// Exceptions: the functions that return no string.
 
 namespace franka_core::fci {
 

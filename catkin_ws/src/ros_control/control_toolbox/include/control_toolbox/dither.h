@@ -7,7 +7,7 @@
 namespace control_toolbox {
 
 /// White noise with a normal distribution about zero, to overcome stiction of a joint. The same
-/// seed gives the same noise. update() is real-time safe; not thread-safe.
+/// seed gives the same noise. Called by one thread. Real-time safe. Exception: init().
 class Dither {
  public:
   /// @param amplitude standard deviation, in the unit of the result

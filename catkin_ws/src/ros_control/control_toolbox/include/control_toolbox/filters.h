@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-/// Filters of single numbers. Real-time safe, without state.
+/// Filters of single numbers, without state. Real-time safe. Thread-safe.
 namespace filters {
 
 /// The value, or the nearest limit if it lies outside. @param low not above `high`

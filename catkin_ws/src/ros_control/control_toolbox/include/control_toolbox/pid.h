@@ -27,10 +27,11 @@ namespace control_toolbox {
 /// caller's: with e in [rad] and a command in [Nm], p is [Nm/rad], i [Nm/(rad s)], d [Nm s/rad].
 ///
 /// Threads: one thread calls computeCommand(), reset(), setCurrentCmd() and the getters of errors
-/// and command. Gains may be read and set by any thread. Real-time safe: these functions,
-/// getGains() and trySetGains(). All others are for set-up or other threads.
+/// and command. Gains may be read and set by any thread. Functions without a note are for set-up
+/// and other threads than the control loop.
 class Pid {
  public:
+  /// The gains, and the limits of the integral part of the command.
   struct Gains {
     Gains(double p, double i, double d, double i_max, double i_min)
         : Gains(p, i, d, i_max, i_min, false) {}
@@ -43,12 +44,12 @@ class Pid {
           antiwindup_(antiwindup) {}
     Gains() = default;
 
-    double p_gain_{0.0};
-    double i_gain_{0.0};
-    double d_gain_{0.0};
-    double i_max_{0.0};  ///< upper limit of the integral term
-    double i_min_{0.0};  ///< lower limit of the integral term
-    bool antiwindup_{false};
+    double p_gain_{0.0};      ///< proportional
+    double i_gain_{0.0};      ///< integral
+    double d_gain_{0.0};      ///< derivative
+    double i_max_{0.0};       ///< upper limit of the integral term
+    double i_min_{0.0};       ///< lower limit of the integral term
+    bool antiwindup_{false};  ///< the integral stops at its limits
   };
 
   // The original's default of i_min; it compares equal to 0.
@@ -56,7 +57,7 @@ class Pid {
       bool antiwindup = false);
   /// Copies have the same gains, with errors and command at zero; they have no reconfigure server
   /// and publish no state.
-  Pid(const Pid& source);
+  Pid(const Pid& source) noexcept;
   Pid& operator=(const Pid& source);
   ~Pid();
 
@@ -91,22 +92,25 @@ class Pid {
   /// the parameter server.
   void initDynamicReconfig(ros::NodeHandle& node);
 
-  /// Sets errors and command to zero. The next derivative is taken from an error of zero.
-  void reset();
-  /// The same with starting values: the next computeCommand(error, dt) uses `d_error` as
-  /// derivative, and the integral continues from `i_error`.
-  void reset(double d_error, double i_error);
+  /// Real-time safe. Sets errors and command to zero. The next derivative is taken from an error of
+  /// zero.
+  void reset() noexcept;
+  /// Real-time safe. The same with starting values: the next computeCommand(error, dt) uses
+  /// `d_error` as derivative, and the integral continues from `i_error`.
+  void reset(double d_error, double i_error) noexcept;
 
+  /// The gains in use. Real-time safe. Thread-safe.
   void getGains(double& p, double& i, double& d, double& i_max, double& i_min);
   void getGains(double& p, double& i, double& d, double& i_max, double& i_min, bool& antiwindup);
   Gains getGains();
 
-  /// Sets the gains and updates dynamic reconfigure, which publishes: not real-time safe.
+  /// Sets the gains and updates dynamic reconfigure, which publishes. Thread-safe.
+  /// Not real-time safe.
   void setGains(double p, double i, double d, double i_max, double i_min, bool antiwindup = false);
   void setGains(const Gains& gains);
 
   /// Sets the gains from the real-time thread; dynamic reconfigure is not updated. Not in the
-  /// original. @return false if another thread is setting gains.
+  /// original. Real-time safe. Thread-safe. @return false if another thread is setting gains.
   bool trySetGains(const Gains& gains) noexcept { return gains_.trySet(gains); }
 
   /// Updates dynamic reconfigure with the gains in use, other gains, or a whole configuration.
@@ -117,26 +121,28 @@ class Pid {
   /// Sets the gains of a configuration.
   void dynamicReconfigCallback(ParametersConfig& config, std::uint32_t level);
 
-  /// One step with the derivative of the error taken from the previous step.
+  /// One step with the derivative of the error taken from the previous step. Real-time safe.
   /// @param error target minus actual value.
   /// @param dt since the previous step.
   /// @return the command; 0 if dt is 0 or the error is not finite.
   double computeCommand(double error, ros::Duration dt);
 
-  /// One step with a given derivative of the error.
+  /// One step with a given derivative of the error. Real-time safe.
   /// @return the command; 0 if dt is 0 or an input is not finite.
   double computeCommand(double error, double error_dot, ros::Duration dt);
 
+  /// As computeCommand with the opposite signs of the error and of the command. Real-time safe.
   [[deprecated("Use computeCommand(), which returns the opposite sign.")]] double updatePid(
       double p_error, ros::Duration dt);
   [[deprecated("Use computeCommand(), which returns the opposite sign.")]] double updatePid(
       double error, double error_dot, ros::Duration dt);
 
-  /// The last command, and its correction to the command really sent.
+  /// The last command, and its correction to the command really sent. Real-time safe.
   void setCurrentCmd(double cmd);
+  /// The last command. Real-time safe.
   double getCurrentCmd();
 
-  /// The last error, its integral and its derivative.
+  /// The last error, its integral and its derivative. Real-time safe.
   void getCurrentPIDErrors(double* pe, double* ie, double* de);
 
   /// Writes gains, errors and command to the log.

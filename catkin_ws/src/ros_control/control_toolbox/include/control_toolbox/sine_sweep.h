@@ -4,8 +4,8 @@
 
 namespace control_toolbox {
 
-/// A sine wave whose frequency changes exponentially: each octave takes the same time. Real-time
-/// safe; not thread-safe.
+/// A sine wave whose frequency changes exponentially: each octave takes the same time. Called by
+/// one thread. Real-time safe.
 class SineSweep {
  public:
   /// @param start_freq [Hz] @param end_freq [Hz] @param duration [s] of the sweep

@@ -4,7 +4,7 @@
 
 namespace control_toolbox {
 
-/// A sine wave about an offset. Real-time safe; not thread-safe.
+/// A sine wave about an offset. Called by one thread. Real-time safe.
 class Sinusoid {
  public:
   /// Constant zero.

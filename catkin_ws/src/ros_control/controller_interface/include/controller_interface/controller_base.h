@@ -17,8 +17,8 @@ namespace controller_interface {
 
 /// Base of all controllers: the callbacks that a controller implements, and the requests by which
 /// the controller manager changes its state. A request runs the callback first and then changes the
-/// state. Every request except initRequest comes from the control loop, so the callbacks must be
-/// real-time safe; the is... queries may be called from any thread.
+/// state. The control loop makes every request except initRequest. Real-time safe. Every controller
+/// must implement its callbacks so. Any thread may call the is... queries.
 class ControllerBase {
  public:
   ControllerBase() = default;
@@ -44,13 +44,16 @@ class ControllerBase {
   /// Called when the start is aborted. @param time of this cycle
   virtual void aborting(const ros::Time& /*time*/) {}
 
+  /// @name The state of the controller
+  /// @{
   bool isInitialized() const { return state_ == ControllerState::INITIALIZED; }
   bool isRunning() const { return state_ == ControllerState::RUNNING; }
   bool isStopped() const { return state_ == ControllerState::STOPPED; }
   bool isWaiting() const { return state_ == ControllerState::WAITING; }
   bool isAborted() const { return state_ == ControllerState::ABORTED; }
+  /// @}
 
-  /// Updates the controller if it runs. Real-time safe if update() is.
+  /// Updates the controller if it runs.
   void updateRequest(const ros::Time& time, const ros::Duration& period) {
     if (state_ == ControllerState::RUNNING) {
       update(time, period);
@@ -67,6 +70,7 @@ class ControllerBase {
     return true;
   }
 
+  /// Stops the controller.
   bool stopRequest(const ros::Time& time) {
     if (!mayChangeState("stop")) {
       return false;
@@ -76,6 +80,7 @@ class ControllerBase {
     return true;
   }
 
+  /// Lets the start of the controller wait.
   bool waitRequest(const ros::Time& time) {
     if (!mayChangeState("wait")) {
       return false;
@@ -85,6 +90,7 @@ class ControllerBase {
     return true;
   }
 
+  /// Aborts the start of the controller.
   bool abortRequest(const ros::Time& time) {
     if (!mayChangeState("abort")) {
       return false;
@@ -94,9 +100,10 @@ class ControllerBase {
     return true;
   }
 
+  /// Resources by hardware interface.
   typedef std::vector<hardware_interface::InterfaceResources> ClaimedResources;
 
-  /// Initialises a constructed controller. Runs outside the control loop.
+  /// Initialises a constructed controller, outside the control loop. Not real-time safe.
   /// @param robot_hw offers the interfaces @param root_nh of the controller manager
   /// @param controller_nh of the controller's own namespace
   /// @param[out] claimed_resources the controller's claims
@@ -104,6 +111,7 @@ class ControllerBase {
   virtual bool initRequest(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& root_nh,
                            ros::NodeHandle& controller_nh, ClaimedResources& claimed_resources) = 0;
 
+  /// States of a controller.
   enum class ControllerState { CONSTRUCTED, INITIALIZED, RUNNING, STOPPED, WAITING, ABORTED };
 
   /// Atomic: written by the control loop (before that by initRequest), read by services as well.

@@ -27,6 +27,7 @@ class ControllerLoaderInterface {
   /// Searches types again. No controller of this loader exists at that time.
   virtual void reload() = 0;
 
+  /// The name of the loader.
   const std::string& getName() { return name_; }
 
  private:

@@ -62,8 +62,8 @@ class SwitchHandover;
 /// its place after such an abort.
 class ControllerManager {
  public:
-  static constexpr bool WAIT_FOR_ALL_RESOURCES = false;
-  static constexpr double INFINITE_TIMEOUT = 0.0;
+  static constexpr bool WAIT_FOR_ALL_RESOURCES = false;  ///< of switchController
+  static constexpr double INFINITE_TIMEOUT = 0.0;        ///< of switchController
 
   /// Offers the services list_controllers, list_controller_types, load_controller,
   /// unload_controller, switch_controller and reload_controller_libraries in
@@ -83,8 +83,8 @@ class ControllerManager {
 
   /// One cycle of the loop: updates all running controllers in the order of loading, then continues
   /// a switch. A controller stopped in this cycle was updated before, one started is updated from
-  /// the next cycle on. Exceptions: see above. Real-time safe if the controllers' callbacks and the
-  /// robot's switch are.
+  /// the next cycle on. Exceptions: see above. Real-time safe. The controllers' callbacks and the
+  /// robot's switch must neither allocate nor lock.
   /// @param time of this cycle @param period since the one before
   /// @param reset_controllers restart the running controllers first
   void update(const ros::Time& time, const ros::Duration& period, bool reset_controllers = false);
@@ -126,9 +126,10 @@ class ControllerManager {
 
   /// A type of controllers and the loader it comes from.
   struct DeclaredType {
-    std::string type;
-    std::string base_class;
+    std::string type;        ///< name for pluginlib
+    std::string base_class;  ///< that the loader declares
   };
+  /// The types of all loaders.
   std::vector<DeclaredType> getDeclaredTypes();
 
  private:

@@ -15,8 +15,8 @@ class ControllerWatch;
 
 /// A loaded controller with its properties.
 struct ControllerSpec {
-  hardware_interface::ControllerInfo info;
-  controller_interface::ControllerBaseSharedPtr c;
+  hardware_interface::ControllerInfo info;          ///< name, type and resources
+  controller_interface::ControllerBaseSharedPtr c;  ///< the controller itself
   /// Measures the updates and aborts a faulty controller; null unless parameters enable it.
   std::shared_ptr<internal::ControllerWatch> watch;
 };

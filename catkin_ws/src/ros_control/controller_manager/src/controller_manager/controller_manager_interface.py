@@ -16,12 +16,12 @@ from controller_manager_msgs.srv import (
     UnloadController,
 )
 
-LONGEST_WAIT = 10.0  # [s] for the manager to appear
+MAX_WAIT = 10.0  # [s] for the manager to appear
 
 
 def _call(name, kind, *arguments, **fields):
     name = "controller_manager/" + name
-    rospy.wait_for_service(name, LONGEST_WAIT)
+    rospy.wait_for_service(name, MAX_WAIT)
     return rospy.ServiceProxy(name, kind)(*arguments, **fields)
 
 

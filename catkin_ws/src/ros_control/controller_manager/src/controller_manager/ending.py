@@ -9,7 +9,7 @@ import rospy
 
 POLL_PERIOD = 0.1  # [s]
 # How long an external shutdown request (rosnode kill) waits for the program's clean-up.
-LONGEST_END = 15.0  # [s]
+MAX_END_TIME = 15.0  # [s]
 
 
 class Ended(Exception):
@@ -32,7 +32,7 @@ class Ending:
 
     def _wait_for_end(self):
         self._requested.set()
-        self._done.wait(LONGEST_END)
+        self._done.wait(MAX_END_TIME)
 
     def is_requested(self):
         return self._requested.is_set()

@@ -140,16 +140,10 @@ def wait_until(condition, deadline, ending):
 
 
 def is_offered(service):
-    try:
-        rosgraph.Master(rospy.get_name()).lookupService(rospy.resolve_name(service))
-        rospy.wait_for_service(service, timeout=POLL_PERIOD)
-        return True
-    except (rosgraph.MasterException, rospy.ROSException, OSError):
-        return False
+    """Whether a process accepts connections at the service's address; sends nothing.
 
-
-def listens(service):
-    """Whether a process accepts connections at the service's address; sends nothing."""
+    rospy.wait_for_service() would warn about a service whose node has died or is just exiting.
+    """
     try:
         uri = rosgraph.Master(rospy.get_name()).lookupService(rospy.resolve_name(service))
         socket.create_connection(rospy.core.parse_rosrpc_uri(uri), POLL_PERIOD).close()
@@ -189,11 +183,11 @@ class Listener:
         return self._has_message
 
     def account(self):
-        """What has arrived instead of such a message, as the end of a sentence."""
+        """Describes what has arrived instead of such a message, as the end of a sentence."""
         if self._has_news:
-            return "has only said false so far (a simulation says true once it is no longer paused)"
+            return "has only sent false so far (a simulation sends true once it is no longer paused)"
         if self._subscriber.get_num_connections() > 0:
-            return "has a publisher, which has said nothing so far"
+            return "has a publisher, which has sent nothing so far"
         return "has no publisher"
 
     def close(self):
@@ -203,7 +197,7 @@ class Listener:
 def wait_for_true(topic, ending):
     """Waits without limit. Raises Ended on a request to exit."""
     name = rospy.resolve_name(topic)
-    rospy.loginfo("Controller Spawner: Waiting for %s to say true", name)
+    rospy.loginfo("Controller Spawner: Waiting for %s to be true", name)
     begin = time.monotonic()
     report = begin + FIRST_REPORT
     with contextlib.closing(Listener(topic)) as listener:
@@ -318,7 +312,7 @@ class Spawner:
 
     def _manager_ends(self):
         end = time.monotonic() + END_OF_MANAGER
-        while listens(self._prefix + "list_controllers"):
+        while is_offered(self._prefix + "list_controllers"):
             if time.monotonic() > end:
                 return False
             time.sleep(POLL_PERIOD)

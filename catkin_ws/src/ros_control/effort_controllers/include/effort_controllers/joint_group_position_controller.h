@@ -24,8 +24,8 @@ namespace effort_controllers {
 /// [m]; a message of another size, or with a target that is not finite, is refused as a whole with
 /// an error. Starts at the measured positions, and stops with efforts of zero.
 ///
-/// Threads: update(), starting() and stopping() run in the control loop and are real-time safe; the
-/// subscriber's callback runs elsewhere.
+/// The control loop calls starting(), update() and stopping(). Real-time safe. The subscriber's
+/// callback runs elsewhere.
 class JointGroupPositionController
     : public controller_interface::Controller<hardware_interface::EffortJointInterface> {
  public:
@@ -39,10 +39,10 @@ class JointGroupPositionController
   void update(const ros::Time& time, const ros::Duration& period) override;
   void stopping(const ros::Time& time) override;
 
-  std::vector<std::string> joint_names_;
-  std::vector<hardware_interface::JointHandle> joints_;
-  realtime_tools::RealtimeBuffer<std::vector<double>> commands_buffer_;
-  unsigned int n_joints_{0};
+  std::vector<std::string> joint_names_;                 ///< in the order of commands
+  std::vector<hardware_interface::JointHandle> joints_;  ///< in the order of commands
+  realtime_tools::RealtimeBuffer<std::vector<double>> commands_buffer_;  ///< newest targets
+  unsigned int n_joints_{0};                                             ///< count of joints
 
  private:
   bool addJoint(const std::string& name, hardware_interface::EffortJointInterface* hw,

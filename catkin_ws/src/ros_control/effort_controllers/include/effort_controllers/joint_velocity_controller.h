@@ -18,8 +18,8 @@ namespace effort_controllers {
 /// not finite) and `state` (control_msgs/JointControllerState, every tenth update). Starts with a
 /// velocity of zero, and stops with an effort of zero.
 ///
-/// Threads: update(), starting() and stopping() run in the control loop and are real-time safe;
-/// setCommand() and getCommand() may be called by one other thread.
+/// The control loop calls starting(), update() and stopping(). Real-time safe. setCommand() and
+/// getCommand() may be called by one other thread.
 class JointVelocityController
     : public controller_interface::Controller<hardware_interface::EffortJointInterface>,
       public forward_command_controller::detail::WithPidLoop {

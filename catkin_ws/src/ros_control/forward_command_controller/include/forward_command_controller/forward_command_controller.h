@@ -25,8 +25,8 @@ namespace forward_command_controller {
 /// starting() is specialised for each kind of joint. When the controller stops, a velocity or an
 /// effort is set to zero.
 ///
-/// Threads: update(), starting() and stopping() run in the control loop and are real-time safe; the
-/// subscriber's callback runs elsewhere.
+/// The control loop calls starting(), update() and stopping(). Real-time safe. The subscriber's
+/// callback runs elsewhere.
 ///
 /// @tparam T a joint interface with one command, for instance
 /// hardware_interface::EffortJointInterface.
@@ -59,14 +59,14 @@ class ForwardCommandController : public controller_interface::Controller<T> {
 
   void stopping(const ros::Time& /*time*/) override { detail::rest<T>(joint_); }
 
-  hardware_interface::JointHandle joint_;
+  hardware_interface::JointHandle joint_;  ///< of the parameter joint
   realtime_tools::RealtimeBuffer<double> command_buffer_;
 
  private:
   void commandCB(const std_msgs::Float64ConstPtr& msg) {
     if (!std::isfinite(msg->data)) {
       ROS_ERROR_THROTTLE(1.0,
-                         "The command for joint '%s' is %f, which is no finite number. Not "
+                         "The command for joint '%s' is %f, which is not a finite number. Not "
                          "executing; the last command stays.",
                          joint_.getName().c_str(), msg->data);
       return;

@@ -27,8 +27,8 @@ namespace forward_command_controller {
 /// starting() is specialised for each kind of joint. When the controller stops, velocities and
 /// efforts are set to zero.
 ///
-/// Threads: update(), starting() and stopping() run in the control loop and are real-time safe; the
-/// subscriber's callback runs elsewhere.
+/// The control loop calls starting(), update() and stopping(). Real-time safe. The subscriber's
+/// callback runs elsewhere.
 ///
 /// @tparam T a joint interface with one command.
 template <class T>
@@ -72,7 +72,7 @@ class ForwardJointGroupCommandController : public controller_interface::Controll
   std::vector<std::string> joint_names_;
   std::vector<hardware_interface::JointHandle> joints_;
   realtime_tools::RealtimeBuffer<std::vector<double>> commands_buffer_;
-  unsigned int n_joints_{0};
+  unsigned int n_joints_{0};  ///< count of joints
 
  private:
   void commandCB(const std_msgs::Float64MultiArrayConstPtr& msg) {

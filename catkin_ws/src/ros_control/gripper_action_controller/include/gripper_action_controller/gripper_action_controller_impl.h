@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <boost/bind/bind.hpp>
 #include <cmath>
+#include <exception>
 #include <thread>
 
 namespace gripper_action_controller {
@@ -16,9 +17,11 @@ template <class HardwareInterface>
 GripperActionController<HardwareInterface>::~GripperActionController() {
   // Callbacks must end before the objects that they use.
   monitor_timer_.stop();
-  {
+  try {
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
     endGoal("The controller '" + name_ + "' was unloaded.");
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM("The end of a goal of '" << name_ << "' cannot be reported. " << error.what());
   }
   action_server_.reset();
   delete order_;

@@ -11,7 +11,7 @@
 namespace hardware_interface {
 
 /// Reads the state of one actuator and commands it. Its interface defines meaning and unit of the
-/// command. All but the constructors and getName are safe in the control loop.
+/// command. Real-time safe. Exceptions: the constructors and getName.
 class ActuatorHandle : public ActuatorStateHandle {
  public:
   ActuatorHandle() = default;
@@ -24,10 +24,12 @@ class ActuatorHandle : public ActuatorStateHandle {
     }
   }
 
+  /// Sets the command of this cycle.
   void setCommand(double command) {
     assert(cmd_);
     *cmd_ = command;
   }
+  /// The last command.
   double getCommand() const {
     assert(cmd_);
     return *cmd_;

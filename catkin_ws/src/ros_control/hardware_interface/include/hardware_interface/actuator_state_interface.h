@@ -12,8 +12,8 @@ namespace hardware_interface {
 
 /// Reads the state of one actuator, the motor's side of a transmission. It points to values that
 /// the robot writes in `read()`; copies point to the same values. Units: position [rad] or [m],
-/// velocity [rad/s] or [m/s], effort [Nm] or [N]. The getters of position, velocity and effort are
-/// safe in the control loop.
+/// velocity [rad/s] or [m/s], effort [Nm] or [N]. Real-time safe. Exceptions: the constructors and
+/// getName.
 class ActuatorStateHandle {
  public:
   ActuatorStateHandle() = default;
@@ -48,8 +48,11 @@ class ActuatorStateHandle {
     torque_sensor_ = require(torque_sensor, "Torque sensor");
   }
 
+  /// The name of the actuator.
   std::string getName() const { return name_; }
 
+  /// @name The measured values
+  /// @{
   double getPosition() const {
     assert(pos_);
     return *pos_;
@@ -62,14 +65,18 @@ class ActuatorStateHandle {
     assert(eff_);
     return *eff_;
   }
+  /// @}
   /// @throws std::runtime_error for actuators without an absolute encoder.
   double getAbsolutePosition() const { return *getAbsolutePositionPtr(); }
   /// @throws std::runtime_error for actuators without a torque sensor.
   double getTorqueSensor() const { return *getTorqueSensorPtr(); }
 
+  /// @name Where the robot writes the measured values
+  /// @{
   const double* getPositionPtr() const { return pos_; }
   const double* getVelocityPtr() const { return vel_; }
   const double* getEffortPtr() const { return eff_; }
+  /// @}
   /// @throws std::runtime_error for actuators without an absolute encoder.
   const double* getAbsolutePositionPtr() const {
     if (!hasAbsolutePosition()) {
@@ -85,8 +92,11 @@ class ActuatorStateHandle {
     return torque_sensor_;
   }
 
+  /// @name Whether the actuator has these sensors
+  /// @{
   bool hasAbsolutePosition() const { return absolute_pos_ != nullptr; }
   bool hasTorqueSensor() const { return torque_sensor_ != nullptr; }
+  /// @}
 
  private:
   const double* require(const double* data, const char* quantity) const {

@@ -11,9 +11,9 @@ namespace hardware_interface {
 
 /// Description of a controller for the robot.
 struct ControllerInfo {
-  std::string name;  ///< unique within its controller manager
-  std::string type;  ///< plugin name
-  std::vector<InterfaceResources> claimed_resources;
+  std::string name;                                   ///< unique within its controller manager
+  std::string type;                                   ///< plugin name
+  std::vector<InterfaceResources> claimed_resources;  ///< by hardware interface
 };
 
 }  // namespace hardware_interface

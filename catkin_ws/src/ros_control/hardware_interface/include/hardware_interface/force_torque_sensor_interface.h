@@ -10,7 +10,7 @@ namespace hardware_interface {
 
 /// Reads one force-torque sensor. Force [N] and torque [Nm] are vectors of three (x, y, z) in the
 /// sensor's frame, written by the robot in `read()`; for a missing quantity the pointer is null.
-/// getForce and getTorque are safe in the control loop.
+/// Real-time safe. Exceptions: the constructor, getName and getFrameId.
 class ForceTorqueSensorHandle {
  public:
   ForceTorqueSensorHandle() = default;
@@ -18,10 +18,13 @@ class ForceTorqueSensorHandle {
                           const double* torque)
       : name_(name), frame_id_(frame_id), force_(force), torque_(torque) {}
 
+  /// @name The sensor and its measured values
+  /// @{
   std::string getName() const { return name_; }
   std::string getFrameId() const { return frame_id_; }
   const double* getForce() const { return force_; }
   const double* getTorque() const { return torque_; }
+  /// @}
 
  private:
   std::string name_;

@@ -11,7 +11,7 @@
 namespace hardware_interface {
 
 /// Base of hardware interfaces: the resources that controllers claim exclusively. Claims are made
-/// while controllers are initialised, never in the control loop. Not thread-safe.
+/// while controllers are initialised, never in the control loop. Called by one thread at a time.
 class HardwareInterface {
  public:
   virtual ~HardwareInterface() = default;
@@ -34,6 +34,7 @@ class HardwareInterfaceException : public std::exception {
  public:
   HardwareInterfaceException(const std::string& message) : message_(message) {}
 
+  /// The sentence.
   const char* what() const noexcept override { return message_.c_str(); }
 
  private:

@@ -8,15 +8,15 @@
 
 namespace hardware_interface {
 
-/// Reads one inertial measurement unit. Pointers of missing quantities are null. All but the
-/// constructors, getName and getFrameId are safe in the control loop.
+/// Reads one inertial measurement unit. Pointers of missing quantities are null. Real-time safe.
+/// Exceptions: the constructors, getName and getFrameId.
 class ImuSensorHandle {
  public:
   /// Values that the robot writes, in the sensor's frame. Vectors are (x, y, z); covariances are
   /// 3x3, row by row, as in sensor_msgs/Imu.
   struct Data {
-    std::string name;
-    std::string frame_id;
+    std::string name;                                 ///< of the sensor
+    std::string frame_id;                             ///< in which it measures
     double* orientation{nullptr};                     ///< quaternion (x, y, z, w)
     double* orientation_covariance{nullptr};          ///< [rad^2]
     double* angular_velocity{nullptr};                ///< [rad/s]
@@ -43,6 +43,8 @@ class ImuSensorHandle {
         linear_acceleration_(linear_acceleration),
         linear_acceleration_covariance_(linear_acceleration_covariance) {}
 
+  /// @name The sensor and its values, with the units of Data
+  /// @{
   std::string getName() const { return name_; }
   std::string getFrameId() const { return frame_id_; }
   const double* getOrientation() const { return orientation_; }
@@ -51,6 +53,7 @@ class ImuSensorHandle {
   const double* getAngularVelocityCovariance() const { return angular_velocity_covariance_; }
   const double* getLinearAcceleration() const { return linear_acceleration_; }
   const double* getLinearAccelerationCovariance() const { return linear_acceleration_covariance_; }
+  /// @}
 
  private:
   std::string name_;

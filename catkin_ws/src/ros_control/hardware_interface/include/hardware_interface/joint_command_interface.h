@@ -11,7 +11,7 @@
 namespace hardware_interface {
 
 /// Reads the state of one joint and commands it. Its interface defines meaning and unit of the
-/// command. All but the constructors and getName are safe in the control loop.
+/// command. Real-time safe. Exceptions: the constructors and getName.
 class JointHandle : public JointStateHandle {
  public:
   JointHandle() = default;
@@ -24,14 +24,17 @@ class JointHandle : public JointStateHandle {
     }
   }
 
+  /// Sets the command of this cycle.
   void setCommand(double command) {
     assert(cmd_);
     *cmd_ = command;
   }
+  /// The last command.
   double getCommand() const {
     assert(cmd_);
     return *cmd_;
   }
+  /// The address of the command.
   const double* getCommandPtr() const {
     assert(cmd_);
     return cmd_;

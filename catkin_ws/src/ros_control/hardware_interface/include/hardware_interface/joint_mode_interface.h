@@ -21,8 +21,8 @@ enum class JointCommandModes {
   ERROR = 6
 };
 
-/// Reads and requests the mode of one joint's drive. Setting and getting the mode are safe in the
-/// control loop; the rest allocates.
+/// Reads and requests the mode of one joint's drive. Real-time safe. Exceptions: the constructor,
+/// getName and getModeName.
 class JointModeHandle {
  public:
   JointModeHandle() = default;
@@ -34,16 +34,20 @@ class JointModeHandle {
     }
   }
 
+  /// The name of the joint.
   std::string getName() const { return name_; }
 
+  /// Requests a mode.
   void setMode(JointCommandModes mode) {
     assert(mode_);
     *mode_ = mode;
   }
+  /// The requested mode, or the one that the drive reports.
   JointCommandModes getMode() const {
     assert(mode_);
     return *mode_;
   }
+  /// The address of the mode.
   const JointCommandModes* getModePtr() const {
     assert(mode_);
     return mode_;

@@ -12,7 +12,7 @@ namespace hardware_interface {
 
 /// Reads the state of one joint. It points to values that the robot writes in `read()`; copies
 /// point to the same values. Units: position [rad] or [m], velocity [rad/s] or [m/s], effort [Nm]
-/// or [N]. The getters of position, velocity and effort are safe in the control loop.
+/// or [N]. Real-time safe. Exceptions: the constructors and getName.
 class JointStateHandle {
  public:
   JointStateHandle() = default;
@@ -47,8 +47,11 @@ class JointStateHandle {
     torque_sensor_ = require(torque_sensor, "Torque sensor");
   }
 
+  /// The name of the joint.
   std::string getName() const { return name_; }
 
+  /// @name The measured values
+  /// @{
   double getPosition() const {
     assert(pos_);
     return *pos_;
@@ -61,6 +64,7 @@ class JointStateHandle {
     assert(eff_);
     return *eff_;
   }
+  /// @}
   /// @throws std::runtime_error for joints without an absolute encoder.
   double getAbsolutePosition() const {
     if (!hasAbsolutePosition()) {
@@ -77,9 +81,12 @@ class JointStateHandle {
     return *torque_sensor_;
   }
 
+  /// @name Where the robot writes the measured values
+  /// @{
   const double* getPositionPtr() const { return pos_; }
   const double* getVelocityPtr() const { return vel_; }
   const double* getEffortPtr() const { return eff_; }
+  /// @}
   /// @throws std::runtime_error for joints without an absolute encoder.
   const double* getAbsolutePositionPtr() const {
     if (!hasAbsolutePosition()) {
@@ -96,8 +103,11 @@ class JointStateHandle {
     return torque_sensor_;
   }
 
+  /// @name Whether the joint has these sensors
+  /// @{
   bool hasAbsolutePosition() const { return absolute_pos_ != nullptr; }
   bool hasTorqueSensor() const { return torque_sensor_ != nullptr; }
+  /// @}
 
  private:
   const double* require(const double* data, const char* quantity) const {

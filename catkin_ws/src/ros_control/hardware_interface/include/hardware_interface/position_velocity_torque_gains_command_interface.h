@@ -11,7 +11,7 @@ namespace hardware_interface {
 
 /// A PosVelJointHandle that commands a feed-forward effort ([Nm] or [N]) and the gains of the
 /// joint's own controller as well: kp of the position ([Nm/rad] or [N/m]) and kd of its derivative
-/// ([Nms/rad] or [Ns/m]). All but the constructors and getName are safe in the control loop.
+/// ([Nms/rad] or [Ns/m]). Real-time safe. Exceptions: the constructors and getName.
 class PositionVelocityTorqueGainsJointHandle : public PosVelJointHandle {
  public:
   PositionVelocityTorqueGainsJointHandle() = default;
@@ -25,6 +25,8 @@ class PositionVelocityTorqueGainsJointHandle : public PosVelJointHandle {
         cmd_kp_(require(cmd_kp, "position gain")),
         cmd_kd_(require(cmd_kd, "derivative gain")) {}
 
+  /// @name Sets the commands of this cycle
+  /// @{
   void setCommand(double cmd_pos, double cmd_vel, double cmd_eff, double cmd_kp, double cmd_kd) {
     PosVelJointHandle::setCommand(cmd_pos, cmd_vel);
     setCommandEffort(cmd_eff);
@@ -43,7 +45,10 @@ class PositionVelocityTorqueGainsJointHandle : public PosVelJointHandle {
     assert(cmd_kd_);
     *cmd_kd_ = cmd_kd;
   }
+  /// @}
 
+  /// @name The last commands
+  /// @{
   double getCommandEffort() const {
     assert(cmd_eff_);
     return *cmd_eff_;
@@ -56,6 +61,7 @@ class PositionVelocityTorqueGainsJointHandle : public PosVelJointHandle {
     assert(cmd_kd_);
     return *cmd_kd_;
   }
+  /// @}
 
  private:
   double* require(double* command, const char* quantity) const {

@@ -11,7 +11,7 @@
 namespace hardware_interface {
 
 /// Reads the state of one joint and commands its position ([rad] or [m]) together with its velocity
-/// ([rad/s] or [m/s]). All but the constructors and getName are safe in the control loop.
+/// ([rad/s] or [m/s]). Real-time safe. Exceptions: the constructors and getName.
 class PosVelJointHandle : public JointStateHandle {
  public:
   PosVelJointHandle() = default;
@@ -30,6 +30,8 @@ class PosVelJointHandle : public JointStateHandle {
     }
   }
 
+  /// @name Sets the commands of this cycle
+  /// @{
   void setCommand(double cmd_pos, double cmd_vel) {
     setCommandPosition(cmd_pos);
     setCommandVelocity(cmd_vel);
@@ -42,7 +44,10 @@ class PosVelJointHandle : public JointStateHandle {
     assert(cmd_vel_);
     *cmd_vel_ = cmd_vel;
   }
+  /// @}
 
+  /// @name The last commands, and where they stand
+  /// @{
   double getCommandPosition() const {
     assert(cmd_pos_);
     return *cmd_pos_;
@@ -60,6 +65,7 @@ class PosVelJointHandle : public JointStateHandle {
     assert(cmd_vel_);
     return cmd_vel_;
   }
+  /// @}
 
  private:
   double* cmd_pos_{nullptr};

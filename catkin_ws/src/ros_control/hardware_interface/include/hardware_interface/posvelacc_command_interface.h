@@ -9,8 +9,8 @@
 
 namespace hardware_interface {
 
-/// A PosVelJointHandle that commands the acceleration ([rad/s^2] or [m/s^2]) as well. All but the
-/// constructors and getName are safe in the control loop.
+/// A PosVelJointHandle that commands the acceleration ([rad/s^2] or [m/s^2]) as well.
+/// Real-time safe. Exceptions: the constructors and getName.
 class PosVelAccJointHandle : public PosVelJointHandle {
  public:
   PosVelAccJointHandle() = default;
@@ -25,6 +25,8 @@ class PosVelAccJointHandle : public PosVelJointHandle {
     }
   }
 
+  /// @name Sets the commands of this cycle
+  /// @{
   void setCommand(double cmd_pos, double cmd_vel, double cmd_acc) {
     PosVelJointHandle::setCommand(cmd_pos, cmd_vel);
     setCommandAcceleration(cmd_acc);
@@ -33,7 +35,10 @@ class PosVelAccJointHandle : public PosVelJointHandle {
     assert(cmd_acc_);
     *cmd_acc_ = cmd_acc;
   }
+  /// @}
 
+  /// @name The last command, and where it stands
+  /// @{
   double getCommandAcceleration() const {
     assert(cmd_acc_);
     return *cmd_acc_;
@@ -42,6 +47,7 @@ class PosVelAccJointHandle : public PosVelJointHandle {
     assert(cmd_acc_);
     return cmd_acc_;
   }
+  /// @}
 
  private:
   double* cmd_acc_{nullptr};

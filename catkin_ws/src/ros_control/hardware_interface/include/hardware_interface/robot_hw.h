@@ -18,7 +18,8 @@
 namespace hardware_interface {
 
 /// A robot as controllers see it: a set of hardware interfaces, updated by read() and applied by
-/// write() once per control cycle.
+/// write() once per control cycle. Where the comment of a function carries the real-time note,
+/// every robot's implementation must comply with it.
 class RobotHW : public InterfaceManager {
  public:
   RobotHW() = default;
@@ -63,25 +64,26 @@ class RobotHW : public InterfaceManager {
     return true;
   }
 
-  /// Called once at the start of a switch, in the control loop: must be real-time safe.
+  /// Called by the control loop once, at the start of a switch. Real-time safe.
   virtual void doSwitch(const std::list<ControllerInfo>& /*start_list*/,
                         const std::list<ControllerInfo>& /*stop_list*/) {}
 
+  /// Progress of a switch of controllers.
   enum class SwitchState { DONE, ONGOING, ERROR };
 
-  /// Progress of the switch for all controllers. In the control loop: must be real-time safe.
+  /// Progress of the switch for all controllers. Called by the control loop. Real-time safe.
   virtual SwitchState switchResult() const { return SwitchState::DONE; }
 
-  /// Progress of the switch for one controller. In the control loop: must be real-time safe.
+  /// Progress of the switch for one controller. Called by the control loop. Real-time safe.
   virtual SwitchState switchResult(const ControllerInfo& /*controller*/) const {
     return SwitchState::DONE;
   }
 
-  /// Reads the robot's state. In the control loop: must be real-time safe.
+  /// Reads the robot's state. Called by the control loop. Real-time safe.
   /// @param time of this cycle @param period since the one before
   virtual void read(const ros::Time& /*time*/, const ros::Duration& /*period*/) {}
 
-  /// Sends the controllers' commands. In the control loop: must be real-time safe.
+  /// Sends the controllers' commands. Called by the control loop. Real-time safe.
   /// @param time of this cycle @param period since the one before
   virtual void write(const ros::Time& /*time*/, const ros::Duration& /*period*/) {}
 };

@@ -14,12 +14,12 @@ struct JointLimits {
   double max_jerk{0.0};          ///< [rad/s^3]
   double max_effort{0.0};        ///< [Nm]
 
-  bool has_position_limits{false};
-  bool has_velocity_limits{false};
-  bool has_acceleration_limits{false};
-  bool has_jerk_limits{false};
-  bool has_effort_limits{false};
-  bool angle_wraparound{false};  ///< continuous
+  bool has_position_limits{false};      ///< of positions
+  bool has_velocity_limits{false};      ///< of the velocity
+  bool has_acceleration_limits{false};  ///< of the acceleration
+  bool has_jerk_limits{false};          ///< of the jerk
+  bool has_effort_limits{false};        ///< of the effort
+  bool angle_wraparound{false};         ///< continuous
 };
 
 /// Limits that act before the hard ones: velocity springs around the position limits and effort

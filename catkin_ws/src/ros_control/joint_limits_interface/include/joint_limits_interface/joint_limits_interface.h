@@ -31,7 +31,7 @@ class JointLimitsInterface : public hardware_interface::ResourceManager<HandleTy
     }
   }
 
-  /// Enforces the limits of all joints, in the order of their names. Safe in the control loop.
+  /// Enforces the limits of all joints, in the order of their names. Real-time safe.
   /// @param period since the previous commands [s]
   void enforceLimits(const ros::Duration& period) {
     for (auto& resource : this->resource_map_) {
@@ -44,8 +44,8 @@ class JointLimitsInterface : public hardware_interface::ResourceManager<HandleTy
 template <class HandleType>
 class PositionLimitsInterface : public JointLimitsInterface<HandleType> {
  public:
-  /// Resets the previous commands of all joints. Call it when controllers are switched. Safe in the
-  /// control loop.
+  /// Resets the previous commands of all joints. Call it when controllers are switched.
+  /// Real-time safe.
   void reset() {
     for (auto& resource : this->resource_map_) {
       resource.second.reset();
@@ -53,14 +53,20 @@ class PositionLimitsInterface : public JointLimitsInterface<HandleType> {
   }
 };
 
+/// Keeps commanded positions within the limits of the joints.
 class PositionJointSaturationInterface
     : public PositionLimitsInterface<PositionJointSaturationHandle> {};
+/// Keeps commanded positions within the soft limits of the joints.
 class PositionJointSoftLimitsInterface
     : public PositionLimitsInterface<PositionJointSoftLimitsHandle> {};
+/// Keeps commanded efforts within the limits of the joints.
 class EffortJointSaturationInterface : public JointLimitsInterface<EffortJointSaturationHandle> {};
+/// Keeps commanded efforts within the soft limits of the joints.
 class EffortJointSoftLimitsInterface : public JointLimitsInterface<EffortJointSoftLimitsHandle> {};
+/// Keeps commanded velocities within the limits of the joints.
 class VelocityJointSaturationInterface
     : public JointLimitsInterface<VelocityJointSaturationHandle> {};
+/// Keeps commanded velocities within the soft limits of the joints.
 class VelocityJointSoftLimitsInterface
     : public JointLimitsInterface<VelocityJointSoftLimitsHandle> {};
 

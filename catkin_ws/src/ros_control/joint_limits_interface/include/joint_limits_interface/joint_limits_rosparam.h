@@ -91,7 +91,7 @@ inline bool openLimits(const std::string& joint_name, const ros::NodeHandle& nh,
 
 /// Reads limits from the parameters `joint_limits/<joint_name>/...` of `nh`. Each kind (position,
 /// velocity, acceleration, jerk, effort) without the flag `has_<kind>_limits` is unchanged, so
-/// parameters can override a URDF in part. Accesses the parameter server: not for the control loop.
+/// parameters can override a URDF in part. Accesses the parameter server. Not real-time safe.
 /// @returns false, with `limits` unchanged, without such parameters.
 inline bool getJointLimits(const std::string& joint_name, const ros::NodeHandle& nh,
                            JointLimits& limits) {
@@ -121,8 +121,8 @@ inline bool getJointLimits(const std::string& joint_name, const ros::NodeHandle&
 
 /// Reads soft limits from the parameters `joint_limits/<joint_name>/...` of `nh`: has_soft_limits
 /// (true), k_position, k_velocity, soft_lower_limit and soft_upper_limit. Accesses the parameter
-/// server: not for the control loop. @returns false, with `soft_limits` unchanged, unless all of
-/// them are set.
+/// server. Not real-time safe. @returns false, with `soft_limits` unchanged, unless all of them are
+/// set.
 inline bool getSoftJointLimits(const std::string& joint_name, const ros::NodeHandle& nh,
                                SoftJointLimits& soft_limits) {
   ros::NodeHandle limits_nh;

@@ -26,7 +26,7 @@ namespace joint_state_controller {
 /// The first update publishes; later ones keep the rate if the loop can follow it, and restart it
 /// after a delay or a jump back in time.
 ///
-/// Threads: update() and starting() run in the control loop and are real-time safe.
+/// The control loop calls starting(), update() and stopping(). Real-time safe.
 class JointStateController
     : public controller_interface::Controller<hardware_interface::JointStateInterface> {
  public:

@@ -10,7 +10,8 @@ namespace joint_trajectory_controller {
 namespace internal {
 
 /// Sets a segment of zero length, at rest. @param[in,out] state with one position, velocity and
-/// acceleration; gets the position. Real-time safe if the segment had the same size before.
+/// acceleration; gets the position. Real-time safe. Exception: a segment that had another size
+/// before.
 template <class Segment>
 void setHold(const typename Segment::Time& time, const typename Segment::Scalar& position,
              typename Segment::State& state, Segment& segment) {
@@ -29,7 +30,7 @@ class HoldTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
   typedef typename TrajectoryBuilder<SegmentImpl>::Segment Segment;
   typedef typename TrajectoryBuilder<SegmentImpl>::Trajectory Trajectory;
   typedef typename TrajectoryBuilder<SegmentImpl>::RealtimeGoalHandlePtr RealtimeGoalHandlePtr;
-  typedef typename HardwareInterface::ResourceHandleType JointHandle;
+  typedef typename HardwareInterface::ResourceHandleType JointHandle;  ///< of the interface
 
   /// @param joints must outlive the builder.
   HoldTrajectoryBuilder(const std::vector<JointHandle>& joints) : joints_(joints), state_(1) {}

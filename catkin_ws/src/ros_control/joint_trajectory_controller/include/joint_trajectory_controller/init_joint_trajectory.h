@@ -21,9 +21,9 @@ namespace joint_trajectory_controller {
 /// @tparam Trajectory a vector (joints) of vectors (time) of segments of one joint
 template <class Trajectory>
 struct InitJointTrajectoryOptions {
-  typedef typename Trajectory::value_type TrajectoryPerJoint;
-  typedef typename TrajectoryPerJoint::value_type Segment;
-  typedef typename Segment::Scalar Scalar;
+  typedef typename Trajectory::value_type TrajectoryPerJoint;  ///< of one joint
+  typedef typename TrajectoryPerJoint::value_type Segment;     ///< a part of it
+  typedef typename Segment::Scalar Scalar;                     ///< of positions
   typedef typename Segment::RealtimeGoalHandlePtr RealtimeGoalHandlePtr;
 
   Trajectory* current_trajectory{nullptr};                 ///< continued by the message
@@ -31,10 +31,11 @@ struct InitJointTrajectoryOptions {
   std::vector<bool>* angle_wraparound{nullptr};            ///< which joints are continuous
   RealtimeGoalHandlePtr rt_goal_handle;                    ///< goal of the new segments
   SegmentTolerances<Scalar>* default_tolerances{nullptr};  ///< defaults for the goal
-  ros::Time* other_time_base{nullptr};  ///< `time` in the time base of the trajectories
-  bool allow_partial_joints_goal{false};
-  std::string* error_string{nullptr};  ///< gets the reason for an empty result
+  ros::Time* other_time_base{nullptr};    ///< `time` in the time base of the trajectories
+  bool allow_partial_joints_goal{false};  ///< goals for some joints
+  std::string* error_string{nullptr};     ///< gets the reason for an empty result
 
+  /// Sets the reason, if the caller takes it.
   void setErrorString(const std::string& text) const {
     if (error_string != nullptr) {
       *error_string = text;

@@ -40,12 +40,12 @@ constexpr std::size_t kReasonCapacity = 512;
 /// Topics: `command` (in), `state` (out); action `follow_joint_trajectory`; service `query_state`;
 /// all in the controller's namespace. [rad] or [m], and their derivatives.
 ///
-/// The control loop calls update(), starting(), stopping(), waiting() and aborting(): they neither
-/// allocate nor lock. All others run in callbacks under one mutex that the loop never takes;
-/// commands are passed to the loop through a CommandExchange and the loop's state comes back as a
-/// Snapshot. When the loop overrides a command (it starts, or holds after a violated tolerance) it
-/// increments an *epoch*; a command computed for an earlier epoch is not followed but computed
-/// again, so that motions always start at the robot's position.
+/// The control loop calls update(), starting(), stopping(), waiting() and aborting().
+/// Real-time safe. All others run in callbacks under one mutex that the loop never takes; commands
+/// are passed to the loop through a CommandExchange and the loop's state comes back as a Snapshot.
+/// When the loop overrides a command (it starts, or holds after a violated tolerance) it increments
+/// an *epoch*; a command computed for an earlier epoch is not followed but computed again, so that
+/// motions always start at the robot's position.
 ///
 /// @tparam SegmentImpl such as trajectory_interface::QuinticSplineSegment<double>
 /// @tparam HardwareInterface one with a HardwareInterfaceAdapter
@@ -97,7 +97,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   /// points means hold.
   /// @param gh its goal, or null. Its preallocated result gets the end of the goal.
   /// @param[out] error_string why it was refused; may be null
-  /// @returns whether it was accepted. Thread-safe, not real-time safe.
+  /// @returns whether it was accepted. Thread-safe. Not real-time safe.
   virtual bool updateTrajectoryCommand(const JointTrajectoryConstPtr& msg, RealtimeGoalHandlePtr gh,
                                        std::string* error_string = nullptr);
   virtual void trajectoryCommandCB(const JointTrajectoryConstPtr& msg);

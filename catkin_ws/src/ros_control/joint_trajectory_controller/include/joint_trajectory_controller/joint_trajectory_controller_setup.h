@@ -8,6 +8,7 @@
 #include <urdf/model.h>
 
 #include <cmath>
+#include <exception>
 #include <set>
 
 namespace joint_trajectory_controller {
@@ -82,9 +83,11 @@ JointTrajectoryController<SegmentImpl, HardwareInterface>::~JointTrajectoryContr
   monitor_timer_.stop();
   trajectory_command_sub_.shutdown();
   query_state_service_.shutdown();
-  {
+  try {
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
     cancelActiveGoal("The controller '" + name_ + "' was unloaded.");
+  } catch (const std::exception& error) {
+    ROS_ERROR_STREAM("The end of a goal of '" << name_ << "' cannot be reported. " << error.what());
   }
   action_server_.reset();
   delete command_;

@@ -21,14 +21,15 @@ namespace joint_trajectory_controller {
 template <class Segment>
 class JointTrajectorySegment : public Segment {
  public:
-  typedef typename Segment::Scalar Scalar;
-  typedef typename Segment::Time Time;
+  typedef typename Segment::Scalar Scalar;  ///< of positions
+  typedef typename Segment::Time Time;      ///< [s]
   typedef realtime_tools::RealtimeServerGoalHandle<control_msgs::FollowJointTrajectoryAction>
       RealtimeGoalHandle;
   typedef boost::shared_ptr<RealtimeGoalHandle> RealtimeGoalHandlePtr;
 
+  /// A state of the joints, made from a point of a message.
   struct State : public Segment::State {
-    typedef typename Segment::State::Scalar Scalar;
+    typedef typename Segment::State::Scalar Scalar;  ///< of positions
     State() = default;
     State(unsigned int size) : Segment::State(size) {}
     /// Like init().
@@ -79,15 +80,20 @@ class JointTrajectorySegment : public Segment {
                 Time((traj_start_time + end_point.time_from_start).toSec()),
                 State(end_point, position_offset)) {}
 
+  /// The goal that the segment belongs to.
   RealtimeGoalHandlePtr getGoalHandle() const { return goal_handle_; }
   /// The same without shared ownership, for the control loop.
   RealtimeGoalHandle* goalHandle() const noexcept { return goal_handle_.get(); }
+  /// Sets the goal that the segment belongs to.
   void setGoalHandle(const RealtimeGoalHandlePtr& goal_handle) { goal_handle_ = goal_handle; }
 
+  /// @name The tolerances of the segment
+  /// @{
   const SegmentTolerancesPerJoint<Scalar>& getTolerances() const { return tolerances_; }
   void setTolerances(const SegmentTolerancesPerJoint<Scalar>& tolerances) {
     tolerances_ = tolerances;
   }
+  /// @}
 
  private:
   RealtimeGoalHandlePtr goal_handle_;

@@ -15,7 +15,7 @@ class StopTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
   typedef typename TrajectoryBuilder<SegmentImpl>::Trajectory Trajectory;
   typedef typename TrajectoryBuilder<SegmentImpl>::Time Time;
   typedef typename TrajectoryBuilder<SegmentImpl>::RealtimeGoalHandlePtr RealtimeGoalHandlePtr;
-  typedef typename Segment::State State;
+  typedef typename Segment::State State;  ///< of a joint
 
   /// @param stop_trajectory_duration until rest [s], above 0
   /// @param desired_state start state, with a position and a velocity for each joint; it must

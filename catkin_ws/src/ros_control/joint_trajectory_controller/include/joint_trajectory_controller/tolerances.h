@@ -25,9 +25,9 @@ struct StateTolerances {
         velocity(velocity_tolerance),
         acceleration(acceleration_tolerance) {}
 
-  Scalar position;
-  Scalar velocity;
-  Scalar acceleration;
+  Scalar position;      ///< [rad] or [m]; 0: any
+  Scalar velocity;      ///< of its derivative; 0: any
+  Scalar acceleration;  ///< of the second derivative; 0: any
 };
 
 /// Tolerances of a controller: on the path, at the goal, and the time allowed after the end to meet
@@ -39,7 +39,7 @@ struct SegmentTolerances {
 
   std::vector<StateTolerances<Scalar>> state_tolerance;
   std::vector<StateTolerances<Scalar>> goal_state_tolerance;
-  Scalar goal_time_tolerance{0};
+  Scalar goal_time_tolerance{0};  ///< [s]; 0: any
 };
 
 /// The same for one joint.
@@ -47,7 +47,7 @@ template <class Scalar>
 struct SegmentTolerancesPerJoint {
   StateTolerances<Scalar> state_tolerance;
   StateTolerances<Scalar> goal_state_tolerance;
-  Scalar goal_time_tolerance{0};
+  Scalar goal_time_tolerance{0};  ///< [s]; 0: any
 };
 
 namespace internal {
@@ -69,7 +69,7 @@ bool isWithinTolerance(const State& error, std::size_t joint,
          internal::isWithin(error.acceleration, joint, tolerance.acceleration);
 }
 
-/// Whether the error of a single joint is within the tolerances. Real-time safe without
+/// Whether the error of a single joint is within the tolerances. Real-time safe. Exception:
 /// `show_errors`, which logs a violation.
 template <class State>
 bool checkStateTolerancePerJoint(const State& state_error,

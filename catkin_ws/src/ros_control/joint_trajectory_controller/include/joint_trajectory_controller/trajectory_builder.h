@@ -18,8 +18,8 @@ class TrajectoryBuilder {
   typedef JointTrajectorySegment<SegmentImpl> Segment;
   typedef std::vector<Segment> TrajectoryPerJoint;
   typedef std::vector<TrajectoryPerJoint> Trajectory;
-  typedef typename Segment::Time Time;
-  typedef typename Segment::RealtimeGoalHandle RealtimeGoalHandle;
+  typedef typename Segment::Time Time;                              ///< [s]
+  typedef typename Segment::RealtimeGoalHandle RealtimeGoalHandle;  ///< of the goal that it serves
   typedef typename Segment::RealtimeGoalHandlePtr RealtimeGoalHandlePtr;
 
   virtual ~TrajectoryBuilder() = default;
@@ -40,8 +40,8 @@ class TrajectoryBuilder {
     goal_handle_ = boost::none;
   }
 
-  /// Overwrites a trajectory. Real-time safe if the same builder built it before. @returns false,
-  /// without changes, if it is null or no start time is set.
+  /// Overwrites a trajectory. Real-time safe. Exception: a trajectory that another builder built
+  /// before. @returns false, without changes, if it is null or no start time is set.
   virtual bool buildTrajectory(Trajectory* trajectory) = 0;
 
  protected:

@@ -11,7 +11,7 @@ namespace trajectory_interface {
 /// @tparam ScalarType a floating point type
 template <class ScalarType>
 struct PosVelAccState {
-  typedef ScalarType Scalar;
+  typedef ScalarType Scalar;  ///< of positions
 
   PosVelAccState() = default;
   /// All quantities specified, all zero.

@@ -16,13 +16,12 @@ namespace trajectory_interface {
 /// given at both ends, cubic with velocities, quintic with accelerations as well. Before its start
 /// and after its end the state is that of the nearer end, at rest.
 ///
-/// Real-time safe once the sizes have been used: sample(), and init() for the same number of
-/// degrees of freedom, unless it throws.
+/// Real-time safe. Exceptions: sizes other than in the call before, and init() when it throws.
 template <class ScalarType>
 class QuinticSplineSegment {
  public:
-  typedef ScalarType Scalar;
-  typedef Scalar Time;
+  typedef ScalarType Scalar;  ///< of positions
+  typedef Scalar Time;        ///< [s]
   typedef PosVelAccState<Scalar> State;
 
   QuinticSplineSegment() = default;
@@ -77,8 +76,11 @@ class QuinticSplineSegment {
     }
   }
 
+  /// @name When the segment begins and ends
+  /// @{
   Time startTime() const { return start_time_; }
   Time endTime() const { return end_time_; }
+  /// @}
   /// Number of degrees of freedom.
   unsigned int size() const { return static_cast<unsigned int>(coefficients_.size()); }
 

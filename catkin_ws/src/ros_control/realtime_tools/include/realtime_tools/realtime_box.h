@@ -10,7 +10,7 @@ namespace realtime_tools {
 
 /// A value guarded by a mutex, for threads that may wait for each other during a copy.
 ///
-/// Thread-safe. Not real-time safe: both sides lock; a 1 kHz loop uses RealtimeBuffer.
+/// Thread-safe. Not real-time safe. Both sides lock; a control loop uses RealtimeBuffer.
 ///
 /// @tparam T copyable.
 template <class T>

@@ -17,10 +17,9 @@ namespace realtime_tools {
 /// and one is in between; each side exchanges its copy with that one in a single atomic step. So
 /// readFromRT() always succeeds at once and never sees a half-written value.
 ///
-/// Threads: readFromRT() and initRT() one real-time thread; all others any other thread. Real-time
-/// safe: readFromRT() (wait-free), initRT() (if assigning a T is). Not real-time safe:
-/// writeFromNonRT(), readFromNonRT(), copying; they take a mutex that the real-time thread never
-/// uses.
+/// One real-time thread calls readFromRT() and initRT(); any other thread calls the rest, which
+/// takes a mutex that the real-time thread never uses. Assigning a T must neither allocate nor
+/// lock.
 ///
 /// @tparam T copyable; default-constructible only if the buffer is default-constructed.
 template <class T>
@@ -39,21 +38,22 @@ class RealtimeBuffer {
   }
   ~RealtimeBuffer() = default;
 
-  /// The newest value. It belongs to the real-time thread, which may also write through the
-  /// pointer, until its next call; without a new value it returns the same pointer.
+  /// The newest value, without waiting. Real-time safe. It belongs to the real-time thread, which
+  /// may also write through the pointer, until its next call; without a new value it returns the
+  /// same pointer.
   T* readFromRT() noexcept {
     takeFresh();
     return &slots_[real_time_];
   }
 
   /// The last value of writeFromNonRT(), initRT() or the constructor; valid until the next of these
-  /// calls. Excludes changes by the real-time thread through its pointer.
+  /// calls. Excludes changes by the real-time thread through its pointer. Not real-time safe.
   T* readFromNonRT() const {
     std::lock_guard<std::mutex> lock(mutex_);
     return &latest_;
   }
 
-  /// Replaces the value; the real-time thread gets it in its next readFromRT().
+  /// Replaces the value; the real-time thread gets it in its next readFromRT(). Not real-time safe.
   void writeFromNonRT(const T& data) {
     std::lock_guard<std::mutex> lock(mutex_);
     const LatestGuard guard(latest_busy_);
@@ -63,7 +63,7 @@ class RealtimeBuffer {
   }
 
   /// Sets the value from the real-time thread, as controllers do in starting(), or from any thread
-  /// before others use the buffer. A simultaneous write counts as the later one.
+  /// before others use the buffer. A simultaneous write counts as the later one. Real-time safe.
   void initRT(const T& data) {
     if (latest_busy_.test_and_set(std::memory_order_acquire)) {
       slots_[real_time_] = data;

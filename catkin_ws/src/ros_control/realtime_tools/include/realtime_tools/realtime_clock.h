@@ -33,7 +33,7 @@ class RealtimeClock {
   ///
   /// @param realtime_time of the loop, increasing from call to call.
   /// @return realtime_time plus the estimated difference of the clocks; realtime_time itself until
-  /// the first sample, or if the sum is no valid time.
+  /// the first sample, or if the sum is not a valid time.
   ros::Time getSystemTime(const ros::Time& realtime_time);
 
   /// The body of the thread, public as in the original; not for callers.

@@ -15,9 +15,8 @@ namespace realtime_tools {
 /// Lets a real-time thread end an action's goal and give feedback: it stores the request, and a
 /// timer outside the loop executes it.
 ///
-/// Threads: setAborted(), setCanceled(), setSucceeded() and setFeedback() are for one real-time
-/// thread and real-time safe: no lock, no system call, no allocation. runNonRealtime() is for one
-/// other thread; both may run at the same time.
+/// One real-time thread calls setAborted(), setCanceled(), setSucceeded() and setFeedback(); one
+/// other thread calls runNonRealtime(). Both may run at the same time.
 ///
 /// Messages passed in must stay alive elsewhere: the preallocated ones do, as long as this object.
 /// A preallocated result must be filled before it is passed, and not changed afterwards.
@@ -31,9 +30,9 @@ class RealtimeServerGoalHandle {
  public:
   typedef actionlib::ServerGoalHandle<Action> GoalHandle;
 
-  GoalHandle gh_;
-  ResultPtr preallocated_result_;
-  FeedbackPtr preallocated_feedback_;
+  GoalHandle gh_;                      ///< of actionlib
+  ResultPtr preallocated_result_;      ///< sent at the end
+  FeedbackPtr preallocated_feedback_;  ///< sent meanwhile
 
   /// @param gh the goal. @param preallocated_result and @param preallocated_feedback messages to
   /// use; each is allocated here if it is null. Not real-time safe.
@@ -48,14 +47,16 @@ class RealtimeServerGoalHandle {
   RealtimeServerGoalHandle& operator=(const RealtimeServerGoalHandle&) = delete;
 
   /// Requests an end of the goal. The first request of the three counts, later ones are ignored.
-  /// @param result to send; none if null.
+  /// Real-time safe. @param result to send; none if null.
   void setAborted(ResultConstPtr result = ResultConstPtr()) { request(End::kAborted, result); }
+  /// The same for a goal that was cancelled. Real-time safe.
   void setCanceled(ResultConstPtr result = ResultConstPtr()) { request(End::kCanceled, result); }
+  /// The same for a goal that was reached. Real-time safe.
   void setSucceeded(ResultConstPtr result = ResultConstPtr()) { request(End::kSucceeded, result); }
 
   /// Sets the feedback that every runNonRealtime() sends while the goal is active. If the timer is
   /// just reading the previous one, this one is dropped; the preallocated feedback may be filled
-  /// and passed in every cycle.
+  /// and passed in every cycle. Real-time safe.
   void setFeedback(FeedbackConstPtr feedback = FeedbackConstPtr()) {
     if (feedback_busy_.test_and_set(std::memory_order_acquire)) {
       return;

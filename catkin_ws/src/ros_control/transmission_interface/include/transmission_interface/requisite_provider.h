@@ -20,52 +20,53 @@ namespace transmission_interface {
 
 /// The values of one joint; NaN until written. Units: [rad] or [m], [rad/s] or [m/s], [Nm] or [N].
 struct RawJointData {
-  double position{std::numeric_limits<double>::quiet_NaN()};
-  double velocity{std::numeric_limits<double>::quiet_NaN()};
-  double effort{std::numeric_limits<double>::quiet_NaN()};
-  double position_cmd{std::numeric_limits<double>::quiet_NaN()};
-  double velocity_cmd{std::numeric_limits<double>::quiet_NaN()};
-  double effort_cmd{std::numeric_limits<double>::quiet_NaN()};
-  double absolute_position{std::numeric_limits<double>::quiet_NaN()};
-  double torque_sensor{std::numeric_limits<double>::quiet_NaN()};
-  bool hasAbsolutePosition{false};
-  bool hasTorqueSensor{false};
+  double position{std::numeric_limits<double>::quiet_NaN()};           ///< [rad] or [m]
+  double velocity{std::numeric_limits<double>::quiet_NaN()};           ///< [rad/s] or [m/s]
+  double effort{std::numeric_limits<double>::quiet_NaN()};             ///< [Nm] or [N]
+  double position_cmd{std::numeric_limits<double>::quiet_NaN()};       ///< [rad] or [m]
+  double velocity_cmd{std::numeric_limits<double>::quiet_NaN()};       ///< [rad/s] or [m/s]
+  double effort_cmd{std::numeric_limits<double>::quiet_NaN()};         ///< [Nm] or [N]
+  double absolute_position{std::numeric_limits<double>::quiet_NaN()};  ///< [rad] or [m]
+  double torque_sensor{std::numeric_limits<double>::quiet_NaN()};      ///< [Nm]
+  bool hasAbsolutePosition{false};  ///< whether it has this sensor
+  bool hasTorqueSensor{false};      ///< whether it has this sensor
 };
 
+/// Data of joints by their names.
 typedef std::map<std::string, RawJointData> RawJointDataMap;
 
 /// Interfaces of joints, for robots without one of that type.
 struct JointInterfaces {
-  hardware_interface::JointStateInterface joint_state_interface;
-  hardware_interface::PositionJointInterface position_joint_interface;
-  hardware_interface::VelocityJointInterface velocity_joint_interface;
-  hardware_interface::EffortJointInterface effort_joint_interface;
+  hardware_interface::JointStateInterface joint_state_interface;        ///< states
+  hardware_interface::PositionJointInterface position_joint_interface;  ///< position commands
+  hardware_interface::VelocityJointInterface velocity_joint_interface;  ///< velocity commands
+  hardware_interface::EffortJointInterface effort_joint_interface;      ///< effort commands
 };
 
 /// From actuator states to joints, and from joint commands to actuators.
 struct ForwardTransmissionInterfaces {
-  ActuatorToJointStateInterface act_to_jnt_state;
-  JointToActuatorPositionInterface jnt_to_act_pos_cmd;
-  JointToActuatorVelocityInterface jnt_to_act_vel_cmd;
-  JointToActuatorEffortInterface jnt_to_act_eff_cmd;
+  ActuatorToJointStateInterface act_to_jnt_state;       ///< states
+  JointToActuatorPositionInterface jnt_to_act_pos_cmd;  ///< positions
+  JointToActuatorVelocityInterface jnt_to_act_vel_cmd;  ///< velocities
+  JointToActuatorEffortInterface jnt_to_act_eff_cmd;    ///< efforts
 };
 
 /// The opposite, for simulations that move joints instead of actuators.
 struct InverseTransmissionInterfaces {
-  JointToActuatorStateInterface jnt_to_act_state;
-  ActuatorToJointPositionInterface act_to_jnt_pos_cmd;
-  ActuatorToJointVelocityInterface act_to_jnt_vel_cmd;
-  ActuatorToJointEffortInterface act_to_jnt_eff_cmd;
+  JointToActuatorStateInterface jnt_to_act_state;       ///< states
+  ActuatorToJointPositionInterface act_to_jnt_pos_cmd;  ///< positions
+  ActuatorToJointVelocityInterface act_to_jnt_vel_cmd;  ///< velocities
+  ActuatorToJointEffortInterface act_to_jnt_eff_cmd;    ///< efforts
 };
 
 /// All results of a TransmissionInterfaceLoader. Addresses are stable.
 struct TransmissionLoaderData {
-  hardware_interface::RobotHW* robot_hw{nullptr};
-  RobotTransmissions* robot_transmissions{nullptr};
-  JointInterfaces joint_interfaces;
-  RawJointDataMap raw_joint_data_map;
-  ForwardTransmissionInterfaces forward_transmission_interfaces;
-  InverseTransmissionInterfaces inverse_transmission_interfaces;
+  hardware_interface::RobotHW* robot_hw{nullptr};                 ///< whose resources are used
+  RobotTransmissions* robot_transmissions{nullptr};               ///< by their interfaces
+  JointInterfaces joint_interfaces;                               ///< of the joints
+  RawJointDataMap raw_joint_data_map;                             ///< of the joints
+  ForwardTransmissionInterfaces forward_transmission_interfaces;  ///< of the actuators
+  InverseTransmissionInterfaces inverse_transmission_interfaces;  ///< of the joints
   /// In the order of loading, once for each interface of its joints.
   std::vector<TransmissionSharedPtr> transmission_data;
 };

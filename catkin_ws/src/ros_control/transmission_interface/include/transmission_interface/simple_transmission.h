@@ -60,7 +60,9 @@ class SimpleTransmission : public Transmission {
   bool hasActuatorToJointAbsolutePosition() const override { return true; }
   bool hasActuatorToJointTorqueSensor() const override { return true; }
 
+  /// Turns of the actuator for one of the joint.
   double getActuatorReduction() const { return reduction_; }
+  /// Position of the joint where that of the actuator is zero [rad] or [m].
   double getJointOffset() const { return joint_offset_; }
 
  private:

@@ -30,6 +30,7 @@ class ActuatorToJointStateHandle : public TransmissionHandle {
                           !actuator_data.torque_sensor.empty() && !joint_data.torque_sensor.empty();
   }
 
+  /// Maps the present values. Real-time safe.
   void propagate() {
     transmission_->actuatorToJointPosition(actuator_data_, joint_data_);
     transmission_->actuatorToJointVelocity(actuator_data_, joint_data_);
@@ -58,6 +59,7 @@ class JointToActuatorStateHandle : public TransmissionHandle {
     require(actuator_data.effort, joint_data.effort, "efforts");
   }
 
+  /// Maps the present values. Real-time safe.
   void propagate() {
     transmission_->jointToActuatorPosition(joint_data_, actuator_data_);
     transmission_->jointToActuatorVelocity(joint_data_, actuator_data_);
@@ -74,6 +76,7 @@ class ActuatorToJointPositionHandle : public TransmissionHandle {
     require(actuator_data.position, joint_data.position, "positions");
   }
 
+  /// Maps the present values. Real-time safe.
   void propagate() { transmission_->actuatorToJointPosition(actuator_data_, joint_data_); }
 };
 
@@ -86,6 +89,7 @@ class ActuatorToJointVelocityHandle : public TransmissionHandle {
     require(actuator_data.velocity, joint_data.velocity, "velocities");
   }
 
+  /// Maps the present values. Real-time safe.
   void propagate() { transmission_->actuatorToJointVelocity(actuator_data_, joint_data_); }
 };
 
@@ -98,6 +102,7 @@ class ActuatorToJointEffortHandle : public TransmissionHandle {
     require(actuator_data.effort, joint_data.effort, "efforts");
   }
 
+  /// Maps the present values. Real-time safe.
   void propagate() { transmission_->actuatorToJointEffort(actuator_data_, joint_data_); }
 };
 
@@ -110,6 +115,7 @@ class JointToActuatorPositionHandle : public TransmissionHandle {
     require(actuator_data.position, joint_data.position, "positions");
   }
 
+  /// Maps the present values. Real-time safe.
   void propagate() { transmission_->jointToActuatorPosition(joint_data_, actuator_data_); }
 };
 
@@ -122,6 +128,7 @@ class JointToActuatorVelocityHandle : public TransmissionHandle {
     require(actuator_data.velocity, joint_data.velocity, "velocities");
   }
 
+  /// Maps the present values. Real-time safe.
   void propagate() { transmission_->jointToActuatorVelocity(joint_data_, actuator_data_); }
 };
 
@@ -134,15 +141,17 @@ class JointToActuatorEffortHandle : public TransmissionHandle {
     require(actuator_data.effort, joint_data.effort, "efforts");
   }
 
+  /// Maps the present values. Real-time safe.
   void propagate() { transmission_->jointToActuatorEffort(joint_data_, actuator_data_); }
 };
 
-/// Handles of one kind for a robot's transmissions. Filled at start-up; not thread-safe.
+/// Handles of one kind for a robot's transmissions. Filled at start-up. Called by one thread at a
+/// time.
 /// @tparam HandleType one of the handles above
 template <class HandleType>
 class TransmissionInterface : public hardware_interface::ResourceManager<HandleType> {
  public:
-  typedef HandleType ResourceHandleType;
+  typedef HandleType ResourceHandleType;  ///< of its resources
 
   /// A copy of the named handle.
   /// @throws TransmissionInterfaceException for an unknown name.
@@ -154,7 +163,7 @@ class TransmissionInterface : public hardware_interface::ResourceManager<HandleT
     }
   }
 
-  /// Maps all handles, in the order of their names. Safe in the control loop.
+  /// Maps all handles, in the order of their names. Real-time safe.
   void propagate() {
     for (auto& resource : this->resource_map_) {
       resource.second.propagate();
@@ -164,17 +173,25 @@ class TransmissionInterface : public hardware_interface::ResourceManager<HandleT
 
 // A robot propagates the states of its actuators to the joints after it has read them, and the
 // commands of its joints to the actuators before it writes them; a simulation does the opposite.
+/// Maps states of actuators to the joints.
 class ActuatorToJointStateInterface : public TransmissionInterface<ActuatorToJointStateHandle> {};
+/// Maps positions of actuators to the joints.
 class ActuatorToJointPositionInterface
     : public TransmissionInterface<ActuatorToJointPositionHandle> {};
+/// Maps velocities of actuators to the joints.
 class ActuatorToJointVelocityInterface
     : public TransmissionInterface<ActuatorToJointVelocityHandle> {};
+/// Maps efforts of actuators to the joints.
 class ActuatorToJointEffortInterface : public TransmissionInterface<ActuatorToJointEffortHandle> {};
+/// Maps states of joints to the actuators.
 class JointToActuatorStateInterface : public TransmissionInterface<JointToActuatorStateHandle> {};
+/// Maps positions of joints to the actuators.
 class JointToActuatorPositionInterface
     : public TransmissionInterface<JointToActuatorPositionHandle> {};
+/// Maps velocities of joints to the actuators.
 class JointToActuatorVelocityInterface
     : public TransmissionInterface<JointToActuatorVelocityHandle> {};
+/// Maps efforts of joints to the actuators.
 class JointToActuatorEffortInterface : public TransmissionInterface<JointToActuatorEffortHandle> {};
 
 }  // namespace transmission_interface

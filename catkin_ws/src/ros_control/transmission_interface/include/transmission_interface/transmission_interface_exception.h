@@ -12,6 +12,7 @@ class TransmissionInterfaceException : public std::exception {
  public:
   TransmissionInterfaceException(const std::string& message) : message_(message) {}
 
+  /// The sentence.
   const char* what() const noexcept override { return message_.c_str(); }
 
  private:

@@ -21,8 +21,8 @@ namespace transmission_interface {
 /// robot's transmissions. The robot must have registered its actuators before.
 ///
 /// Types of transmissions are plugins of base TransmissionLoader, interfaces of joints are plugins
-/// of base RequisiteProvider. The loader owns all results and must outlive their use. For start-up:
-/// not thread-safe, not for the control loop.
+/// of base RequisiteProvider. The loader owns all results and must outlive their use. For start-up.
+/// Called by one thread at a time. Not real-time safe.
 class TransmissionInterfaceLoader {
  public:
   /// @param robot_hw, robot_transmissions must outlive the loader

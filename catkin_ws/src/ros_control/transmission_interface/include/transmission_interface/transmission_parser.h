@@ -12,7 +12,7 @@
 
 namespace transmission_interface {
 
-/// Reads the <transmission> elements of a URDF. Stateless, thread-safe, not for the control loop.
+/// Reads the <transmission> elements of a URDF. Without state. Thread-safe. Not real-time safe.
 class TransmissionParser {
  public:
   /// Appends the transmissions of a robot description. Invalid ones are logged and skipped.

@@ -23,7 +23,7 @@ export function showDialog(title, make) {
   });
 }
 
-/** A question; resolves with true if the person agrees. `danger`: the agreeing button is red. */
+/** A question; resolves with true if the user confirms. `danger`: the confirming button is red. */
 export async function confirmed(title, sentence, agree, danger = false) {
   const answer = await showDialog(title, (close) => [
     el("p", { text: sentence }),
@@ -42,7 +42,7 @@ export async function confirmed(title, sentence, agree, danger = false) {
 const MESSAGE_TIME = 8000; // [ms]
 
 /** A message at the edge of the page, read out by screen readers. kind: "info" or "error". */
-export function tell(sentence, kind = "info") {
+export function notify(sentence, kind = "info") {
   const list = document.getElementById("messages");
   const message = el(
     "div", { class: `message ${kind}` },

@@ -3,7 +3,7 @@
 // The last 30 s of a robot's values, for the plots.
 
 export const SPAN = 30; // [s]
-const LONGEST = 1500; // samples
+const MAX_SAMPLES = 1500; // samples
 
 export const SERIES = {
   torque: (report) => report.tau_J,
@@ -22,7 +22,7 @@ export class History {
     this.times.push(time);
     for (const [name, read] of Object.entries(SERIES)) this.rows[name].push(read(report));
     let old = 0;
-    while (old < this.times.length && (this.times[old] < time - SPAN || this.times.length - old > LONGEST)) old += 1;
+    while (old < this.times.length && (this.times[old] < time - SPAN || this.times.length - old > MAX_SAMPLES)) old += 1;
     if (old > 0) {
       this.times.splice(0, old);
       for (const rows of Object.values(this.rows)) rows.splice(0, old);

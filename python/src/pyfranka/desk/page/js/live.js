@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The stream of the robots' states. It connects again by itself.
+// The stream of the robots' states. It reconnects automatically.
 import * as api from "./api.js";
 
-const LONGEST_PAUSE = 5000; // [ms] between two attempts
+const MAX_PAUSE = 5000; // [ms] between two attempts
 const LOGIN_ENDED = 4401; // close code: the login is no longer valid
 
 export class Live {
@@ -15,7 +15,7 @@ export class Live {
     this.connect();
   }
 
-  // A WebSocket does not say why it was refused: ask whether the login is still valid.
+  // A refused WebSocket gives no reason, so this requests whether the login is still valid.
   async connectAgain() {
     if (this.ended) return;
     try {
@@ -30,13 +30,17 @@ export class Live {
 
   wait() {
     setTimeout(() => this.connectAgain(), this.pause);
-    this.pause = Math.min(2 * this.pause, LONGEST_PAUSE);
+    this.pause = Math.min(2 * this.pause, MAX_PAUSE);
   }
 
   connect() {
     const scheme = location.protocol === "https:" ? "wss:" : "ws:";
     this.socket = new WebSocket(`${scheme}//${location.host}/page/live`);
     this.socket.addEventListener("open", () => {
+      if (this.ended) {
+        this.socket.close();
+        return;
+      }
       this.pause = 500;
       this.handlers.onConnection(true);
     });
@@ -56,6 +60,7 @@ export class Live {
 
   end() {
     this.ended = true;
-    this.socket.close();
+    // Browsers report an error if a connecting socket is closed. Its handler of "open" closes it then.
+    if (this.socket.readyState === WebSocket.OPEN) this.socket.close();
   }
 }

@@ -7,7 +7,7 @@ import { recover } from "./cards/errors.js";
 import { switchFci } from "./cards/fci.js";
 import { switchGuiding } from "./cards/guiding.js";
 import { lock, unlock } from "./cards/joints.js";
-import { showDialog, tell } from "./dialogs.js";
+import { showDialog, notify } from "./dialogs.js";
 import { el, setText } from "./dom.js";
 import * as icons from "./icons.js";
 import { Live } from "./live.js";
@@ -86,7 +86,7 @@ class Page {
     const section = document.querySelector(`[data-robot="${index}"]`);
     section.scrollIntoView({ block: "nearest" });
     section.querySelector("button:not(:disabled)")?.focus();
-    tell(`Shortcuts act on ${this.robot.label}.`);
+    notify(`Shortcuts act on ${this.robot.label}.`);
   }
 
   /** Where a body is on the page [px], for tests: null while it is unknown. */
@@ -135,7 +135,7 @@ function showHelp() {
 function changeTheme() {
   const chosen = nextTheme();
   showTheme();
-  tell(`Colours: ${chosen === "auto" ? "as the system" : chosen}.`);
+  notify(`Colours: ${chosen === "auto" ? "as the system" : chosen}.`);
 }
 
 function showTheme() {
@@ -173,4 +173,4 @@ function connectShortcuts() {
 startTheme();
 connectHeader();
 connectShortcuts();
-start().catch((error) => tell(error.message, "error"));
+start().catch((error) => notify(error.message, "error"));

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Plots of the last 30 s by uPlot, with a legend of buttons, which a keyboard reaches.
+// Plots of the last 30 s by uPlot, with a legend of buttons, for use by keyboard.
 import { el, setText } from "./dom.js";
 import { number } from "./format.js";
 import { SPAN } from "./history.js";

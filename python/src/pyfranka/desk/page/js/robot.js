@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// One robot as the page knows it: its newest report, who controls it, and commands to it.
+// One robot of the page: its newest report, control of it, and commands to it.
 import * as api from "./api.js";
-import { tell } from "./dialogs.js";
+import { notify } from "./dialogs.js";
 import { History } from "./history.js";
 import { ADVICE, kindOf } from "./words.js";
 
@@ -10,7 +10,7 @@ import { ADVICE, kindOf } from "./words.js";
 const STOPS = { panda: ["x4"], fr3: ["x31", "x32", "x33"] };
 
 export class Robot {
-  /** listed: the robot's entry in /page/robots. user: who is logged in. */
+  /** listed: the robot's entry in /page/robots. user: the user that is logged in. */
   constructor(listed, user) {
     this.index = listed.index;
     this.name = listed.name;
@@ -39,7 +39,7 @@ export class Robot {
     return !this.control.tokens || (this.held !== null && this.held.id === this.control.id);
   }
 
-  /** Whether this page has asked for control and waits. */
+  /** Whether this page has requested control and waits. */
   get isWaiting() {
     return this.held !== null && this.control.request?.id === this.held.id;
   }
@@ -62,13 +62,13 @@ export class Robot {
     return part.element;
   }
 
-  /** Takes over what the stream says about this robot. */
+  /** Takes the data of this robot from the stream. */
   receive({ report, problem, control }) {
     const before = this.isWaiting;
     this.report = report;
     this.problem = problem || "";
     if (control) this.control = control;
-    if (before && this.inControl) tell(`You control ${this.label} now.`);
+    if (before && this.inControl) notify(`You control ${this.label} now.`);
     if (report) this.history.add(performance.now() / 1000, report);
     for (const part of this.parts) part.update(this);
   }
@@ -98,10 +98,10 @@ export class Robot {
   explain(refusal) {
     const advice = ADVICE[refusal.code];
     const sentence = advice && !refusal.message.includes(advice) ? `${refusal.message} ${advice}` : refusal.message;
-    tell(`${this.label}: ${sentence}`, "error");
+    notify(`${this.label}: ${sentence}`, "error");
   }
 
-  /** Changes who controls the robot. what: take, force, release, withdraw, accept or deny. */
+  /** Requests, releases, grants or denies control. what: take, force, release, withdraw, accept or deny. */
   async changeControl(what) {
     try {
       const answer = await api.post("/page/control", { robot: this.index, what }, this.held?.token);

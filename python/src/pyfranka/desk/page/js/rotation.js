@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Rotations as people type them: roll, pitch and yaw [rad], R = Rz(yaw) Ry(pitch) Rx(roll).
+// Rotations as users type them: roll, pitch and yaw [rad], R = Rz(yaw) Ry(pitch) Rx(roll).
 
 /** A column-major 4x4 matrix of a translation [m] and of roll, pitch, yaw [rad]. */
 export function transformOf([x, y, z], [roll, pitch, yaw]) {

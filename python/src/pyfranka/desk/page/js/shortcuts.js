@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Shortcuts: single letters, inactive in fields and dialogs. A person can switch them off (WCAG 2.1.4).
+// Shortcuts: single letters, inactive in fields and dialogs. The user can switch them off (WCAG
+// 2.1.4).
 
 const KEY = "desk-shortcuts";
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Light or dark: as the system says, unless the person has chosen.
+// Light or dark: the setting of the system, unless the user has chosen.
 
 const KEY = "desk-theme";
 const CHOICES = ["auto", "light", "dark"];
@@ -19,7 +19,7 @@ function apply(choice) {
 
 export const choice = read;
 
-/** Goes on to the next of auto, light and dark, and returns it. */
+/** Selects the next of auto, light and dark, and returns it. */
 export function nextTheme() {
   const next = CHOICES[(CHOICES.indexOf(read()) + 1) % CHOICES.length];
   localStorage.setItem(KEY, next);

@@ -9,8 +9,8 @@ const ERRORS = {
   joint_velocity_violation: "A joint was faster than its limit.",
   cartesian_velocity_violation: "The end effector was faster than its limit.",
   force_control_safety_violation: "A force exceeded the safety limit of force control.",
-  joint_reflex: "A joint felt a contact above its threshold.",
-  cartesian_reflex: "The end effector felt a force above its threshold.",
+  joint_reflex: "A joint's external torque exceeded its threshold.",
+  cartesian_reflex: "The external force on the end effector exceeded its threshold.",
   max_goal_pose_deviation_violation: "The end effector is too far from its desired pose.",
   max_path_pose_deviation_violation: "The end effector has left its path.",
   cartesian_velocity_profile_safety_violation: "The Cartesian velocity profile exceeded a safety limit.",
@@ -26,7 +26,7 @@ const ERRORS = {
   cartesian_motion_generator_acceleration_discontinuity: "The commanded Cartesian acceleration has a jump.",
   force_controller_desired_force_tolerance_violation: "The desired force is outside its tolerance.",
   controller_torque_discontinuity: "The commanded torque has a jump.",
-  start_elbow_sign_inconsistent: "The elbow is on the other side than the motion says.",
+  start_elbow_sign_inconsistent: "The sign of the elbow differs from that of the motion.",
   communication_constraints_violation: "Too many commands of the client were lost or late.",
   power_limit_violation: "The motion would need more power than allowed.",
   joint_p2p_insufficient_torque_for_planning: "The load is too heavy for the planned motion.",
@@ -48,7 +48,7 @@ const RECOVERABLE = {
   fsoeConnectionError: "The safe connection to a joint was lost.",
 };
 
-/** What a refusal's code asks of the person. */
+/** What the user must do after a refusal, by its code. */
 export const ADVICE = {
   NotReady: "The robot is off or still starting.",
   BrakesClosed: "Unlock the joints first.",

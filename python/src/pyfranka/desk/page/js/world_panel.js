@@ -4,7 +4,7 @@
 import * as api from "./api.js";
 import { card, numberField } from "./controls.js";
 import { el, uniqueId } from "./dom.js";
-import { tell } from "./dialogs.js";
+import { notify } from "./dialogs.js";
 
 const PUSH_TIME = 300; // [ms] of one push of the form
 
@@ -44,8 +44,8 @@ export class WorldPanel {
       await this.robots[this.number].tryCommand("push", body, ...force.map(String), String(milliseconds));
     } catch (refusal) {
       const now = performance.now();
-      if (now - (this.toldAt ?? -Infinity) > 3000) tell(refusal.message, "error");
-      this.toldAt = now;
+      if (now - (this.notifiedAt ?? -Infinity) > 3000) notify(refusal.message, "error");
+      this.notifiedAt = now;
     }
   }
 

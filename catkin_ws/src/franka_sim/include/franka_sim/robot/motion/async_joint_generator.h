@@ -15,8 +15,8 @@ namespace franka_sim {
 /// Each joint alone runs the time-optimal motion under its limits of velocity and acceleration,
 /// exact to the tick. The arm gets its mean over four ticks, which keeps the jerk limit as well
 /// (four ticks are 2 ddq_max / dddq_max for both arms) and ends exactly on the target. Where the
-/// arm's velocity limit shrinks towards a joint's end, so does the speed. Real-time safe; one
-/// thread.
+/// arm's velocity limit shrinks towards a joint's end, so does the speed. Called by one thread.
+/// Real-time safe.
 class AsyncJointGenerator {
  public:
   /// Starts at rest at q [rad]. @param maximum_velocity positive [rad/s]; limited to the arm's

@@ -8,7 +8,7 @@ namespace franka_sim {
 
 /// Brings a desired motion to rest, each joint alone at its full acceleration (decision 16): the
 /// stop after a reflex, lost packets, StopMove or the user stop. No jerk limit: a stop must be
-/// short. Real-time safe; one thread.
+/// short. Called by one thread. Real-time safe.
 class BrakeTrajectory {
  public:
   /// @param q_d, dq_d desired position and velocity [rad, rad/s]; a velocity that is not finite

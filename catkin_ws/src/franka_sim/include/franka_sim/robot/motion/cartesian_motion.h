@@ -30,8 +30,8 @@ struct ElbowCommand {
 
 /// The commanded motion of end effector and elbow, with the check of its next step; JointMotion
 /// describes how. The norms of the linear and of the angular part of velocity, acceleration and
-/// jerk and those of the elbow are checked together (decisions 14, 47). Real-time safe; one
-/// thread.
+/// jerk and those of the elbow are checked together (decisions 14, 47). Called by one thread.
+/// Real-time safe.
 class CartesianMotion {
  public:
   /// At rest. @param pose O_T_EE @param elbow q3 [rad] and its sign.
@@ -52,7 +52,7 @@ class CartesianMotion {
   ErrorSet checkStop(const MotionLimits& limits) const noexcept;
 
   const CartesianSample& last() const noexcept { return last_; }
-  /// The last step if it violated a limit; nullptr if it was taken, or was no motion at all.
+  /// The last step if it violated a limit; nullptr if it was taken, or was not a motion at all.
   const CartesianSample* refused() const noexcept { return has_refused_ ? &refused_ : nullptr; }
 
  private:

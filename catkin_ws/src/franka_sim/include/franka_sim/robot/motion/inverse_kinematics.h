@@ -12,8 +12,9 @@ namespace franka_sim {
 /// Joint positions for a pose of the end effector and a position of joint 3 (decision 12).
 ///
 /// Newton's method on the Jacobian of EE extended by a row for joint 3, from the joint positions of
-/// the last tick. Where that matrix is nearly singular (smallest singular value below 0.02) one
-/// damped step is taken instead: the arm then follows as well as it can. Real-time safe.
+/// the last tick. Where that matrix is nearly singular (smallest singular value below 0.02), one
+/// step of damped least squares replaces it: the arm then follows as well as it can.
+/// Real-time safe.
 class InverseKinematics {
  public:
   struct Solution {

@@ -20,7 +20,7 @@ struct JointSample {
 ///
 /// A step is checked against the motion's history and, where states travel as 32 bit floats, also
 /// against that history as the client received it: only a step that fails both is refused. A
-/// refused step leaves the motion unchanged. Real-time safe; one thread.
+/// refused step leaves the motion unchanged. Called by one thread. Real-time safe.
 class JointMotion {
  public:
   /// At rest at q [rad]; the next step is the first.
@@ -35,8 +35,8 @@ class JointMotion {
   /// @param first sets the history to rest there.
   ErrorSet takeSolved(const std::array<double, 7>& q, bool first,
                       const MotionLimits& limits) noexcept;
-  /// The joints' part in a Cartesian command that is refused already. Of its joint positions [rad]
-  /// only the jerk is judged, as on real robots (decision 47). Nothing changes.
+  /// For a Cartesian command that is already refused: checks only the joint jerk of its joint
+  /// positions [rad], as real robots do (decision 47). Nothing changes.
   ErrorSet judgeJump(const std::array<double, 7>& q, const MotionLimits& limits) const noexcept;
   /// A step without a command: the acceleration is held. Before the first step nothing changes.
   ErrorSet extrapolate(const MotionLimits& limits) noexcept;

@@ -56,11 +56,11 @@ struct MotionStep {
 ///
 /// Commands are checked against every rule (decisions 14, 47). If a command is lost the
 /// acceleration is held, and the result is checked like a command (protocol 5.3). After an error
-/// the motion is over: brake from desired() with BrakeTrajectory and start anew. A finish is
+/// the motion is over: brake from desired() with BrakeTrajectory, then start again. A finish is
 /// checked as a stop within one tick: a client that is too fast raises the flag of the acceleration
 /// or jerk that this would take; an asynchronous motion brakes and finishes at rest.
 ///
-/// One thread owns it. Real-time safe; throws nothing.
+/// Called by one thread. No function throws. Real-time safe.
 class MotionGenerator {
  public:
   explicit MotionGenerator(const MotionLimits& limits = motionLimitsOfProtocol(5)) noexcept;

@@ -8,6 +8,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 
 namespace franka_sim {
 
@@ -24,6 +25,11 @@ struct MotionLimits {
   double lowestVelocity(std::size_t joint, double q) const noexcept;
   /// Allowed targets of a joint [rad]: within its limits, and where a velocity is allowed.
   franka_core::JointRange reach(std::size_t joint) const noexcept;
+  /// The same for a joint at a position [rad]: it may also stay there, and return from beyond.
+  franka_core::JointRange reachFrom(std::size_t joint, double q) const noexcept;
+  /// Why a joint cannot go to a position: "between -2.8973 and 2.8973 rad, not at 3". The range is
+  /// rounded inwards, so that its printed ends are allowed. Not real-time safe.
+  std::string reachText(std::size_t joint, double q) const;
   /// Bounds of the elbow's motion; of its two velocities the larger one.
   franka_core::DerivativeLimits elbow() const noexcept;
   /// The flag of a joint position out of range. @param solved found by inverse kinematics

@@ -19,7 +19,7 @@ namespace detail {
 /// overwritten meanwhile, which takes as many writes as the ring is long; then it tries again. A
 /// suspended writer blocks other writers, never a reader.
 ///
-/// Thread-safe: all. Real-time safe: get(), trySet(). Not real-time safe: set().
+/// Thread-safe. Real-time safe. Exceptions: the constructor and set().
 ///
 /// @tparam T trivially copyable.
 template <class T>
@@ -50,7 +50,7 @@ class Snapshot {
     }
   }
 
-  /// Sets the value; waits while another thread sets it.
+  /// Sets the value; waits while another thread sets it. Not real-time safe.
   void set(const T& value) noexcept {
     while (!trySet(value)) {
       std::this_thread::yield();

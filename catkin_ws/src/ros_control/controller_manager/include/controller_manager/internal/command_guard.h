@@ -14,8 +14,8 @@ namespace internal {
 
 /// Checks a controller's commands to its claimed joints through the joint command interfaces of
 /// hardware_interface: effort, velocity, position, position and velocity (with acceleration, or
-/// with torque and gains). Interfaces of other kinds must be checked by their robot. Real-time safe
-/// except the constructor; used by one thread.
+/// with torque and gains). Interfaces of other kinds must be checked by their robot. Called by one
+/// thread. Real-time safe. Exception: the constructor.
 class CommandGuard {
  public:
   CommandGuard(const hardware_interface::ControllerInfo& info, hardware_interface::RobotHW& robot);

@@ -44,11 +44,11 @@ class ControllerRegistry {
   /// The list for this cycle, valid during the visit of the gate. Real-time safe.
   const ControllerList& forLoop() const { return *for_loop_.load(std::memory_order_seq_cst); }
 
-  /// The present list. Thread-safe, not real-time safe, never waits for the loop.
+  /// The present list; never waits for the loop. Thread-safe. Not real-time safe.
   ControllerListPtr snapshot() const;
 
-  /// Replaces the list and destroys lists that the loop no longer reads. One thread at a time, not
-  /// real-time safe; waits for the running cycle, at most one second.
+  /// Replaces the list and destroys lists that the loop no longer reads. Waits for the running
+  /// cycle, at most one second. Called by one thread at a time. Not real-time safe.
   void replace(std::vector<ControllerSpec> specs);
 
  private:

@@ -42,14 +42,15 @@ class ControllerWatch {
                   hardware_interface::RobotHW& robot, const Supervision& supervision,
                   std::vector<std::string> fallbacks);
 
-  /// Stops and starts the controller if it runs. Neither allocates nor locks, unless it throws.
+  /// Stops and starts the controller if it runs. Real-time safe. Exception: a controller that
+  /// throws.
   void restart(const ros::Time& time);
 
-  /// One cycle. Neither allocates nor locks, unless the controller throws.
+  /// One cycle. Real-time safe. Exception: a controller that throws.
   /// @param window which of the two statistics to fill
   void update(const ros::Time& time, const ros::Duration& period, std::size_t window);
 
-  /// The fault that has not been handled yet. Any thread.
+  /// The fault that has not been handled yet. Thread-safe.
   Fault fault() const { return fault_.load(std::memory_order_acquire); }
   /// The reason, as a clause after "because"; valid while there is a fault.
   std::string reason() const;

@@ -8,8 +8,8 @@
 namespace controller_manager {
 namespace internal {
 
-/// Makes several calls, catches their exceptions, and rethrows the first one at the end. Real-time
-/// safe while nothing is thrown.
+/// Makes several calls, catches their exceptions, and rethrows the first one at the end.
+/// Real-time safe. Exception: a call that throws.
 class FirstException {
  public:
   template <class Call>

@@ -19,6 +19,9 @@ namespace internal {
 /// no thread waits for it. The loop's side is two stores, without lock or wait.
 class LoopGate {
  public:
+  /// Far above a cycle of a millisecond: beyond it the loop hangs inside a controller.
+  static constexpr std::chrono::milliseconds kMaxCycleTime{1000};
+
   /// One cycle of the loop. Only one visit exists at a time.
   class Visit {
    public:

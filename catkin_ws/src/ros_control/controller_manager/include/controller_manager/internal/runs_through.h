@@ -16,7 +16,8 @@ inline void copyText(const char* from, ExceptionText& to) {
   std::snprintf(to.data(), to.size(), "%s", from);
 }
 
-/// Makes the call and catches exceptions. Real-time safe if the call is.
+/// Makes the call and catches exceptions. Adds neither an allocation nor a lock to those of the
+/// call.
 /// @param[out] text of the exception @returns false if it threw
 template <class Call>
 bool runsThrough(Call&& call, ExceptionText& text) {

@@ -50,7 +50,7 @@ class Supervisor {
   /// One cycle, during a visit of the gate. Real-time safe.
   void update(const ControllerList& list, const ros::Time& time, const ros::Duration& period);
 
-  /// Handles an aborted controller later. Thread-safe, does not wait.
+  /// Handles an aborted controller later; does not wait. Thread-safe.
   void settleLater(const std::string& name);
 
   const Supervision& supervision() const { return supervision_; }

@@ -32,11 +32,11 @@ class SwitchHandover {
   /// @param gate that the loop passes; must outlive the handover
   explicit SwitchHandover(LoopGate& gate);
 
-  /// Continues the pending switch, if any. In the loop, during a visit; real-time safe. An
-  /// exception ends the switch and propagates.
+  /// Continues the pending switch, if any. Called by the loop during a visit. An exception ends the
+  /// switch and propagates. Real-time safe.
   void serve(hardware_interface::RobotHW& robot, const ros::Time& time);
 
-  /// The exclusive right to switch. Thread-safe; waits for the switch before this one.
+  /// The exclusive right to switch; waits for the switch before this one. Thread-safe.
   class Turn {
    public:
     /// @param timeout [s] 0 waits for ever
@@ -66,7 +66,7 @@ class SwitchHandover {
   };
 
   /// Whether an unfinished switch starts or stops this controller; if not, the handover has no
-  /// reference to it. Thread-safe, does not wait.
+  /// reference to it. Does not wait. Thread-safe.
   bool involves(const std::string& name);
 
   /// Ends all present and future waits, for the manager's shutdown.

@@ -46,7 +46,7 @@ struct SwitchRequest {
   std::list<hardware_interface::ControllerInfo> start_list;  ///< for the robot, without restarts
   std::list<hardware_interface::ControllerInfo> stop_list;
   bool start_asap{false};
-  bool guarded{false};  ///< a throwing controller is aborted, and the switch goes on
+  bool guarded{false};  ///< a throwing controller is aborted, and the switch continues
   double timeout{0.0};  ///< [s] on the loop's clock, from its first cycle on; 0: none
 
   bool broken{false};         ///< an exception ended the switch
@@ -59,8 +59,8 @@ struct SwitchRequest {
   bool involves(const std::string& name) const;
 
   /// One cycle of the switch, in the loop: stops controllers in the first call, then starts those
-  /// for which the robot is ready. Real-time safe if the robot's doSwitch and switchResult and the
-  /// controllers' callbacks are.
+  /// for which the robot is ready. Real-time safe. The robot's doSwitch and switchResult and the
+  /// controllers' callbacks must neither allocate nor lock.
   /// @returns true when the switch is complete.
   /// Throws exceptions of the robot, and of controllers unless guarded. Nothing remains to be done
   /// then: controllers not yet started or stopped have been aborted, without another callback.

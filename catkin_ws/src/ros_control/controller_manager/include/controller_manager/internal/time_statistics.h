@@ -11,7 +11,7 @@
 namespace controller_manager {
 namespace internal {
 
-/// Mean, spread and maximum of durations [s]. Real-time safe; one thread at a time.
+/// Mean, spread and maximum of durations [s]. Called by one thread at a time. Real-time safe.
 class TimeStatistics {
  public:
   /// Welford's recurrence: avoids differences of large sums.
@@ -41,7 +41,7 @@ class TimeStatistics {
   double last_overrun_{0.0};
 };
 
-/// A pair: the loop writes one, the other is read outside. The loop's gate tells them apart.
+/// A pair: the loop writes one, the other is read outside. The loop's gate selects which.
 typedef std::array<TimeStatistics, 2> TimeStatisticsPair;
 
 }  // namespace internal

@@ -62,7 +62,7 @@ inline void acceptCommands(const std::vector<double>& data, const std::vector<st
                                 [](double command) { return !std::isfinite(command); });
   if (bad != data.end()) {
     ROS_ERROR_THROTTLE(1.0,
-                       "The command for joint '%s' is %f, which is no finite number. Not "
+                       "The command for joint '%s' is %f, which is not a finite number. Not "
                        "executing for any joint; the last command stays.",
                        names[static_cast<std::size_t>(bad - data.begin())].c_str(), *bad);
     return;

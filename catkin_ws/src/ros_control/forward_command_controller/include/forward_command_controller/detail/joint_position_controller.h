@@ -26,8 +26,8 @@ namespace detail {
 /// (control_msgs/JointControllerState, every tenth update). Starts at the measured position, and
 /// stops with a command of zero.
 ///
-/// Threads: update(), starting() and stopping() run in the control loop and are real-time safe;
-/// setCommand() may be called by any other thread.
+/// The control loop calls starting(), update() and stopping(). Real-time safe. Any other thread may
+/// call setCommand().
 ///
 /// @tparam T hardware_interface::EffortJointInterface or VelocityJointInterface.
 template <class T>

@@ -16,8 +16,8 @@ namespace forward_command_controller {
 namespace detail {
 
 /// A Pid with gains from the namespace `pid`, and the topic `state` (JointControllerState),
-/// published every tenth step. Gains may be read and set by any thread; start() and the steps run
-/// in the control loop and are real-time safe.
+/// published every tenth step. Any thread may read and set the gains. The control loop calls
+/// start(), command() and publish(). Real-time safe.
 class PidLoop {
  public:
   /// @param node the controller's namespace.
@@ -88,7 +88,7 @@ class WithPidLoop {
   void getGains(double& p, double& i, double& d, double& i_max, double& i_min, bool& antiwindup) {
     loop_.pid().getGains(p, i, d, i_max, i_min, antiwindup);
   }
-  /// Also updates dynamic reconfigure: not real-time safe.
+  /// Also updates dynamic reconfigure. Thread-safe. Not real-time safe.
   void setGains(const double& p, const double& i, const double& d, const double& i_max,
                 const double& i_min, const bool& antiwindup = false) {
     loop_.pid().setGains(p, i, d, i_max, i_min, antiwindup);

@@ -14,7 +14,7 @@ namespace internal {
 
 /// Readable form of a mangled C++ name; the name itself if it cannot be demangled.
 /// Clients compare the result with literals such as "hardware_interface::EffortJointInterface", so
-/// it is exactly the result of the compiler's ABI library. Thread-safe; allocates.
+/// it is exactly the result of the compiler's ABI library. Thread-safe. Not real-time safe.
 inline std::string demangleSymbol(const char* name) {
   int status = -1;
   const std::unique_ptr<char, void (*)(void*)> readable(

@@ -28,9 +28,9 @@ struct IsResourceManager<T, std::void_t<typename T::ResourceManagerType>> : std:
 /// Hardware interfaces by type. A robot made of several robots combines their interfaces: for a
 /// type that several of them have, it returns one interface with the handles of all.
 ///
-/// Registering and looking up allocate and are not thread-safe: they are for start-up and the
-/// initialisation of controllers. Registered interfaces belong to the caller and must outlive the
-/// manager; combined ones live as long as the manager.
+/// Registering and looking up are for start-up and the initialisation of controllers. Called by one
+/// thread at a time. Not real-time safe. Registered interfaces belong to the caller and must
+/// outlive the manager; combined ones live as long as the manager.
 class InterfaceManager {
  public:
   virtual ~InterfaceManager() = default;

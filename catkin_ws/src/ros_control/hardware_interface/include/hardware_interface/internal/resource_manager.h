@@ -20,8 +20,8 @@ class ResourceManagerBase {
   virtual ~ResourceManagerBase() = default;
 };
 
-/// Named handles of one kind. Filled at start-up and read while controllers are initialised: not
-/// thread-safe, not for the control loop.
+/// Named handles of one kind. Filled at start-up and read while controllers are initialised. Called
+/// by one thread at a time. Not real-time safe.
 /// @tparam ResourceHandle copyable, with `std::string getName() const`
 template <class ResourceHandle>
 class ResourceManager : public ResourceManagerBase {

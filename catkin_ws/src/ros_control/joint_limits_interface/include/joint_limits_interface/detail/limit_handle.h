@@ -39,9 +39,10 @@ inline Bounds softVelocityBounds(const SoftJointLimits& soft, double position,
           hard.saturate(-soft.k_position * (position - soft.max_position))};
 }
 
-/// Base of the handles: one joint and its limits. enforceLimits of every handle is safe in the
-/// control loop. A NaN command passes, so that the robot's own check can stop and report it, but no
-/// handle stores it: the next valid command is limited as if it had not existed.
+/// Base of the handles: one joint and its limits. Derived handles have enforceLimits(), which the
+/// control loop calls. Real-time safe. A NaN command passes, so that the robot's own check can stop
+/// and report it, but no handle stores it: the next valid command is limited as if it had not
+/// existed.
 class LimitHandle {
  public:
   LimitHandle() = default;

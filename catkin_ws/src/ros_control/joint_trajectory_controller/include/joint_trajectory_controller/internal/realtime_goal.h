@@ -16,7 +16,7 @@ namespace internal {
 /// realtime_tools::RealtimeServerGoalHandle alone allows only one deciding thread, and sends no
 /// text to the client.
 ///
-/// Real-time safe: all but the constructor and runNonRealtime().
+/// Real-time safe. Exceptions: the constructor and runNonRealtime().
 /// @tparam Handle a realtime_tools::RealtimeServerGoalHandle
 template <class Handle>
 class RealtimeGoal {

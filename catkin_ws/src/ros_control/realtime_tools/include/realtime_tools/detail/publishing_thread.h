@@ -2,45 +2,52 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <chrono>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <thread>
 #include <vector>
+
+#include "realtime_tools/detail/publishing_schedule.h"
 
 namespace realtime_tools {
 namespace detail {
 
 /// The only thread of a process that sends messages of its real-time publishers.
 ///
-/// It checks every 0.5 ms while there are messages and less often while there are none, down to
-/// every 5 ms after about 45 ms: it needs no wake-up, so the real-time side makes no system call,
-/// and ten publishers cost one wake-up per cycle instead of ten. The thread exists while there are
-/// senders.
+/// It checks for messages at the times of PublishingSchedule. It needs no wake-up, so the real-time
+/// side makes no system call, and ten publishers cost one wake-up per cycle instead of ten. The
+/// thread exists while there are senders.
 class PublishingThread {
  public:
   /// A publisher served by the thread.
   class Sender {
    public:
-    /// Sends the pending message. @returns whether there was one. Called by the thread only.
-    virtual bool sendHandedOver() = 0;
+    /// Sends the pending message. @returns when it was handed over; nothing if there was none.
+    /// Called by the thread only.
+    virtual std::optional<PublishingSchedule::Clock::time_point> sendHandedOver() = 0;
 
    protected:
     ~Sender() = default;
+
+   private:
+    friend class PublishingThread;
+    PublishingSchedule schedule_;
   };
 
   /// The process's instance. Exists until the process ends.
-  static PublishingThread& instance();
+  static PublishingThread& instance() noexcept;
 
-  /// Adds a sender. Any thread.
+  /// Adds a sender. Thread-safe.
   void add(Sender* sender);
   /// After return the sender is no longer used. Waits for the running check. Any thread but this
   /// one; removing an unknown sender does nothing.
-  void remove(Sender* sender);
+  void remove(Sender* sender) noexcept;
 
  private:
   PublishingThread() = default;
   void run();
+  PublishingSchedule::Clock::time_point sendAll();
 
   std::mutex lifetime_mutex_;  ///< serialises add and remove; taken before the other
   std::mutex mutex_;           ///< guards the members below

@@ -16,8 +16,7 @@ namespace detail {
 /// It is one atomic word, so that the real-time side needs no mutex and no system call: it wakes no
 /// thread, the other sides poll.
 ///
-/// Real-time safe: tryLock, tryTakeTurn, unlock, unlockAndHandOver, unlockAndReturn, stop. Not
-/// real-time safe: lock. Thread-safe: all.
+/// Thread-safe. Real-time safe. Exception: lock().
 class TurnLock {
  public:
   /// Starts closed: tryLock() fails until open().

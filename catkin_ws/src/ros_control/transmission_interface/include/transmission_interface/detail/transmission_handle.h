@@ -13,7 +13,7 @@
 namespace transmission_interface {
 
 /// A transmission with the values that it maps. Derived handles map one kind of values in one
-/// direction; their propagate() is safe in the control loop.
+/// direction, by their propagate(). Real-time safe. Exceptions: the constructor and getName.
 class TransmissionHandle {
  public:
   std::string getName() const { return name_; }

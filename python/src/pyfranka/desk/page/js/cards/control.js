@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Single point of control: who may act, how to ask for it, and the holder's answer.
+// Single point of control: the holder, requests for control, and the holder's answer.
 import { pressCircle } from "./guiding.js";
 import { confirmed } from "../dialogs.js";
 import { el, renderIfChanged } from "../dom.js";
@@ -12,7 +12,7 @@ export function takeOrRelease(robot) {
 }
 
 async function force(robot) {
-  const sentence = `${robot.control.owner} loses control, and the FCI is switched off. You confirm it at the robot with the circle button.`;
+  const sentence = `${robot.control.owner} loses control, and the FCI is switched off. Confirm it with the circle button at the robot.`;
   if (await confirmed("Take over by force?", sentence, "Take over", true)) await robot.changeControl("force");
 }
 
@@ -32,7 +32,7 @@ function contents(robot) {
       button("Take over by force", () => force(robot)), button("Cancel", () => robot.changeControl("withdraw"))]];
   }
   if (robot.inControl && request && !request.force) {
-    return ["asked", `${request.owner} asks for control of ${robot.label}.`, [
+    return ["asked", `${request.owner} requests control of ${robot.label}.`, [
       button("Accept", () => robot.changeControl("accept"), "primary"), button("Deny", () => robot.changeControl("deny"))]];
   }
   if (robot.inControl && request) {
@@ -43,7 +43,7 @@ function contents(robot) {
     return ["watching", `${owner} controls ${robot.label}. You can watch it.`, [
       button("Request control", () => robot.changeControl("take"), "primary"), button("Take over by force", () => force(robot))]];
   }
-  return ["free", `Nobody controls ${robot.label}. You can watch it.`, [button("Take control", () => takeOrRelease(robot), "primary")]];
+  return ["free", `No user controls ${robot.label}. You can watch it.`, [button("Take control", () => takeOrRelease(robot), "primary")]];
 }
 
 export function controlBanner(robot) {

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// What the robot assumes at its flange.
+// The end effector that the robot assumes.
 import { actionButton, card, numberField, toggle } from "../controls.js";
 import { el, setText } from "../dom.js";
-import { tell } from "../dialogs.js";
+import { notify } from "../dialogs.js";
 import { partsOf, toDegrees, toRadians, transformOf } from "../rotation.js";
 
 const INERTIA = [["Ixx", 0], ["Iyy", 4], ["Izz", 8], ["Ixy", 1], ["Ixz", 2], ["Iyz", 5]]; // entries of the 3x3 matrix
@@ -50,7 +50,7 @@ export function endEffectorCard(robot) {
     if (!all.every((field) => field.input.reportValidity())) return;
     if ((await each.command("end_effector", ...wordsOf(fields))) === undefined) return;
     key = ""; // shows what the robot has accepted
-    tell(`${each.label}: the end effector's settings are in force.`);
+    notify(`${each.label}: the end effector's settings are in force.`);
   };
   const reset = (each) => fill(fields, each.report.end_effector);
   const element = card("End effector", [

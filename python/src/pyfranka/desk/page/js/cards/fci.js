@@ -7,7 +7,7 @@ import { el, setHidden, setText } from "../dom.js";
 
 export async function switchFci(robot, on) {
   const agreed = on
-    ? await confirmed("Activate the FCI?", `Programs on the network can then move ${robot.label}. Nobody may stand within its reach.`, "Activate")
+    ? await confirmed("Activate the FCI?", `Programs on the network can then move ${robot.label}. Keep everyone out of its reach.`, "Activate")
     : await confirmed("Deactivate the FCI?", "A motion is stopped and its client is disconnected.", "Deactivate", true);
   if (agreed) await robot.command("fci", on ? "on" : "off");
 }

@@ -3,7 +3,7 @@
 // The gripper: home, open to a width, grasp, stop.
 import { actionButton, card, numberField } from "../controls.js";
 import { el, setText } from "../dom.js";
-import { tell } from "../dialogs.js";
+import { notify } from "../dialogs.js";
 import { number } from "../format.js";
 
 const MM = 1000;
@@ -37,7 +37,7 @@ export function handCard(robot) {
 
 async function grasp(robot, ...words) {
   const value = await robot.command("hand", "grasp", ...words);
-  if (value !== undefined) tell(`${robot.label}: the gripper holds an object.`);
+  if (value !== undefined) notify(`${robot.label}: the gripper holds an object.`);
 }
 
 function describe(hand) {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Desk's own motions: to the pack pose, or to joint positions that a person types.
+// Desk's own motions: to the pack pose, or to joint positions that the user types.
 import { actionButton, card, numberField } from "../controls.js";
 import { el, setText } from "../dom.js";
 import { confirmed } from "../dialogs.js";
@@ -9,7 +9,7 @@ import { toDegrees, toRadians } from "../rotation.js";
 const mayMove = (report) => report.power && !report.motion && report.brakes.every((closed) => !closed);
 
 async function moveToPackPose(robot) {
-  if (await confirmed("Move to the pack pose?", `${robot.label} folds its arm. Keep its way free.`, "Move")) {
+  if (await confirmed("Move to the pack pose?", `${robot.label} folds its arm. Keep its path free.`, "Move")) {
     await robot.command("move", "pack");
   }
 }

@@ -13,7 +13,7 @@ const INPUTS = [
   ["x4", "X4 activation device"],
 ];
 
-/** The inputs stand for devices beside the robot, so they need no control. */
+/** The inputs represent devices beside the robot, so they need no control. */
 function inputSwitch(robot, [name, text]) {
   if (name === "x4" && robot.type === "fr3") text = "X4 enabling device";
   return toggle(robot, text, (report) => report.inputs[name], (on) => robot.command("input", name, on ? "on" : "off"), { free: true });

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Power of the robot, and faults to try: both exist for simulated robots.
+// Power of the robot, and faults for tests: both exist for simulated robots.
 import { actionButton, card } from "../controls.js";
 import { confirmed } from "../dialogs.js";
 import { el, uniqueId } from "../dom.js";
@@ -13,7 +13,7 @@ const FAULTS = [
 const JOINT_FAULTS = [["jointLimitViolation", "A joint is beyond its limit."], ["jointPositionErrorDemand", "A joint has lost its position."]];
 
 async function reboot(robot) {
-  const sentence = "Motions stop, the brakes close, control is released and all logins end. You log in again when it is back.";
+  const sentence = "Motions stop, the brakes close, control is released and all logins end. Log in again after the boot.";
   if (await confirmed(`Reboot ${robot.label}?`, sentence, "Reboot", true)) await robot.command("reboot");
 }
 

@@ -1,14 +1,14 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Pushing a body with the pointer: a spring from where it was grabbed to where the pointer is.
+// Pushing a body with the pointer: a spring from the grabbed point to the pointer.
 import * as THREE from "three";
 import { number } from "../format.js";
 
 const STIFFNESS = 150; // [N/m] (chosen here: a hand's width is about 15 N)
-export const STRONGEST = 60; // [N] (chosen here)
+export const MAX_FORCE = 60; // [N] (chosen here)
 const PERIOD = 50; // [ms] of one push
 const METRES_PER_NEWTON = 0.006; // of the arrow
-const SHORTEST = 0.5; // [N] that is drawn and sent
+const MIN_FORCE = 0.5; // [N] that is drawn and sent
 
 export class PushTool {
   /** push(body, [fx, fy, fz], milliseconds): sends a push; label: an element for the force. */
@@ -72,9 +72,9 @@ export class PushTool {
   update() {
     if (!this.active) return;
     const from = this.body.localToWorld(this.anchor.clone());
-    this.force.subVectors(this.target, from).multiplyScalar(STIFFNESS).clampLength(0, STRONGEST);
+    this.force.subVectors(this.target, from).multiplyScalar(STIFFNESS).clampLength(0, MAX_FORCE);
     const strength = this.force.length();
-    this.arrow.visible = strength > SHORTEST;
+    this.arrow.visible = strength > MIN_FORCE;
     if (this.arrow.visible) {
       this.arrow.position.copy(from);
       this.arrow.setDirection(this.force.clone().normalize());
@@ -94,7 +94,7 @@ export class PushTool {
   }
 
   send() {
-    if (!this.active || this.force.length() < SHORTEST || this.waiting) return;
+    if (!this.active || this.force.length() < MIN_FORCE || this.waiting) return;
     this.waiting = true;
     Promise.resolve(this.push(this.body.name, this.force.toArray(), PERIOD)).finally(() => (this.waiting = false));
   }

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// The look of a robot: meshes of its links if they are installed, and the light at its base.
+// The appearance of a robot: meshes of its links if they are installed, and the light at its base.
 import * as THREE from "three";
 import { ColladaLoader } from "three/addons/loaders/ColladaLoader.js";
 import * as api from "../api.js";
@@ -36,8 +36,8 @@ function improve(mesh) {
 }
 
 /**
- * Puts the meshes of a robot's links on its bodies, in place of simple shapes. bodyOf(name): a body's group or
- * undefined. installed: names of the meshes that are there. onLoaded(): called after each.
+ * Puts the meshes of a robot's links on its bodies, instead of simple shapes. bodyOf(name): a body's group or
+ * undefined. installed: names of the installed meshes. onLoaded(): called after each.
  */
 export async function addMeshes({ arm_id: arm, type }, bodyOf, installed, onLoaded) {
   for (const [part, mesh, turn] of parts()) {

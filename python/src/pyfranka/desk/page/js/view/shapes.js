@@ -4,7 +4,7 @@
 import * as THREE from "three";
 
 const ENDLESS = 10; // [m] half size at which a plane without one is drawn
-const SMALLEST_FLOOR = 1.5; // [m] half size
+const MIN_FLOOR = 1.5; // [m] half size
 const ROUND = 32; // segments of a circle
 
 const GEOMETRIES = {
@@ -34,7 +34,7 @@ export function setPose(object, [x, y, z, qw, qx, qy, qz]) {
 }
 
 // A floor, endless or large, shows shadows only: the page draws its grid there, in its own colours.
-const isFloor = ({ kind, size }) => kind === "plane" && size.slice(0, 2).every((half) => !half || half >= SMALLEST_FLOOR);
+const isFloor = ({ kind, size }) => kind === "plane" && size.slice(0, 2).every((half) => !half || half >= MIN_FLOOR);
 
 function materialOf([red, green, blue, alpha]) {
   const color = new THREE.Color().setRGB(red, green, blue, THREE.SRGBColorSpace);

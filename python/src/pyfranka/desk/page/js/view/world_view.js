@@ -10,14 +10,14 @@ import { addMeshes, BaseLight } from "./robot_look.js";
 import { setPose, shapeObject } from "./shapes.js";
 
 const SLOW = 25; // [ms] for a picture: a slower machine gets simpler ones, at the rate of the stream
-const REST = 1.5; // times the time for a picture, in which nothing is drawn: the page stays usable
-const MEASURED_PICTURES = 20; // one of so many is timed, because waiting for its end takes time itself
-const SMALLEST_MOVE = 2e-4; // [m], and of a quaternion's numbers: below it nothing is drawn
+const REST = 1.5; // pause after a picture, as a multiple of its drawing time: the page stays usable
+const MEASURED_PICTURES = 20; // one picture in this many is timed, because waiting for its end takes time itself
+const MIN_MOVE = 2e-4; // [m], and of a quaternion's numbers: below it nothing is drawn
 const FRAME = 60; // [ms] between two frames of the stream, in which poses are interpolated
 const TURN = 0.08; // [rad] of the camera for a key
 const ZOOM = 1.1; // of its distance for a key
 const MEASURED = 0x2f9de0; // colour of the estimated external force
-const SMALLEST_FORCE = 2; // [N] that is drawn
+const MIN_FORCE = 2; // [N] that is drawn
 const METRES_PER_NEWTON = 0.006;
 
 export class WorldView {
@@ -32,7 +32,7 @@ export class WorldView {
     this.cost = 0; // [ms] of a picture
     this.pictures = 0;
     this.drawnAt = 0;
-    this.isSlow = false; // once slow, always slow: the picture does not change back and forth
+    this.isSlow = false; // never reset, so that the picture does not change back and forth
     this.makeScene();
     this.makeTools(push);
     new ResizeObserver(() => this.resize()).observe(this.element);
@@ -192,10 +192,10 @@ export class WorldView {
     this.requestDraw();
   }
 
-  // Measured positions never stand quite still.
+  // Measured positions always have some noise.
   areDrawn(poses) {
     return this.drawnPoses?.length === poses.length &&
-      poses.every((pose, i) => pose.every((value, k) => Math.abs(value - this.drawnPoses[i][k]) < SMALLEST_MOVE));
+      poses.every((pose, i) => pose.every((value, k) => Math.abs(value - this.drawnPoses[i][k]) < MIN_MOVE));
   }
 
   /** Shows lights and estimated forces. reports: by arm_id. */
@@ -212,9 +212,9 @@ export class WorldView {
     const strength = force.length();
     const was = arrow.visible;
     const shown = arrow.userData.force ?? new THREE.Vector3();
-    if (was === strength > SMALLEST_FORCE && force.distanceTo(shown) < 0.1 * SMALLEST_FORCE) return false;
+    if (was === strength > MIN_FORCE && force.distanceTo(shown) < 0.1 * MIN_FORCE) return false;
     arrow.userData.force = force.clone();
-    arrow.visible = strength > SMALLEST_FORCE;
+    arrow.visible = strength > MIN_FORCE;
     const base = this.byName.get(`${arm}_link0`);
     if (!arrow.visible || !base) return was;
     arrow.position.copy(base.localToWorld(new THREE.Vector3(...report.O_T_EE.slice(12, 15))));
@@ -311,7 +311,7 @@ export class WorldView {
     this.drawnAt = performance.now();
   }
 
-  // Drawing goes on after render(): reading a pixel waits for its end.
+  // Drawing continues after render(): reading a pixel waits for its end.
   measure(begin) {
     const gl = this.renderer.getContext();
     gl.readPixels(0, 0, 1, 1, gl.RGBA, gl.UNSIGNED_BYTE, new Uint8Array(4));

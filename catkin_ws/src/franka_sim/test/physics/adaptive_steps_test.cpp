@@ -1,0 +1,268 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// Long physics steps while robots move freely, short ones before and during contact (decision 58).
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "physics/world_impl.h"
+#include "stone_in_hand.h"
+
+namespace franka_sim::test {
+namespace {
+
+constexpr int kSmall = World::kSmallSteps;
+
+class AdaptiveStepsTest : public StoneInHandTest {
+ protected:
+  void tick(double force = 0.0, const std::array<double, 7>& q_d = kHome) {
+    const int before = world_.substeps();
+    StoneInHandTest::tick(force, q_d);
+    changes_ += world_.substeps() > before ? 1 : 0;
+  }
+
+  void run(int ticks, double force = 0.0) {
+    for (int k = 0; k < ticks; ++k) {
+      tick(force);
+    }
+  }
+
+  /// A block that does not move, beside the hand: joint 1 turns the hand into it.
+  void addWall() {
+    world_.addObject("wall", "<body name='wall'><geom type='box' size='0.1 0.02 0.3'/></body>",
+                     beside(0.22));
+  }
+
+  Pose beside(double y) {
+    Pose pose = world_.bodyPose(id() + "_hand");
+    pose.position[1] += y;
+    pose.orientation = {1, 0, 0, 0};
+    return pose;
+  }
+
+  bool robotTouches(const std::string& body) {
+    const auto contacts = world_.contacts();
+    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
+      return contact.body1 == body || contact.body2 == body;
+    });
+  }
+
+  Eigen::Vector3d forceOn(const std::string& body) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Contact& contact : world_.contacts()) {
+      const Eigen::Vector3d force(contact.force.data());
+      if (contact.body2 == body) {
+        sum += force;
+      } else if (contact.body1 == body) {
+        sum -= force;
+      }
+    }
+    return sum;
+  }
+
+  int changes_{0};
+};
+
+TEST_P(AdaptiveStepsTest, AFreeArmHasOneStepBesideAStoneThatRests) {
+  run(1000);
+  EXPECT_EQ(1, world_.substeps());
+  for (int k = 0; k < 1000; ++k) {
+    auto q_d = kHome;
+    q_d[0] += 0.3 * std::sin(0.003 * k);
+    tick(0.0, q_d);
+    ASSERT_EQ(1, world_.substeps()) << "in tick " << k;
+  }
+  EXPECT_EQ(1, arm_->measure().substeps);
+}
+
+TEST_P(AdaptiveStepsTest, SmallStepsAreAnOption) {
+  world_.setSubsteps(Substeps::kSmall);
+  run(100);
+  EXPECT_EQ(kSmall, world_.substeps());
+  EXPECT_EQ(kSmall, arm_->measure().substeps);
+}
+
+TEST_P(AdaptiveStepsTest, ChangesFromOutsideCountInTheNextTick) {
+  addWall();
+  run(1000);
+  const Snapshot free = world_.snapshot();
+  const auto expectSmall = [&](const char* what) {
+    tick();
+    EXPECT_EQ(kSmall, world_.substeps()) << what;
+    world_.restore(free);
+    tick();
+    EXPECT_EQ(1, world_.substeps()) << "without " << what;
+  };
+  placeStone();
+  expectSmall("a stone in the hand");
+  world_.setBodyTwist("stone", {{0, 0, 0.1}, {}});
+  expectSmall("a stone that moves");
+  world_.setJointPosition(id() + "_joint1", 0.3);
+  expectSmall("the hand at the wall");
+}
+
+TEST_P(AdaptiveStepsTest, FrictionThatNeedsSmallStepsHasThem) {
+  World world;
+  RobotDescription description = robot(id());
+  description.friction[id() + "_joint7"] = {0, 0, 0, 0, /*coulomb=*/40.0};
+  world.addRobot(description);
+  world.step();
+  EXPECT_EQ(kSmall, world.substeps());
+}
+
+TEST_P(AdaptiveStepsTest, SmallStepsWhileAnObjectMoves) {
+  run(1000);
+  world_.push("stone", {0.3, 0, 0.5}, {}, 50);
+  run(30);
+  EXPECT_EQ(kSmall, world_.substeps());
+  run(4000);
+  EXPECT_EQ(1, world_.substeps());
+}
+
+TEST_P(AdaptiveStepsTest, SmallStepsBeginBeforeTheFirstTouch) {
+  addWall();
+  run(300);
+  ASSERT_EQ(1, world_.substeps());
+  double q = 0.0;
+  int small = 0;
+  for (int k = 0; k < 2000 && !robotTouches("wall"); ++k) {
+    q += 0.002;  // 2 rad/s
+    auto q_d = kHome;
+    q_d[0] = q;
+    small = world_.substeps() == kSmall ? small + 1 : 0;
+    tick(0.0, q_d);
+  }
+  EXPECT_TRUE(robotTouches("wall"));
+  EXPECT_GE(small, 1) << "ticks of small steps that ended without a touch";
+}
+
+TEST_P(AdaptiveStepsTest, ASnapshotWithinContactContinuesBitForBit) {
+  placeStone();
+  run(500, 2.5);
+  const Snapshot snapshot = world_.snapshot();
+  run(50, 2.5);
+  const std::uint64_t first = world_.stateHash();
+  run(2000, -2.0);  // opens, and comes to long steps
+  world_.restore(snapshot);
+  run(50, 2.5);
+  EXPECT_EQ(kSmall, world_.substeps());
+  EXPECT_EQ(first, world_.stateHash());
+}
+
+/// What is decided for the next ticks is part of a snapshot: wherever it is taken, the world goes
+/// on in the same way, also if half of the next step was computed before.
+TEST_P(AdaptiveStepsTest, SnapshotsInFreeMotionContinueBitForBit) {
+  addWall();
+  const auto swing = [this](int from, int ticks) {
+    for (int k = from; k < from + ticks; ++k) {
+      auto q_d = kHome;
+      q_d[0] += 0.25 * std::sin(0.004 * k);
+      tick(0.0, q_d);
+    }
+    return world_.stateHash();
+  };
+  for (int k = 0; k < 3000; k += 150) {
+    const Snapshot snapshot = world_.snapshot();
+    const std::uint64_t first = swing(k, 150);
+    world_.restore(snapshot);
+    world_.prepareStep();
+    world_.restore(world_.snapshot());
+    ASSERT_EQ(first, swing(k, 150)) << "from tick " << k;
+  }
+  EXPECT_GE(changes_, 2) << "the swing comes near the wall and leaves it";
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, AdaptiveStepsTest, ::testing::Values("panda", "fr3"));
+
+// --- against small steps throughout --------------------------------------------------------------
+
+struct Outcome {
+  double slip;                 ///< of the stone in the hand [m]
+  Eigen::Vector3d stone;       ///< where it lies at the end, from the hand that carried it [m]
+  double grip, weight, press;  ///< normal force of a finger, force that carries, on the wall [N]
+  int changes;                 ///< to small steps
+};
+
+class ScenarioTest : public AdaptiveStepsTest {
+ protected:
+  /// Free motion, a grasp carried about, free motion again, and a push against a wall.
+  Outcome play(Substeps substeps) {
+    world_.setSubsteps(substeps);
+    world_.impl().object_rest.use(substeps == Substeps::kAdaptive);
+    addWall();
+    Outcome outcome{};
+    changes_ = 0;
+    const auto swing = [](int k, double share) {
+      auto q_d = kHome;
+      q_d[0] -= share * 0.2 * (1.0 - std::cos(0.002 * k));
+      q_d[5] += share * 0.2 * std::sin(0.003 * k);
+      return q_d;
+    };
+    for (int k = 0; k < 1000; ++k) {
+      tick(0.0, swing(k, 1.0));
+    }
+    for (int k = 0; k < 500; ++k) {
+      tick(0.0, kHome);
+    }
+    placeStone();
+    run(1000, 2.5);
+    const Eigen::Vector3d start = stoneInHand();
+    for (int k = 0; k < 4000; ++k) {
+      tick(2.5, swing(k, std::min(1.0, k / 1000.0)));
+      outcome.slip = std::max(outcome.slip, (stoneInHand() - start).norm());
+    }
+    outcome.grip = 0.5 * gripOf();
+    outcome.weight = forceOn("stone").z();
+    outcome.stone = stoneInHand();
+    for (int k = 0; k < 3000; ++k) {
+      tick(-2.0, swing(4000, 1.0));
+    }
+    for (int k = 0; k < 4000; ++k) {
+      auto q_d = kHome;
+      q_d[0] = std::min(0.0003 * k, 0.6);
+      tick(0.0, q_d);
+    }
+    outcome.press = forceOn("wall").norm();
+    outcome.changes = changes_;
+    return outcome;
+  }
+
+  /// Sum of the forces that both fingers exert on the stone [N].
+  double gripOf() {
+    double sum = 0.0;
+    for (const Contact& contact : world_.contacts()) {
+      const bool stone = contact.body1 == "stone" || contact.body2 == "stone";
+      sum += stone ? Eigen::Vector3d(contact.force.data()).norm() : 0.0;
+    }
+    return sum;
+  }
+};
+
+TEST_P(ScenarioTest, HasTheOutcomeOfSmallSteps) {
+  const Outcome adaptive = play(Substeps::kAdaptive);
+  world_.removeObject("wall");
+  world_.reset();
+  const Outcome small = play(Substeps::kSmall);
+  RecordProperty("slip_um", std::to_string(1e6 * adaptive.slip));
+  RecordProperty("slip_small_um", std::to_string(1e6 * small.slip));
+  RecordProperty("stone_um", std::to_string(1e6 * (adaptive.stone - small.stone).norm()));
+  RecordProperty("grip_N", std::to_string(adaptive.grip));
+  RecordProperty("grip_small_N", std::to_string(small.grip));
+  RecordProperty("press_N", std::to_string(adaptive.press));
+  RecordProperty("press_small_N", std::to_string(small.press));
+  RecordProperty("changes", adaptive.changes);
+  EXPECT_NEAR(small.slip, adaptive.slip, 0.02 * small.slip);
+  EXPECT_NEAR(0.0, (adaptive.stone - small.stone).norm(), 0.02 * small.stone.norm());
+  EXPECT_NEAR(small.grip, adaptive.grip, 0.02 * small.grip);
+  EXPECT_NEAR(small.weight, adaptive.weight, 0.02 * small.weight);
+  EXPECT_NEAR(small.press, adaptive.press, 0.02 * small.press);
+  EXPECT_GT(small.press, 5.0) << "the hand presses on the wall";
+  EXPECT_EQ(0, small.changes);
+  EXPECT_GE(adaptive.changes, 1) << "the wall";
+  EXPECT_LE(adaptive.changes, 10);
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, ScenarioTest, ::testing::Values("panda", "fr3"));
+
+}  // namespace
+}  // namespace franka_sim::test

@@ -1,0 +1,281 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// Objects that rest are held in place until something can move them (decision 60).
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "physics/world_impl.h"
+#include "stone_in_hand.h"
+
+namespace franka_sim::test {
+namespace {
+
+class ObjectRestTest : public StoneInHandTest {
+ protected:
+  static constexpr double kWeight = 0.1024 * 9.81;  // of the stone [N]
+
+  void run(int ticks) {
+    for (int k = 0; k < ticks; ++k) {
+      tick(0.0, kHome);
+    }
+  }
+
+  /// Ticks until objects are held, at most so many.
+  bool settles(int ticks = 2000) {
+    for (int k = 0; k < ticks && !held(); ++k) {
+      tick(0.0, kHome);
+    }
+    return held();
+  }
+
+  bool held() { return world_.impl().object_rest.held(); }
+
+  double forceUp(const std::string& body) {
+    double sum = 0.0;
+    for (const Contact& contact : world_.contacts()) {
+      sum += contact.body2 == body ? contact.force[2] : 0.0;
+      sum -= contact.body1 == body ? contact.force[2] : 0.0;
+    }
+    return sum;
+  }
+
+  double speedOf(const std::string& body) {
+    const Twist twist = world_.bodyTwist(body);
+    return Eigen::Vector3d(twist.linear.data()).norm();
+  }
+
+  double heightOf(const std::string& body) { return world_.bodyPose(body).position[2]; }
+
+  void addBox(const std::string& name, const std::string& half, double z) {
+    Pose pose;
+    pose.position = {0.0, 0.0, z};
+    const std::string size = half + " " + half + " " + half;
+    world_.addObject(name,
+                     "<body name='" + name + "'><freejoint/><geom type='box' size='" + size +
+                         "' mass='0.1'/></body>",
+                     pose);
+  }
+
+  /// MuJoCo lets a box tremble on one of its own size; a smaller one rests.
+  void addStack() {
+    addBox("lower", "0.02", 0.4399);
+    addBox("upper", "0.015", 0.4749);
+  }
+};
+
+TEST_P(ObjectRestTest, AStoneThatRestsIsHeldAndShowsItsContacts) {
+  ASSERT_TRUE(settles());
+  EXPECT_GT(world_.ticks(), 100U) << "it first sinks onto its tray";
+  const Pose before = world_.bodyPose("stone");
+  for (int k = 0; k < 1000; ++k) {
+    auto q_d = kHome;
+    q_d[0] += 0.3 * std::sin(0.003 * k);
+    tick(0.0, q_d);
+    ASSERT_TRUE(held()) << k;
+    ASSERT_NEAR(kWeight, forceUp("stone"), 1e-6 * kWeight) << k;
+  }
+  EXPECT_EQ(before.position, world_.bodyPose("stone").position);
+  EXPECT_EQ(before.orientation, world_.bodyPose("stone").orientation);
+  EXPECT_EQ(0.0, speedOf("stone"));
+  EXPECT_EQ(4U, world_.contacts().size());
+  world_.prepareStep();
+  EXPECT_EQ(4U, world_.contacts().size());
+  EXPECT_NEAR(kWeight, forceUp("stone"), 1e-6 * kWeight);
+}
+
+TEST_P(ObjectRestTest, WithoutItAStoneGoesOnResting) {
+  ASSERT_TRUE(settles());
+  run(500);
+  const double height = heightOf("stone");
+  world_.impl().object_rest.use(false);
+  for (int k = 0; k < 500; ++k) {
+    tick(0.0, kHome);
+    ASSERT_LT(speedOf("stone"), 1e-7) << k;
+    ASSERT_NEAR(kWeight, forceUp("stone"), 1e-4 * kWeight) << k;
+  }
+  EXPECT_NEAR(height, heightOf("stone"), 1e-9);
+}
+
+TEST_P(ObjectRestTest, ArmsMoveAsBesideAStoneThatIsNotHeld) {
+  const auto swing = [this] {
+    for (int k = 0; k < 2000; ++k) {
+      auto q_d = kHome;
+      q_d[0] += 0.3 * std::sin(0.003 * k);
+      tick(0.0, q_d);
+    }
+    return arm_->measure();
+  };
+  ASSERT_TRUE(settles());
+  const Snapshot snapshot = world_.snapshot();
+  const ArmMeasurement with = swing();
+  EXPECT_TRUE(held());
+  world_.restore(snapshot);
+  world_.impl().object_rest.use(false);
+  const ArmMeasurement without = swing();
+  EXPECT_FALSE(held());
+  for (std::size_t i = 0; i < 7; ++i) {
+    EXPECT_NEAR(without.q[i], with.q[i], 1e-9) << i;
+    EXPECT_NEAR(without.tau_J[i], with.tau_J[i], 1e-6) << i;
+  }
+}
+
+TEST_P(ObjectRestTest, APushMovesItInTheNextTick) {
+  ASSERT_TRUE(settles());
+  const Snapshot snapshot = world_.snapshot();
+  for (const bool prepared : {false, true}) {
+    world_.restore(snapshot);
+    if (prepared) {
+      world_.prepareStep();
+    }
+    world_.push("stone", {0, 0, 2.0}, {}, 5);
+    EXPECT_NEAR(kWeight, forceUp("stone"), 1e-6 * kWeight) << "of the last step";
+    tick(0.0, kHome);
+    EXPECT_FALSE(held());
+    EXPECT_GT(speedOf("stone"), 0.005);
+  }
+  world_.restore(snapshot);
+  world_.push(id() + "_hand", {0, 0, 2.0}, {}, 5);
+  tick(0.0, kHome);
+  EXPECT_TRUE(held()) << "a push against the arm";
+}
+
+TEST_P(ObjectRestTest, ChangesFromOutsideCountInTheNextTick) {
+  ASSERT_TRUE(settles());
+  const Snapshot snapshot = world_.snapshot();
+  const auto expectFalls = [&](const char* what) {
+    run(10);
+    EXPECT_FALSE(held()) << what;
+    EXPECT_GT(speedOf("stone"), 0.01) << what;
+    world_.restore(snapshot);
+    tick(0.0, kHome);
+    EXPECT_TRUE(held()) << "without " << what;
+  };
+  Pose raised = world_.bodyPose("stone");
+  raised.position[2] += 0.05;
+  world_.setBodyPose("stone", raised);
+  expectFalls("a stone that is lifted");
+  world_.setGravity({0, 0, 5.0});
+  expectFalls("another gravity");
+  world_.setBodyTwist("stone", {{0, 0, 0.5}, {}});
+  expectFalls("a stone that is thrown");
+}
+
+TEST_P(ObjectRestTest, AStackIsHeldAndFallsWithoutItsSupport) {
+  addStack();
+  ASSERT_TRUE(settles(4000));
+  const double height = heightOf("upper");
+  run(500);
+  EXPECT_EQ(height, heightOf("upper"));
+  EXPECT_NEAR(0.1 * 9.81, forceUp("upper"), 1e-4);
+  world_.removeObject("lower");
+  run(100);
+  EXPECT_LT(heightOf("upper"), height - 0.02);
+  EXPECT_TRUE(settles(4000)) << "and rests again";
+}
+
+TEST_P(ObjectRestTest, AStackOfWhichOneIsPushedMoves) {
+  addStack();
+  ASSERT_TRUE(settles(4000));
+  const double x = world_.bodyPose("upper").position[0];
+  world_.push("lower", {2.5, 0, 0}, {}, 200);
+  run(200);
+  EXPECT_GT(world_.bodyPose("upper").position[0], x + 0.01);
+}
+
+TEST_P(ObjectRestTest, WhatCreepsOnATiltedTrayIsNotHeld) {
+  constexpr double kTilt = 0.0087;  // half a degree
+  world_.setGravity({9.81 * std::sin(kTilt), 0, -9.81 * std::cos(kTilt)});
+  for (int k = 0; k < 3000; ++k) {
+    tick(0.0, kHome);
+    ASSERT_FALSE(held()) << k;
+  }
+  EXPECT_GT(speedOf("stone"), 5e-8);
+}
+
+TEST_P(ObjectRestTest, APendulumIsNotHeldWhereItTurnsBack) {
+  Pose pose;
+  pose.position = {0.5, 0.6, 0.8};
+  world_.addObject("pendulum",
+                   "<body name='pendulum'><joint name='swing' type='hinge' axis='0 1 0'/>"
+                   "<geom type='capsule' fromto='0 0 0 0 0 -0.3' size='0.01'/></body>",
+                   pose);
+  world_.setJointPosition("swing", 0.001);
+  double lowest = 0.0;
+  for (int k = 0; k < 3000; ++k) {
+    tick(0.0, kHome);
+    ASSERT_FALSE(held()) << k;
+    lowest = std::min(lowest, world_.joint("swing").position);
+  }
+  EXPECT_LT(lowest, -0.0005) << "it swings";
+}
+
+/// The hand comes down over the stone with open fingers, and closes.
+TEST_P(ObjectRestTest, ItIsFreeBeforeTheFirstTouch) {
+  Pose below = world_.bodyPose(id() + "_hand_tcp");
+  below.position[1] += 0.12;
+  world_.addObject("stand", "<body name='stand'><geom type='box' size='0.03 0.02 0.05'/></body>",
+                   [&] {
+                     Pose stand;
+                     stand.position = below.position;
+                     stand.position[2] -= 0.082;
+                     return stand;
+                   }());
+  below.orientation = {1, 0, 0, 0};
+  world_.setBodyPose("stone", below);
+  ASSERT_TRUE(settles());
+  const auto touches = [this] {
+    const auto contacts = world_.contacts();
+    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
+      return (contact.body1 == "stone" && contact.body2.rfind(id(), 0) == 0) ||
+             (contact.body2 == "stone" && contact.body1.rfind(id(), 0) == 0);
+    });
+  };
+  int free = 0;
+  double q = 0.0;
+  for (int k = 0; k < 2000 && !touches(); ++k) {
+    q += 0.001;  // 1 rad/s
+    auto q_d = kHome;
+    q_d[0] += q;
+    free = held() ? 0 : free + 1;
+    tick(0.0, q_d);
+  }
+  ASSERT_TRUE(touches());
+  EXPECT_GE(free, 1) << "ticks before the touch";
+  EXPECT_LE(free, 60) << "held as long as possible";
+}
+
+TEST_P(ObjectRestTest, SnapshotsContinueBitForBit) {
+  const auto swing = [this](int from, int ticks) {
+    for (int k = from; k < from + ticks; ++k) {
+      auto q_d = kHome;
+      q_d[0] += 0.25 * std::sin(0.004 * k);
+      if (k == 900) {
+        world_.push("stone", {0.2, 0, 0.5}, {}, 20);
+      }
+      tick(0.0, q_d);
+    }
+    return world_.stateHash();
+  };
+  int changes = 0;
+  for (int k = 0; k < 3000; k += 60) {
+    const bool before = held();
+    const Snapshot snapshot = world_.snapshot();
+    const std::uint64_t first = swing(k, 60);
+    const std::size_t contacts = world_.contacts().size();
+    const bool after = held();
+    world_.restore(snapshot);
+    world_.prepareStep();
+    world_.restore(world_.snapshot());
+    ASSERT_EQ(first, swing(k, 60)) << "from tick " << k;
+    ASSERT_EQ(contacts, world_.contacts().size()) << k;
+    ASSERT_EQ(after, held()) << k;
+    changes += before != after ? 1 : 0;
+  }
+  EXPECT_EQ(3, changes) << "held, pushed, held again";
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, ObjectRestTest, ::testing::Values("panda", "fr3"));
+
+}  // namespace
+}  // namespace franka_sim::test

@@ -1,0 +1,60 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Geometry>
+#include <array>
+#include <memory>
+#include <string>
+
+#include "test_support.h"
+
+namespace franka_sim::test {
+
+inline Eigen::Isometry3d toEigen(const Pose& pose) {
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  const auto& q = pose.orientation;
+  result.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  result.translation() = Eigen::Vector3d(pose.position.data());
+  return result;
+}
+
+/// An arm whose fingers are as far apart as the stone is wide, and the stone on its table. The
+/// parameter is the robot.
+class StoneInHandTest : public ::testing::TestWithParam<const char*> {
+ protected:
+  StoneInHandTest() : world_(test::world("stone")) {
+    RobotDescription description = robot(id());
+    description.base.position = {-0.5, 0, 0.3};
+    description.initial_positions[id() + "_finger_joint1"] = 0.0165;
+    world_.addRobot(description);
+    arm_ = &world_.arm(id(), id());
+    hand_ = &world_.hand(id(), id());
+    holder_ = std::make_unique<ArmHolder>(arm_, id());
+  }
+
+  std::string id() const { return GetParam(); }
+
+  /// Puts the stone between the open fingers, its 32 mm along their direction of motion.
+  void placeStone() { world_.setBodyPose("stone", world_.bodyPose(id() + "_hand_tcp")); }
+
+  /// One tick. @param force with which each finger closes [N] @param q_d, dq_d that the arm holds
+  void tick(double force, const std::array<double, 7>& q_d,
+            const std::array<double, 7>& dq_d = {}) {
+    holder_->hold(q_d, dq_d);
+    hand_->applyForces({-force, -force});
+    world_.step();
+  }
+
+  Eigen::Vector3d stoneInHand() {
+    return (toEigen(world_.bodyPose(id() + "_hand")).inverse() * toEigen(world_.bodyPose("stone")))
+        .translation();
+  }
+
+  World world_;
+  ArmPlant* arm_;
+  HandPlant* hand_;
+  std::unique_ptr<ArmHolder> holder_;
+};
+
+}  // namespace franka_sim::test

@@ -1,0 +1,153 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// The hand's fingers: their ramp, their force, and when they stand still.
+#include <franka_sim/robot/finger_force.h>
+#include <franka_sim/robot/standstill.h>
+#include <franka_sim/robot/ticket_log.h>
+#include <franka_sim/robot/width_ramp.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace franka_sim::test {
+
+namespace {
+
+TEST(WidthRamp, MovesAtItsSpeedAndEndsExactly) {
+  for (const double speed : {0.0007, 0.02, 0.1}) {
+    for (const double target : {0.0, 0.0300001, 0.08}) {
+      WidthRamp ramp;
+      ramp.start(0.03, target, speed);
+      double last = 0.03;
+      double fastest = 0.0;
+      int ticks = 0;
+      while (!ramp.arrived() && ticks < 200000) {
+        ramp.step(1e-3);
+        const double step = std::abs(ramp.width() - last) / 1e-3;
+        fastest = std::max(fastest, step);
+        last = ramp.width();
+        EXPECT_GE(ramp.width(), std::min(0.03, target));
+        EXPECT_LE(ramp.width(), std::max(0.03, target));
+        ticks++;
+      }
+      EXPECT_EQ(target, ramp.width());
+      EXPECT_EQ(0.0, ramp.velocity());
+      EXPECT_LE(fastest, speed * (1 + 1e-9));
+      const double way = std::abs(target - 0.03);
+      const double expected = way > speed * speed ? way / speed + speed : 2.0 * std::sqrt(way);
+      EXPECT_NEAR(expected, 1e-3 * ticks, 0.01 + 0.01 * expected) << speed << " " << target;
+    }
+  }
+}
+
+TEST(WidthRamp, WithoutSpeedStays) {
+  WidthRamp ramp;
+  ramp.start(0.03, 0.08, 0.0);
+  for (int i = 0; i < 1000; i++) {
+    ramp.step(1e-3);
+  }
+  EXPECT_EQ(0.03, ramp.width());
+  EXPECT_FALSE(ramp.arrived());
+  ramp.hold(0.05);
+  EXPECT_TRUE(ramp.arrived());
+}
+
+TEST(Standstill, CountsAfterTheFirstMotionOrTheTimeout) {
+  Standstill standstill(3);
+  standstill.restart();
+  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
+  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
+  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
+  EXPECT_FALSE(standstill.update(0.002, 0.001, 1e-3));
+  EXPECT_FALSE(standstill.update(0.001, 0.001, 1e-3));
+  EXPECT_FALSE(standstill.update(-0.001, 0.001, 1e-3));
+  EXPECT_TRUE(standstill.update(0, 0.001, 1e-3));
+  standstill.restart();
+  int ticks = 0;
+  while (!standstill.update(0, 0.001, 1e-3)) {
+    ticks++;
+  }
+  EXPECT_NEAR(202, ticks + 1, 1);
+}
+
+TEST(Standstill, RestartsAfterEveryMotion) {
+  Standstill standstill(3);
+  standstill.restart();
+  standstill.countFromNow();
+  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
+  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
+  EXPECT_FALSE(standstill.update(0.01, 0.001, 1e-3));
+  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
+  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
+  EXPECT_TRUE(standstill.update(0, 0.001, 1e-3));
+}
+
+TEST(FingerForce, LimitsTheIntegral) {
+  FingerForce finger({100, 50, 1});
+  EXPECT_NEAR(1 + 50 * 0.01 * 1e-3 + 8 * 0.5, finger.update(0.01, 0.5, 1e-3), 1e-12);
+  for (int i = 0; i < 1000000; i++) {
+    finger.update(0.04, 0, 1e-3);
+  }
+  EXPECT_NEAR(4 + 10, finger.update(0.04, 0, 1e-3), 1e-12);
+  finger.restart();
+  EXPECT_NEAR(0.0, finger.update(0, 0, 1e-3), 1e-12);
+}
+
+TEST(TicketLog, KeepsSixteenOutcomes) {
+  TicketLog log;
+  EXPECT_EQ(GripperOutcome::kFailed, log.outcome(0));
+  EXPECT_EQ(GripperOutcome::kFailed, log.outcome(1));
+  log.close(GripperOutcome::kSucceeded);  // nothing runs
+  const TicketLog::Ticket first = log.open();
+  EXPECT_EQ(1u, first);
+  EXPECT_EQ(GripperOutcome::kRunning, log.outcome(first));
+  const TicketLog::Ticket second = log.open();
+  EXPECT_EQ(GripperOutcome::kInterrupted, log.outcome(first));
+  log.close(GripperOutcome::kSucceeded);
+  log.close(GripperOutcome::kFailed);  // has already ended
+  EXPECT_EQ(GripperOutcome::kSucceeded, log.outcome(second));
+  for (std::size_t i = 0; i < TicketLog::kRemembered - 1; i++) {
+    log.open();
+  }
+  EXPECT_EQ(GripperOutcome::kSucceeded, log.outcome(second));
+  log.open();
+  EXPECT_EQ(GripperOutcome::kInterrupted, log.outcome(second)) << "forgotten";
+  EXPECT_EQ(GripperOutcome::kFailed, log.outcome(100));
+}
+
+TEST(TicketLog, TakesOverAnEarlierStateWithoutGivingANumberTwice) {
+  TicketLog log;
+  const TicketLog::Ticket first = log.open();
+  const TicketLog earlier = log;
+  log.close(GripperOutcome::kSucceeded);
+  const TicketLog::Ticket second = log.open();
+  log = earlier;
+  EXPECT_EQ(GripperOutcome::kRunning, log.outcome(first));
+  EXPECT_EQ(GripperOutcome::kInterrupted, log.outcome(second));
+  EXPECT_TRUE(log.isOpen());
+  log.close(GripperOutcome::kFailed);
+  EXPECT_EQ(GripperOutcome::kFailed, log.outcome(first));
+  EXPECT_LT(second, log.open());
+}
+
+TEST(TicketLog, TakesOverTheLogOfAnotherHandUnderNewNumbers) {
+  TicketLog log;
+  TicketLog other;
+  const TicketLog::Ticket own = log.open();
+  ASSERT_EQ(own, other.open());
+  log = other;
+  log.renumber();
+  EXPECT_TRUE(log.isOpen());
+  EXPECT_EQ(GripperOutcome::kInterrupted, log.outcome(own));
+  log.close(GripperOutcome::kSucceeded);
+  EXPECT_EQ(GripperOutcome::kInterrupted, log.outcome(own));
+  TicketLog empty;
+  log = empty;
+  log.renumber();
+  EXPECT_FALSE(log.isOpen());
+}
+
+}  // namespace
+
+}  // namespace franka_sim::test

@@ -1,0 +1,60 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+// How an arm comes to rest: it brakes, and yields after a reflex.
+#include <franka_sim/robot/rest_sequence.h>
+
+#include "fci_fixture.h"
+
+namespace franka_sim::test {
+
+namespace {
+
+using Joints = std::array<double, 7>;
+
+const Joints kSwing{{0.3, 0, 0, 0, 0, 0, 0}};
+const Joints kRate{{10, 10, 10, 10, 10, 10, 10}};  // [rad/s^2]: kSwing stops within 30 ms
+
+TEST(RestSequence, BrakesAtTheGivenRateAndStops) {
+  RestSequence rest;
+  EXPECT_EQ(RestSequence::Step::kNone, rest.step(false, kReady, {}, kRate));
+  rest.brake(kReady, kSwing, kRate);
+  int ticks = 1;
+  while (rest.step(false, kReady, {}, kRate) == RestSequence::Step::kBrakes) {
+    ASSERT_TRUE(rest.isBraking());
+    ASSERT_LT(++ticks, 1000);
+  }
+  EXPECT_TRUE(rest.isFinished());
+  EXPECT_NEAR(30, ticks, 1);
+  EXPECT_NEAR(kReady[0] + 0.3 * 0.3 / 20.0, rest.braking().q()[0], 2e-4);
+  EXPECT_EQ(Joints{}, rest.braking().dq());
+}
+
+TEST(RestSequence, YieldsForTwoHundredTicksAfterAReflex) {
+  RestSequence rest;
+  rest.brake(kReady, {}, kRate);
+  EXPECT_EQ(RestSequence::Step::kStops, rest.step(true, kReady, {}, kRate));
+  int yielded = 0;
+  while (rest.step(true, kReady, {}, kRate) == RestSequence::Step::kYields) {
+    ASSERT_LT(++yielded, 1000);
+  }
+  EXPECT_EQ(200, yielded);
+  EXPECT_TRUE(rest.isFinished());
+}
+
+TEST(RestSequence, BrakesAgainFromTheMeasuredMotionWhenAReflexTakesTooLong) {
+  const Joints slow{{1, 1, 1, 1, 1, 1, 1}};
+  Joints met = kReady;
+  met[0] += 0.01;
+  RestSequence rest;
+  rest.brake(kReady, {{0.5, 0, 0, 0, 0, 0, 0}}, slow);  // takes 500 ms
+  for (int i = 0; i < 199; i++) {
+    EXPECT_EQ(RestSequence::Step::kBrakes, rest.step(true, met, {}, slow));
+  }
+  EXPECT_GT(rest.braking().q()[0], met[0]);
+  EXPECT_EQ(RestSequence::Step::kStops, rest.step(true, met, {}, slow));
+  EXPECT_EQ(met, rest.braking().q());
+}
+
+}  // namespace
+
+}  // namespace franka_sim::test

@@ -1,0 +1,129 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+
+/// @file
+/// The control unit's configuration from ROS parameters.
+
+#include <franka_sim/physics/world.h>
+#include <franka_sim_mujoco/arm_parameters.h>
+#include <gtest/gtest.h>
+#include <ros/ros.h>
+#include <ros_test/log_catcher.h>
+#include <transform_sweep.h>
+#include <urdf/model.h>
+
+#include <array>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include "sentences.h"
+
+namespace franka_sim_mujoco {
+namespace {
+
+std::string pandaUrdf() {
+  std::ifstream file(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+class ArmParameters : public testing::Test {
+ protected:
+  ArmParameters() : urdf_(pandaUrdf()) {
+    franka_sim::RobotDescription description;
+    description.name = "panda";
+    description.urdf = urdf_;
+    description.resolve = [](const std::string&) { return std::string(); };
+    world_.addRobot(description);
+    EXPECT_TRUE(model_.initString(urdf_));
+  }
+
+  franka_sim::ControlUnitParameters read() const {
+    RobotHandle robot;
+    robot.world = const_cast<franka_sim::World*>(&world_);
+    robot.name = "panda";
+    robot.urdf = urdf_;
+    robot.robot_type = "panda";
+    return readArmParameters(node_, robot, model_, "panda");
+  }
+
+  template <std::size_t N>
+  void set(const std::string& name, const std::array<double, N>& values) {
+    node_.setParam(name, std::vector<double>(values.begin(), values.end()));
+  }
+
+  std::string urdf_;
+  franka_sim::World world_;
+  urdf::Model model_;
+  ros::NodeHandle node_{"~/" +
+                        std::string(testing::UnitTest::GetInstance()->current_test_info()->name())};
+};
+
+TEST_F(ArmParameters, AgreeWithEveryOtherInputOnRoundedMatrices) {
+  std::array<double, 16> frame = franka_core::kIdentityTransform;
+  frame[12] = 0.01;
+  frame[14] = 0.1;
+  for (const std::string name : {"F_T_NE", "NE_T_EE", "EE_T_K"}) {
+    for (const franka_test::PerturbedMatrix& perturbed : franka_test::perturbations(frame)) {
+      set(name, perturbed.matrix);
+      const std::string refusal = sentence([this] { read(); });
+      EXPECT_EQ(perturbed.accepted, refusal.empty())
+          << name << ", " << perturbed << ": " << refusal;
+      EXPECT_TRUE(perturbed.accepted ||
+                  (contains(refusal, name) && contains(refusal, "exactly 0 0 0 1")))
+          << refusal;
+    }
+    node_.deleteParam(name);
+  }
+}
+
+TEST_F(ArmParameters, LowerThresholdsAboveTheUpperOnesAreTakenWithAWarning) {
+  const std::array<double, 7> torques{31, 32, 33, 34, 35, 36, 37};
+  const std::array<double, 6> forces{41, 42, 43, 44, 45, 46};
+  set("collision_config/lower_torque_thresholds_nominal", torques);
+  set("collision_config/lower_force_thresholds_acceleration", forces);
+  const ros_test::LogCatcher log;
+  const franka_sim::ControlUnitParameters parameters = read();
+  EXPECT_EQ(torques, parameters.nominal.lower_torque);
+  EXPECT_GT(torques[0], parameters.nominal.upper_torque[0]);
+  EXPECT_EQ(forces, parameters.acceleration.lower_force);
+  EXPECT_GT(forces[0], parameters.acceleration.upper_force[0]);
+  for (const char* part :
+       {"collision_config/*_nominal: The lower torque threshold 1 (31) is above the upper one "
+        "(20): collisions begin before contacts.",
+        "collision_config/*_acceleration: The lower torque threshold 1 (31) is above"}) {
+    EXPECT_TRUE(contains(log.text(ros::console::levels::Warn), part)) << part << "\n" << log.text();
+  }
+}
+
+TEST(ThresholdRemark, NamesTheFirstLowerThresholdAboveItsUpperOne) {
+  franka_sim::CollisionThresholds thresholds;
+  thresholds.lower_torque.fill(10.0);
+  thresholds.upper_torque.fill(10.0);
+  thresholds.lower_force.fill(20.0);
+  thresholds.upper_force.fill(20.5);
+  EXPECT_EQ("", thresholdRemark(thresholds));
+  thresholds.lower_force[4] = 21.5;
+  EXPECT_EQ(
+      "The lower force threshold 5 (21.5) is above the upper one (20.5): collisions begin before "
+      "contacts.",
+      thresholdRemark(thresholds));
+  thresholds.lower_torque[6] = 1e3;
+  thresholds.lower_torque[2] = 10.25;
+  EXPECT_EQ(
+      "The lower torque threshold 3 (10.25) is above the upper one (10): collisions begin before "
+      "contacts.",
+      thresholdRemark(thresholds));
+  EXPECT_EQ("", checkThresholds(thresholds));
+}
+
+}  // namespace
+}  // namespace franka_sim_mujoco
+
+int main(int argc, char** argv) {
+  testing::InitGoogleTest(&argc, argv);
+  ros::init(argc, argv, "arm_parameters_test");
+  const ros::NodeHandle keeps_ros_running;
+  return RUN_ALL_TESTS();
+}

@@ -1,0 +1,357 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A Panda with hand in the stone world, used through topics, services and actions only."""
+
+import math
+import time
+from functools import partial
+from pathlib import Path
+
+import actionlib
+import pytest
+from actionlib_msgs.msg import GoalStatus
+from control_msgs.msg import GripperCommandAction, GripperCommandGoal
+from franka_gripper.msg import (
+    GraspAction,
+    GraspEpsilon,
+    GraspGoal,
+    HomingAction,
+    HomingGoal,
+    MoveAction,
+    MoveGoal,
+    StopAction,
+    StopGoal,
+)
+from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
+from franka_msgs.srv import SetEEFrame, SetForceTorqueCollisionBehavior, SetKFrame, SetLoad
+from franka_sim_mujoco.srv import (
+    GetBodyPose,
+    GetContacts,
+    PushBody,
+    RenderPicture,
+    SetBodyPose,
+    SetRealTimeFactor,
+    Step,
+)
+from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
+from ros_client import Action, Controllers, call, latest, launched, outcome
+from sensor_msgs.msg import JointState
+from std_msgs.msg import Bool
+from std_srvs.srv import Empty, SetBool, Trigger
+from waiting import PATIENCE, wait_for
+
+HERE = Path(__file__).resolve().parent
+IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
+
+pytestmark = pytest.mark.own_process
+
+
+@pytest.fixture(scope="module", autouse=True)
+def simulation(tmp_path_factory):
+    log = tmp_path_factory.mktemp("simulation") / "launch.log"
+    with launched(str(HERE / "simulation.launch"), log=log):
+        Controllers().wait_for(
+            "franka_state_controller", "cartesian_impedance_example_controller", "franka_gripper"
+        )
+        yield
+
+
+@pytest.fixture(autouse=True)
+def running_again(simulation):
+    yield
+    service("/franka_control/set_user_stop", SetBool)(False)
+    pause(False)
+
+
+def service(name, kind):
+    return partial(call, name, kind)
+
+
+step = service("/gazebo/step", Step)
+
+
+def state():
+    return latest("/franka_state_controller/franka_states", FrankaState)
+
+
+def state_when(condition, patience=PATIENCE):
+    """The first state that meets a condition; fails if none does in time."""
+    return wait_for(lambda: next(filter(condition, [state()]), None), "A state that is awaited", patience)
+
+
+def finish(name, kind, goal):
+    """Status, result and text of a goal."""
+    return result(Action(name, kind).send(goal))
+
+
+def result(handle):
+    """Waits in wall time: ROS time is many times faster here."""
+    status, text = outcome(handle)
+    return status, handle.get_result(), text
+
+
+def pause(paused=True):
+    service("/gazebo/pause_physics" if paused else "/gazebo/unpause_physics", Empty)()
+
+
+# ---- the robot's state ----
+
+
+def test_state_is_that_of_a_moving_panda_at_rest():
+    now = state_when(lambda s: s.robot_mode == FrankaState.ROBOT_MODE_MOVE)
+    assert now.m_ee == pytest.approx(0.76, abs=5e-7)
+    assert now.m_total == pytest.approx(0.76, abs=5e-7)
+    assert now.F_T_NE[14] == pytest.approx(0.1034, abs=5e-8)
+    assert now.F_T_NE[0] == pytest.approx(math.cos(math.pi / 4), abs=5e-7)
+    assert now.O_ddP_O[2] == pytest.approx(-9.81, abs=5e-8)
+    assert now.control_command_success_rate == pytest.approx(1.0, abs=5e-8)
+    assert max(abs(f) for f in now.O_F_ext_hat_K[:3]) < 1.0
+    for q, start in zip(now.q, (0, -0.785398163, 0, -2.35619449, 0, 1.57079632679, 0.785398163397)):
+        assert q == pytest.approx(start, abs=0.02)
+
+
+def test_joint_states_name_the_joints_of_the_arm_and_the_fingers():
+    arm = latest("/franka_state_controller/joint_states", JointState)
+    assert list(arm.name) == [f"panda_joint{i}" for i in range(1, 8)]
+    hand = latest("/franka_gripper/joint_states", JointState)
+    assert list(hand.name) == ["panda_finger_joint1", "panda_finger_joint2"]
+    merged = latest("/joint_states", JointState)
+    assert set(arm.name) <= set(merged.name)
+
+
+def test_initialized_reaches_late_subscribers():
+    assert latest("/initialized", Bool).data
+
+
+# ---- services ----
+
+
+def test_load_and_frames_are_set_or_refused():
+    set_load = service("/franka_control/set_load", SetLoad)
+    assert set_load(0.1, [0, 0, 0.1], [0] * 9).success
+    now = state_when(lambda s: s.m_load > 0)
+    assert now.m_total == pytest.approx(0.86, abs=5e-8)
+    assert set_load(0.0, [0, 0, 0], [0] * 9).success
+    refused = set_load(-1.0, [0, 0, 0], [0] * 9)
+    assert not refused.success
+    assert "load" in refused.error
+
+    frame = list(IDENTITY)
+    frame[14] = 0.05
+    for name, kind, field in (
+        ("set_EE_frame", SetEEFrame, "NE_T_EE"),
+        ("set_K_frame", SetKFrame, "EE_T_K"),
+    ):
+        setter = service("/franka_control/" + name, kind)
+        assert setter(frame).success
+        state_when(lambda s, f=field: abs(getattr(s, f)[14] - 0.05) < 1e-9)
+        assert setter(IDENTITY).success
+        refused = setter([0] * 16)
+        assert not refused.success
+        assert field in refused.error
+
+
+def test_a_push_is_reported_as_contact_and_collision_with_the_right_sign():
+    set_behavior = service(
+        "/franka_control/set_force_torque_collision_behavior", SetForceTorqueCollisionBehavior
+    )
+    push = service("/gazebo/push_body", PushBody)
+    assert set_behavior([50] * 7, [60] * 7, [5] * 6, [50] * 6).success
+    pause()
+    assert push("panda_hand", Vector3(10, 0, 0), Vector3(), False, Point(), 100000).success
+    pause(False)
+    now = state_when(lambda s: any(s.cartesian_contact))
+    assert not any(now.cartesian_collision)
+    now = state_when(lambda s: abs(s.O_F_ext_hat_K[0] + 10) < 0.2)
+    assert set_behavior([1, 1, 1, 1, 1, 1, 1], [2] * 7, [5] * 6, [8] * 6).success
+    state_when(lambda s: any(s.cartesian_collision))
+    assert set_behavior(
+        [20, 20, 18, 18, 16, 14, 12],
+        [20, 20, 18, 18, 16, 14, 12],
+        [20, 20, 20, 25, 25, 25],
+        [20, 20, 20, 25, 25, 25],
+    ).success
+    bad = set_behavior([-5] * 7, [4] * 7, [5] * 6, [50] * 6)
+    assert not bad.success
+    assert "negative" in bad.error
+    assert not push("no_such_body", Vector3(), Vector3(), False, Point(), 1).success
+    # The push lasts 100 s of simulated time, which may take long on a busy machine.
+    state_when(lambda s: abs(s.O_F_ext_hat_K[0]) < 0.5, patience=3 * PATIENCE)
+
+
+def test_user_stop_disconnects_until_recovery():
+    stop = service("/franka_control/set_user_stop", SetBool)
+    recovery = "/franka_control/error_recovery", ErrorRecoveryAction
+    assert stop(True).success
+    held = state_when(lambda s: s.robot_mode == FrankaState.ROBOT_MODE_USER_STOPPED)
+    status, _, text = finish(*recovery, ErrorRecoveryGoal())
+    assert status == GoalStatus.ABORTED
+    assert "user stop" in text
+    stop(False)
+    idle = state_when(lambda s: s.robot_mode == FrankaState.ROBOT_MODE_IDLE)
+    assert list(idle.tau_J_d) == [0.0] * 7
+    status, _, text = finish(*recovery, ErrorRecoveryGoal())
+    assert status == GoalStatus.SUCCEEDED, text
+    moving = state_when(lambda s: s.robot_mode == FrankaState.ROBOT_MODE_MOVE)
+    for before, after in zip(held.q, moving.q):
+        assert before == pytest.approx(after, abs=0.02)
+
+
+# ---- the gripper ----
+
+
+def test_gripper_moves_and_homes():
+    move = "/franka_gripper/move", MoveAction
+    status, answer, text = finish(*move, MoveGoal(width=0.05, speed=0.1))
+    assert (status, answer.success) == (GoalStatus.SUCCEEDED, True), text
+    fingers = latest("/franka_gripper/joint_states", JointState)
+    assert sum(fingers.position) == pytest.approx(0.05, abs=0.005)
+    status, answer, text = finish("/franka_gripper/homing", HomingAction, HomingGoal())
+    assert (status, answer.success) == (GoalStatus.SUCCEEDED, True), text
+
+
+def test_gripper_refuses_invalid_goals():
+    move = "/franka_gripper/move", MoveAction
+    grasp = "/franka_gripper/grasp", GraspAction
+    command = "/franka_gripper/gripper_action", GripperCommandAction
+    wide = GripperCommandGoal()
+    wide.command.position = 0.05
+    epsilon = GraspEpsilon(inner=0.005, outer=0.005)
+    nan = float("nan")
+    for client, goal in (
+        (move, MoveGoal(width=0.09, speed=0.1)),
+        (move, MoveGoal(width=-0.01, speed=0.1)),
+        (move, MoveGoal(width=nan, speed=0.1)),
+        (move, MoveGoal(width=0.04, speed=-0.1)),
+        (grasp, GraspGoal(width=nan, epsilon=epsilon, speed=0.1, force=5)),
+        (grasp, GraspGoal(width=0.02, epsilon=epsilon, speed=0.1, force=nan)),
+        (grasp, GraspGoal(width=0.02, epsilon=epsilon, speed=-1, force=5)),
+        (command, wide),
+    ):
+        status, _, text = finish(*client, goal)
+        assert status == GoalStatus.ABORTED, goal
+        assert text, goal
+
+
+def test_gripper_reports_a_grasp_without_object():
+    finish("/franka_gripper/move", MoveAction, MoveGoal(width=0.06, speed=0.1))
+    grasp = "/franka_gripper/grasp", GraspAction
+    goal = GraspGoal(width=0.03, epsilon=GraspEpsilon(inner=0.005, outer=0.005), speed=0.1, force=5)
+    _, answer, text = finish(*grasp, goal)
+    assert not answer.success
+    assert answer.error or text
+
+
+def test_a_new_goal_preempts_and_a_cancel_ends_a_motion():
+    move = Action("/franka_gripper/move", MoveAction)
+    stop = Action("/franka_gripper/stop", StopAction)
+    slow = MoveGoal(width=0.0, speed=0.001)
+    move.run(MoveGoal(width=0.08, speed=0.1))
+    pause()
+
+    def comes_to(handle, state):
+        step(10)
+        return handle.get_comm_state() == state
+
+    moving = move.send(slow)
+    wait_for(lambda: comes_to(moving, actionlib.CommState.ACTIVE), "The motion")
+    stopping = stop.send(StopGoal())
+    wait_for(lambda: comes_to(stopping, actionlib.CommState.DONE), "The stop")
+    status, _, text = result(moving)
+    assert status == GoalStatus.ABORTED
+    assert "interrupted" in text
+    assert result(stopping)[0] == GoalStatus.SUCCEEDED
+    moving = move.send(slow)
+    wait_for(lambda: comes_to(moving, actionlib.CommState.ACTIVE), "The second motion")
+    moving.cancel()
+    assert result(moving)[0] == GoalStatus.PREEMPTED
+
+
+def test_gripper_action_moves_and_reports():
+    goal = GripperCommandGoal()
+    goal.command.position = 0.03
+    status, answer, text = finish("/franka_gripper/gripper_action", GripperCommandAction, goal)
+    assert (status, answer.reached_goal) == (GoalStatus.SUCCEEDED, True), text
+    assert answer.position == pytest.approx(0.06, abs=0.005)
+
+
+# ---- time and things ----
+
+
+def test_steps_are_exact_and_repeat_after_a_reset():
+    pause()
+    reset = service("/gazebo/reset", Trigger)
+    hashes = []
+    for _ in range(2):
+        assert reset().success
+        before = step(0)
+        after = step(500)
+        assert after.success, after.error
+        assert after.tick - before.tick == 500
+        assert (after.time - before.time).to_sec() == pytest.approx(0.5, abs=5e-8)
+        hashes.append(after.state_hash)
+    assert hashes[0] == hashes[1]
+    assert hashes[1] != step(1).state_hash
+    pause(False)
+    refused = step(1)
+    assert not refused.success
+    assert "pause" in refused.error
+
+
+def test_pace_follows_the_real_time_factor():
+    set_factor = service("/gazebo/set_real_time_factor", SetRealTimeFactor)
+    assert not set_factor(-1).success
+    assert not set_factor(float("nan")).success
+    try:
+        assert set_factor(0.5).success
+
+        def pace():
+            """Of a second. A busy machine makes it slower; 50 ms of delay at most are caught up."""
+            wall, ticks = time.monotonic(), step(0).tick
+            time.sleep(1.0)
+            found = 1e-3 * (step(0).tick - ticks) / (time.monotonic() - wall)
+            assert found < 0.55
+            return found
+
+        wait_for(lambda: pace() > 0.45, "The pace of 0.5")
+    finally:
+        assert set_factor(0).success
+
+
+def test_bodies_can_be_read_and_placed():
+    get_pose = service("/gazebo/get_body_pose", GetBodyPose)
+    set_pose = service("/gazebo/set_body_pose", SetBodyPose)
+    pause()
+    stone = get_pose("stone")
+    assert stone.success
+    stone.pose.position.z += 0.1
+    assert set_pose("stone", stone.pose).success
+    assert get_pose("stone").pose.position.z == pytest.approx(stone.pose.position.z, abs=5e-8)
+    for answer in (
+        get_pose("no_such_body"),
+        set_pose("no_such_body", stone.pose),
+        set_pose("panda_link3", stone.pose),
+        set_pose("stone", Pose(orientation=Quaternion(w=3))),
+    ):
+        assert not answer.success
+        assert answer.error
+    service("/gazebo/reset", Trigger)()
+
+
+def test_contact_forces_equal_the_weight_of_the_stone():
+    service("/gazebo/reset", Trigger)()
+    pause()
+    step(1000)
+    contacts = service("/gazebo/get_contacts", GetContacts)("pick_tray", "stone")
+    assert contacts.success, contacts.error
+    assert sum(force.z for force in contacts.forces) == pytest.approx(0.1024 * 9.81, abs=0.02)
+    assert not service("/gazebo/get_contacts", GetContacts)("moon", "").success
+
+
+def test_a_picture_is_rendered_and_an_unknown_camera_is_refused():
+    render = service("/gazebo/render_picture", RenderPicture)
+    answer = render(Point(1.4, -1.2, 1.2), Point(0, 0, 0.4), 0, 160, 120)
+    assert answer.success, answer.error
+    assert (answer.image.width, answer.image.height, len(answer.image.data)) == (160, 120, 160 * 120 * 3)
+    assert len(set(answer.image.data)) > 20
+    assert not render(Point(1, 1, 1), Point(1, 1, 1), 0, 0, 0).success

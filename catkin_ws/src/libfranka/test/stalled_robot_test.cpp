@@ -1,0 +1,162 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Robots and hands on this machine that stand still for longer than Timeouts::state, as on a busy
+// machine, and ones that are gone.
+#include <franka/gripper.h>
+
+#include <chrono>
+#include <thread>
+
+#include "fake_gripper.h"
+#include "robot_fixture.h"
+
+namespace franka_test {
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr milliseconds kStall{700};
+
+/// A client that waits for kStall only because the robot is on its own machine.
+franka::Timeouts shorterThanTheStall() {
+  franka::Timeouts timeouts;
+  timeouts.state = milliseconds(200);
+  timeouts.silence = std::chrono::seconds(30);
+  return timeouts;
+}
+
+class StalledRobot : public ::testing::TestWithParam<std::uint16_t> {
+ protected:
+  /// The robot stands still before it sends the state after the next `after` ones.
+  /// @param in_motion counted from the next Move
+  void stall(int after, bool in_motion) {
+    const int moves = fake.count(Command::kMove);
+    fake.script([=](FakeRobot::Script& script) {
+      script.transmit = [=, left = after](const FakeRobot::Datagram& state) mutable {
+        const bool counts = !in_motion || fake.count(Command::kMove) > moves;
+        if (counts && left-- == 0) {
+          std::this_thread::sleep_for(kStall);
+        }
+        return std::vector<FakeRobot::Datagram>{state};
+      };
+    });
+  }
+
+  const ScopedTimeouts timeouts{shorterThanTheStall()};
+  FakeRobot fake{GetParam()};
+};
+
+TEST_P(StalledRobot, IsWaitedForByReadOnce) {
+  const auto robot = connect(fake);
+  stall(1, false);
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 5; i++) {
+    EXPECT_NO_THROW(robot->readOnce());
+  }
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, kStall);
+}
+
+TEST_P(StalledRobot, IsWaitedForAtTheStartOfAMotion) {
+  // From the first state after MotionStarted to the first ones after a command.
+  for (int after = 0; after < 6; after++) {
+    const auto robot = connect(fake);
+    stall(after, true);
+    int cycles = 0;
+    const auto begin = std::chrono::steady_clock::now();
+    EXPECT_NO_THROW(robot->control([&](const franka::RobotState&, franka::Duration) {
+      franka::Torques torques({0, 0, 0, 0, 0, 0, 0});
+      return ++cycles == 20 ? franka::MotionFinished(torques) : torques;
+    })) << after;
+    EXPECT_EQ(20, cycles) << after;
+    EXPECT_GE(std::chrono::steady_clock::now() - begin, kStall) << after;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(NewestOfEachRobot, StalledRobot,
+                         ::testing::Values(std::uint16_t{5}, std::uint16_t{10}), versionName);
+
+/// Calls a function that waits for what is gone. @returns its text
+template <typename Function>
+std::string noticedAtOnce(Function function) {
+  const auto begin = std::chrono::steady_clock::now();
+  const std::string text = textOf<franka::NetworkException>(function);
+  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5)) << text;
+  return text;
+}
+
+constexpr const char* kClosed = "libfranka: server closed connection";
+
+TEST(DeadRobot, IsNoticedAtOnceInAMotion) {
+  const ScopedTimeouts timeouts(shorterThanTheStall());
+  FakeRobot fake(5);
+  const auto robot = connect(fake);
+  fake.script([](FakeRobot::Script& script) { script.close_after = 1; });
+  EXPECT_EQ(kClosed, noticedAtOnce([&] {
+              robot->control([](const franka::RobotState&, franka::Duration) {
+                return franka::Torques({0, 0, 0, 0, 0, 0, 0});
+              });
+            }));
+}
+
+TEST(DeadRobot, IsNoticedAtOnceByReadOnce) {
+  const ScopedTimeouts timeouts(shorterThanTheStall());
+  auto fake = std::make_unique<FakeRobot>(10);
+  const auto robot = connect(*fake);
+  fake->script([](FakeRobot::Script& script) { script.sends_states = false; });
+  std::thread killer([&] {
+    std::this_thread::sleep_for(kStall);
+    fake.reset();
+  });
+  EXPECT_EQ(kClosed, noticedAtOnce([&] {
+              for (int i = 0; i < 10; i++) {  // some may still be in transit
+                robot->readOnce();
+              }
+            }));
+  killer.join();
+}
+
+FakeGripper::Bytes anyHandState() {
+  franka_core::fci::gripper::StateBuffer buffer;
+  franka_core::fci::gripper::encodeState({}, buffer);
+  return {buffer.begin(), buffer.end()};
+}
+
+TEST(StalledHand, IsWaitedFor) {
+  const ScopedTimeouts timeouts(shorterThanTheStall());
+  FakeGripper fake(3);
+  fake.show(anyHandState());
+  const franka::Gripper gripper(fake.address());
+  fake.sends_states = false;
+  std::thread waker([&] {
+    std::this_thread::sleep_for(kStall);
+    fake.sends_states = true;
+  });
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < 3; i++) {  // some may still be in transit
+    EXPECT_NO_THROW(gripper.readOnce());
+  }
+  EXPECT_GE(std::chrono::steady_clock::now() - begin, kStall);
+  waker.join();
+}
+
+TEST(DeadHand, IsNoticedAtOnce) {
+  const ScopedTimeouts timeouts(shorterThanTheStall());
+  auto fake = std::make_unique<FakeGripper>(3);
+  fake->show(anyHandState());
+  const franka::Gripper gripper(fake->address());
+  fake->sends_states = false;
+  std::thread killer([&] {
+    std::this_thread::sleep_for(kStall);
+    fake.reset();
+  });
+  EXPECT_EQ(kClosed, noticedAtOnce([&] {
+              for (int i = 0; i < 10; i++) {  // some may still be in transit
+                gripper.readOnce();
+              }
+            }));
+  killer.join();
+}
+
+}  // namespace
+}  // namespace franka_test

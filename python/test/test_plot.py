@@ -1,0 +1,328 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""franka_plot: what it draws of logs, bags and robots, and what it says about other input."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import matplotlib
+import numpy as np
+import pyfranka
+import pytest
+from pyfranka import franka_plot, plot
+from pyfranka.plot.recording import ERRORS, Abort, kind_of, of_log
+from pyfranka.plot.signals import EVIDENCE, SIGNALS, worst
+from pyfranka.plot.sources import read_bag, read_log
+from pyfranka.sim import FR3, Panda, Simulation
+
+UNLIMITED = {"limit_rate": False, "cutoff_frequency": 1000.0}
+EXCESS = re.compile(
+    r"^(\w+): (?:the )?(joint \d|translation|rotation) was commanded [a-z ]+ of (\S+) \S+; the limit is "
+    r"(\S+) \(at (\d+) ms\)",
+    re.M,
+)
+
+
+def joint_velocity(robot, velocity):
+    """Drives joint 1. @param velocity [rad/s] of the tick"""
+    ticks = iter(range(10000))
+    robot.control_joint_velocities(
+        lambda state, period: pyfranka.JointVelocities([velocity(next(ticks)), 0, 0, 0, 0, 0, 0]), **UNLIMITED
+    )
+
+
+def jump_of_velocity(robot):
+    joint_velocity(robot, lambda tick: min(1e-3 * tick, 0.1) + (0.05 if tick > 150 else 0.0))
+
+
+def jump_of_acceleration(robot):
+    joint_velocity(robot, lambda tick: 9e-3 * tick)
+
+
+def too_fast(robot):
+    joint_velocity(robot, lambda tick: 4e-3 * tick)
+
+
+def jump_of_torque(robot):
+    ticks = iter(range(10000))
+    robot.control_torques(
+        lambda state, period: pyfranka.Torques([0, 0, 0, 0, 0, 0, 3.0 if next(ticks) > 60 else 0.0]),
+        limit_rate=False,
+    )
+
+
+def jump_of_twist(robot):
+    ticks = iter(range(10000))
+    robot.control_cartesian_velocities(
+        lambda state, period: pyfranka.CartesianVelocities(
+            [0, 0, 0.05 if next(ticks) > 60 else 0.0, 0, 0, 0]
+        ),
+        **UNLIMITED,
+    )
+
+
+def jump_of_pose(robot):
+    ticks, first = iter(range(10000)), []
+
+    def pose(state, period):
+        first or first.append(state.O_T_EE_c.copy())
+        target = first[0].copy()
+        target[2, 3] += 1e-3 if next(ticks) > 60 else 0.0
+        return pyfranka.CartesianPose(target)
+
+    robot.control_cartesian_pose(pose, **UNLIMITED)
+
+
+ABORTS = [
+    jump_of_velocity,
+    jump_of_acceleration,
+    too_fast,
+    jump_of_torque,
+    jump_of_twist,
+    jump_of_pose,
+]
+
+
+def aborted(robot, motion):
+    with pytest.raises(pyfranka.ControlException) as raised:
+        motion(robot)
+    robot.automatic_error_recovery()
+    return raised.value
+
+
+@pytest.mark.parametrize("motion", ABORTS)
+def test_the_marked_value_is_that_of_the_reason(robot, motion, tmp_path):
+    """The marks come from the plotted values, the sentences from libfranka: of the states, and of a file."""
+    error = aborted(robot, motion)
+    reported = EXCESS.findall(str(error))
+    assert reported, str(error)
+    file = tmp_path / "log.csv"
+    file.write_text(pyfranka.log_to_csv(error.log))
+    file.with_suffix(".txt").write_text(f"{error}\nRobot's protocol version: {robot.server_version()}\n")
+    recordings = of_log(error.log, robot.server_version()), read_log(file)[0]
+    for recording in recordings:
+        assert recording.version == robot.server_version()
+        for flag, part, value, limit, time in reported:
+            (signal,) = EVIDENCE[flag]
+            excess = worst(signal, recording)
+            assert excess.beyond and SIGNALS[signal].parts[excess.part] == part, (flag, excess)
+            assert excess.value == pytest.approx(float(value), rel=2e-3)
+            assert excess.limit == pytest.approx(float(limit), rel=2e-3)
+            assert round(1e3 * recording.time[excess.row]) == int(time)
+
+
+def drawn(figure, tmp_path):
+    """A figure's texts."""
+    file = tmp_path / "figure.svg"
+    with matplotlib.rc_context({"svg.fonttype": "none"}):
+        figure.savefig(file)
+    return re.sub(r"<[^>]*>|\s+", " ", file.read_text())
+
+
+def test_an_abort_is_drawn_with_its_reason_and_its_limit(robots, tmp_path):
+    error = aborted(robots["panda"], jump_of_velocity)
+    figure = plot.abort_figure(error, robots["panda"].server_version())
+    axes = figure.axes[0]
+    assert axes.get_ylabel().startswith("cmd.ddq_d")
+    red = [line for line in axes.lines if line.get_color() == plot.figure.VIOLATION]
+    assert [15.0, 15.0] in [list(line.get_ydata()) for line in red]  # the limit of joint 1 [rad/s^2]
+    text = drawn(figure, tmp_path)
+    assert "15 rad/s² is allowed" in text and "limits of a Panda" in text
+    assert "joint_motion_generator_velocity_discontinuity" in text
+
+
+def test_the_names_of_the_lines_are_within_the_picture(robots, tmp_path):
+    error = aborted(robots["panda"], jump_of_velocity)
+    figure = plot.abort_figure(error, robots["panda"].server_version())
+    figure.savefig(tmp_path / "abort.png")
+    for axes in figure.axes:
+        for legend in axes.findobj(matplotlib.legend.Legend):
+            assert legend.get_window_extent().x1 <= figure.bbox.x1
+
+
+def swung(kind, version=0):
+    """A recording of a robot in this process, with an error: its user stop is pressed."""
+    with Simulation(robots=[kind()]) as sim:
+        robot = sim[kind.kind]
+        collector = plot.Collector(kind.kind, version)
+        robot.joint_impedance(robot.state.q + 0.2, duration=0.3)
+        for tick in range(60):
+            if tick == 50:
+                robot.set_user_stop(True)
+            sim.step(10)
+            collector.add(robot.state)
+        return collector.recording()
+
+
+@pytest.mark.parametrize("kind, version", [(Panda, 5), (FR3, 10)])
+def test_states_are_drawn_with_limits_and_modes(kind, version, tmp_path):
+    recording = swung(kind, version)
+    figure = plot.plot(recording, ["q+q_d", "dq_d", "O_T_EE", "cmd.q_d"], limits="all", joints=[2])
+    q, dq = figure.axes[:2]
+    limits = pyfranka.ArmLimits(version)
+    drawn_limits = {float(line.get_ydata()[0]) for line in q.lines if line.get_linestyle() == "--"}
+    assert drawn_limits == {limits.q_min[1], limits.q_max[1]}
+    measured, desired = (line.get_ydata() for line in q.lines[:2])
+    np.testing.assert_array_equal(measured, recording.values["q"][:, 1])
+    np.testing.assert_array_equal(desired, recording.values["q_d"][:, 1])
+    lower, upper = limits.velocity_range(recording.values["q_d"])
+    ends = [line.get_ydata() for line in dq.lines if line.get_linestyle() == "--"]
+    np.testing.assert_array_equal(ends, [lower[:, 1], upper[:, 1]])
+    text = drawn(figure, tmp_path)
+    for expected in ("joint 2", "move", "user stopped", "cmd.q_d: not in this recording"):
+        assert expected in text
+    assert "joint 3" not in text
+
+
+def test_limits_far_away_do_not_set_the_scale(tmp_path):
+    recording = swung(Panda, 5)
+    low, high = plot.plot(recording, ["tau_J"], joints=[1]).axes[0].get_ylim()
+    assert high < 50 and "limits outside: ±87" in drawn(plot.plot(recording, ["tau_J"], joints=[1]), tmp_path)
+    assert plot.plot(recording, ["tau_J"], limits="all").axes[0].get_ylim()[1] > 87
+    unknown = swung(Panda)
+    assert not [line for line in plot.plot(unknown).axes[0].lines if line.get_linestyle() == "--"]
+
+
+def test_limits_are_those_of_the_robot(robots):
+    q = np.array([2.6, -1.7, 0.0, -0.3, -2.8, 4.4, 0.1])
+    for robot in robots.values():
+        limits = pyfranka.ArmLimits(robot.server_version())
+        lower, upper = limits.velocity_range([q, q])
+        # The client's margins: of the rate limiter, and of a Panda's lost packets.
+        np.testing.assert_allclose(upper[1], robot.get_upper_joint_velocity_limits(q), atol=0.07)
+        np.testing.assert_allclose(lower[0], robot.get_lower_joint_velocity_limits(q), atol=0.07)
+        assert limits.translation[1] > 0 and limits.rotation[2] > 0 and (limits.dtau == 1000).all()
+    with pytest.raises(ValueError, match="7 joint positions"):
+        limits.velocity_range([0.0] * 6)
+
+
+@pytest.mark.parametrize(
+    "name, version",
+    [("panda_link0", 5), ("left_fr3", 10), ("panda_fr3", 0), ("arm", 0), ("my_pandas", 0), ("FR3", 10)],
+)
+def test_the_kind_follows_from_the_name(name, version):
+    assert kind_of(name) == version
+
+
+def test_errors_are_found_in_a_reason():
+    assert len(ERRORS) == 41 and set(EVIDENCE) <= set(ERRORS)
+    assert Abort.of_text('aborted! ["tau_J_range_violation"]').errors == ("tau_J_range_violation",)
+
+
+def run(*words):
+    """The program's status, in this process: starting Python takes longer than most of this."""
+    try:
+        return franka_plot.main([str(word) for word in words])
+    except SystemExit as end:
+        return end.code
+
+
+@pytest.fixture(scope="module")
+def log(robots, tmp_path_factory):
+    file = tmp_path_factory.mktemp("log") / "franka_abort_panda_1.csv"
+    error = aborted(robots["panda"], jump_of_velocity)
+    file.write_text(pyfranka.log_to_csv(error.log))
+    file.with_suffix(".txt").write_text(str(error))
+    return file
+
+
+def test_a_log_is_written_as_png_and_svg(log, tmp_path):
+    png, svg = tmp_path / "a.png", tmp_path / "a.svg"
+    command = [sys.executable, "-m", "pyfranka.franka_plot", "log", log, "-o", png, "-o", svg]
+    result = subprocess.run(command, text=True, capture_output=True, timeout=120)
+    assert (result.returncode, result.stdout) == (0, f"{png}\n{svg}\n"), result.stderr
+    assert png.read_bytes().startswith(b"\x89PNG") and "limits of a Panda" in svg.read_text()
+
+
+def test_a_robot_is_read_from_the_network(franka_sim, tmp_path):
+    robot = franka_sim("fr3", pace="realtime").robot
+    file = tmp_path / "a.svg"
+    assert run("robot", robot.address, "--seconds", 0.3, "-s", "q,ddq_d,success_rate", "-o", file) == 0
+    text = file.read_text()
+    assert "limits of an FR3" in text and "idle" in text and "ddq_d" in text
+
+
+def test_a_bag_is_plotted(tmp_path):
+    rosbag = pytest.importorskip("rosbag", reason="python3-rosbag is not installed")
+    import rospy
+    from franka_msgs.msg import FrankaState
+
+    file = tmp_path / "states.bag"
+    with rosbag.Bag(str(file), "w") as bag:
+        for i in range(50):
+            message = FrankaState(time=10 + 0.03 * i, q=[0.01 * i] * 7, robot_mode=1 if i < 10 else 2)
+            message.header.frame_id = "fr3_link0"
+            if i >= 40:
+                message.robot_mode, message.current_errors.cartesian_reflex = 4, True
+            for topic in ("/a/franka_states",) if i else ("/a/franka_states", "/b/franka_states"):
+                bag.write(topic, message, rospy.Time(1 + i))
+    with pytest.raises(plot.BadInput, match="several topics.*/a/franka_states, /b/franka_states"):
+        read_bag(file)
+    with pytest.raises(plot.BadInput, match="no topic /c"):
+        read_bag(file, "/c")
+    recording = read_bag(file, "/a/franka_states")
+    assert recording.version == 10 and len(recording) == 50
+    assert recording.errors == [(pytest.approx(11.2), ("cartesian_reflex",))]
+    text = drawn(plot.plot(recording, ["q"]), tmp_path)
+    assert "cartesian_reflex" in text and "reflex" in text and "idle" in text
+
+
+@pytest.mark.parametrize(
+    "words, status, sentence",
+    [
+        ([], 2, "say what to plot"),
+        (["film"], 2, "invalid choice"),
+        (["log", "nothing.csv"], 1, "nothing.csv cannot be read: No such file"),
+        (["log", "{log}", "-s", "qq"], 2, 'There is no signal "qq"'),
+        (["log", "{log}", "-s", "q+dq"], 2, "signals of one panel must have one unit"),
+        (["log", "{log}", "-j", "8"], 2, '"8" is not a joint'),
+        (["log", "{log}", "-o", "a.gif"], 2, "a file is .png, .svg or .pdf"),
+        (["log", "{log}", "-o", "/nowhere/a.png"], 2, "there is no folder /nowhere"),
+        (["log", "{log}", "--reason", "gone.txt"], 1, "gone.txt cannot be read"),
+        (["log", "{log}"], 1, "There is no display for a window"),
+        (["log", "{empty}"], 1, "is empty"),
+        (["log", "{short}"], 1, "do not have 2 numbers"),
+        (["log", "{other}"], 1, "is not a motion log"),
+        (["log", "{binary}"], 1, "is not a table of numbers"),
+        (["bag", "{other}"], 1, "cannot be read as a bag"),
+        (["robot", "127.0.0.99", "--seconds", "nan"], 2, "is not a time"),
+        (["robot", "127.0.0.99", "-s", "cmd.q_d"], 1, "states have no commands"),
+        (["robot", "127.0.0.99"], 1, "127.0.0.99: libfranka: Connection"),
+    ],
+)
+def test_bad_input_is_refused_with_a_sentence(words, status, sentence, log, tmp_path, monkeypatch, capfd):
+    monkeypatch.delenv("DISPLAY", raising=False)
+    texts = {"empty": "", "short": "time,state.q[0]\n1\n", "other": "a,b\n1,2\n", "binary": "a\n\0\n"}
+    files = {name: tmp_path / f"{name}.csv" for name in texts}
+    for name, text in texts.items():
+        files[name].write_text(text)
+    assert run(*(word.format(log=log, **files) for word in words)) == status
+    reported = capfd.readouterr()
+    assert reported.out == "" and sentence in reported.err and "Traceback" not in reported.err
+
+
+def test_it_lists_the_signals(capfd):
+    assert run("--list") == 0
+    lines = capfd.readouterr().out.splitlines()
+    assert [line.split()[0] for line in lines] == list(SIGNALS)
+
+
+def test_the_programs_of_the_page_run(panda, tmp_path, monkeypatch):
+    page = (Path(__file__).resolve().parents[2] / "docs" / "how_to" / "plots.md").read_text()
+    monkeypatch.chdir(tmp_path)
+    for program in re.findall(r"```python\n(.*?)```", page, re.S):
+        exec(program.replace("127.0.0.1", panda.address), {})
+    assert (tmp_path / "abort.png").exists() and (tmp_path / "swing.svg").exists()
+
+
+def test_commands_of_the_page_are_accepted(log, tmp_path):
+    """Their options and sources, with other files and addresses."""
+    page = (Path(__file__).resolve().parents[2] / "docs" / "how_to" / "plots.md").read_text()
+    commands = re.findall(
+        r"^franka_plot ([^#\n]*)", "\n".join(re.findall(r"```bash\n(.*?)```", page, re.S)), re.M
+    )
+    assert len(commands) == 6
+    for command in commands:
+        franka_plot._parser().parse_args(command.replace("~/", "").split())

@@ -1,0 +1,522 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Runs a page of the documentation as its reader does: types its commands, writes its files, compares what is
+printed, looks at its pictures.
+
+Blocks are used in the order of the page:
+
+* ```bash: each command is typed into a terminal, a shell in the project's folder, and must succeed.
+* ```text after it: what the reader sees. Its lines are printed in this order; `...` stands for any text.
+* Any other block after `<!-- file: ~/path -->`: is written to this file.
+* Any other block after `<!-- run with: COMMAND -->`: the command gets it as a file, and must succeed.
+
+Comments, each on a line of its own, say what a reader knows from the text:
+
+* `<!-- terminals: COMMAND -->`: typed first in each terminal of the page, such as `./franka shell`.
+* `<!-- terminal 2 -->`: from here on commands are typed into this terminal (1 at the beginning).
+* `<!-- type: COMMAND -->`: a command of the text, which keeps running.
+* `<!-- keeps running -->`: the last command of the next block does not end.
+* `<!-- press Ctrl-C in terminal 1 -->`
+* `<!-- fails -->`: the last command of the next block ends with an error.
+* `<!-- may fail: REASON -->`: the last command of the next block may end with an error.
+* `<!-- takes minutes -->`: a command of the next block may take half an hour.
+* `<!-- not run: REASON -->`: the next block is only checked. The reason is one of NOT_RUN.
+* `<!-- expect: TEXT -->`: printed by the last block of this terminal, sooner or later.
+* `<!-- await: COMMAND == TEXT -->`: the reader waits until a command prints this.
+* `<!-- picture: ~/made.png is name.png -->`: a picture that the commands have made.
+* `<!-- window: TITLE is name.png -->`: a picture of a window.
+* `<!-- drag: TITLE 100,200 to 300,250 -->`: drags the mouse in a window.
+* `<!-- with an FR3: panda.launch is fr3.launch -->`: what the reader types who has an FR3.
+"""
+
+import codecs
+import os
+import pty
+import re
+import signal
+import subprocess
+import threading
+import time
+import uuid
+from contextlib import suppress
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from franka_sim_mujoco.session import free_port
+from PIL import Image, ImageChops, ImageStat
+from screen import colours, drag, move_window, window_of
+
+TOP = Path(__file__).resolve().parents[2]
+PAGES = sorted((TOP / "docs").glob("get_started/*.md")) + sorted((TOP / "docs").glob("tutorials/*.md"))
+# Other pages whose blocks are typed.
+MORE_PAGES = [
+    *sorted((TOP / "docs").glob("how_to/*.md")),
+    *(TOP / "docs" / f"{name}.md" for name in ("franka_sim", "examples_cpp", "desk", "sim_to_real")),
+    TOP / "README.md",
+]
+# Why a block cannot be run here, and what it then has in it.
+NOT_RUN = {
+    "needs Docker": r"\bdocker\b|^FROM ",
+    "needs GitHub": r"uses: actions/",
+    "needs GitLab": r"extends: \.franka",
+    "needs a real robot": r"172\.16\.",
+    "it is a formula": r" = ",
+    "needs a display": r"--gui|rviz:=true|--viewer",
+    "changes the system": r"\b(sudo|apt-get|reboot)\b|/etc/|dpkg",
+    "the workspace of the tests is built already": r"\./franka (build|install|demo|test|deb)|^cmake ",
+    "the names are yours": r"\bmy_\w+|\bmy\.\w+|NAME|FILE|demo\.bag|\d{4}-\d\d-\d\d",
+}
+# The same, with the test that runs it: `run by tests/test_x.py::test_y`.
+RUN_BY = re.compile(r"run by ([\w/]+\.py)::(\w+)")
+PICTURES = TOP / "docs" / "pictures" / "tutorials"
+SCREEN = "2400x900x24"  # for virtual_screen
+WINDOWS_AT = 1200  # [pixels] from the left: beside the simulation's own window
+WINDOW_SIZE = (1200, 860)
+LIMIT = 240.0  # [s] for a command, and for anything that is awaited
+LONG_LIMIT = 1800.0  # [s] for a command that compiles a whole library
+
+SUFFIXES = {"python": "py", "xml": "xml", "yaml": "yaml"}
+PROMPT = re.compile(r"(?:\(franka\) )?\[:(\d+|more):\] ")
+# Without line editing and echo, the terminal shows only what programs print.
+BASHRC = "set +o emacs +o vi\nstty -echo\nPS1='[:$?:] '\nPS2='[:more:] '\nunset PROMPT_COMMAND\n"
+# Only roslaunch takes the port from ROS_MASTER_URI.
+BASHRC += 'roscore() { command roscore -p "${ROS_MASTER_URI##*:}" "$@"; }\n'
+ESCAPES = re.compile(r"\x1b\][^\x07]*\x07|\x1b\[[0-9;?]*[a-zA-Z]|\x1b[()=>][B0]?|\r")
+COMMENT = re.compile(r"^\s*<!-- (.*) -->\s*$")
+FENCE = re.compile(r"^(\s*)```(\w*)\s*$")
+
+
+class PageError(AssertionError):
+    """A step of a page does not do what the page says; the message names file and line."""
+
+
+@dataclass
+class Step:
+    """A block or a comment of a page."""
+
+    kind: str  # bash, text, file, or the first word of a comment
+    text: str
+    line: int
+    path: str = ""  # of a file
+    language: str = ""
+    options: set[str] = field(default_factory=set)  # of a bash block
+
+
+@dataclass
+class Page:
+    """A page and what it says in the order of its lines."""
+
+    path: Path
+    steps: list[Step]
+    prose: str  # what the reader sees outside of blocks
+    first: str = ""  # typed first in each terminal
+
+    def of(self, kind: str) -> list[Step]:
+        return [step for step in self.steps if step.kind == kind]
+
+
+VARIANT = "<!-- with an FR3: "
+COMMENTS = ("terminal", "press", "type:", "expect:", "await:", "picture:", "window:", "drag:")
+OPTIONS = ("keeps running", "fails", "may fail", "not run", "takes minutes")
+
+
+def has_variant(path: Path) -> bool:
+    """Whether the page says what changes with an FR3."""
+    return VARIANT in path.read_text(encoding="utf-8")
+
+
+def read(path: Path, variant: bool = False) -> Page:
+    """Reads a page, as it stands or with what changes with an FR3. Raises PageError for a comment or a block
+    that means nothing."""
+    steps, prose, options, file, command, first = [], [], set(), "", "", ""
+    fence, block, begin = None, [], 0
+    lines = path.read_text(encoding="utf-8").splitlines()
+    changes = [line.removeprefix(VARIANT).removesuffix(" -->") for line in lines if line.startswith(VARIANT)]
+    if variant:
+        for old, new in (change.split(" is ") for change in changes):
+            lines = [line if line.startswith(VARIANT) else line.replace(old, new) for line in lines]
+    for number, line in enumerate(lines, 1):
+        where = f"{path.name}:{number}"
+        if fence is not None:
+            if line.strip() != "```":
+                block.append(line.removeprefix(fence[0]))
+                continue
+            text, language = "\n".join(block) + "\n", fence[1]
+            if file:
+                steps.append(Step("file", text, begin, file, language))
+            elif command:
+                steps.append(Step("program", text, begin, command, language))
+            elif language == "bash" or language and "not run" in options:
+                steps.append(Step("bash", text, begin, language=language, options=options))
+            elif language == "text":
+                steps.append(Step("text", text, begin, language=language))
+            elif language:
+                raise PageError(f"{where}: a block of {language} without <!-- file: ... -->")
+            fence, options, file, command = None, set(), "", ""
+            continue
+        opened, comment = FENCE.match(line), COMMENT.match(line)
+        if opened:
+            fence, block, begin = opened.groups(), [], number
+        elif not comment:
+            prose.append(line)
+        elif line.startswith(VARIANT):
+            continue
+        elif comment[1].startswith("file: "):
+            file = comment[1].removeprefix("file: ")
+        elif comment[1].startswith("run with: "):
+            command = comment[1].removeprefix("run with: ")
+        elif comment[1].startswith("terminals: "):
+            first = comment[1].removeprefix("terminals: ")
+        elif option := next((o for o in OPTIONS if comment[1].split(":")[0] == o), None):
+            options.add(option)
+            if option == "not run":
+                check_reason(comment[1].partition(": ")[2], where)
+        elif kind := next((k for k in COMMENTS if comment[1].startswith(k + " ")), None):
+            steps.append(Step(kind.rstrip(":"), comment[1].removeprefix(kind).strip(), number))
+        else:
+            raise PageError(f"{where}: unknown comment <!-- {comment[1]} -->")
+    if fence is not None:
+        raise PageError(f"{path.name}:{begin}: this block does not end")
+    return Page(path, steps, "\n".join(prose), first)
+
+
+def check_reason(reason: str, where: str) -> None:
+    """Raises PageError for a reason that nobody has accepted, or a test that does not exist."""
+    test = RUN_BY.fullmatch(reason)
+    if test:
+        file = TOP / test[1]
+        if not file.is_file() or f"def {test[2]}(" not in file.read_text(encoding="utf-8"):
+            raise PageError(f"{where}: there is no test {test[1]}::{test[2]}")
+    elif reason not in NOT_RUN:
+        raise PageError(f"{where}: `{reason}` is not in NOT_RUN")
+
+
+def lines_in_order(expected: str, printed: str) -> str | None:
+    """The first expected line that is not printed after those before it; None if all are."""
+    here, rest = 0, printed.splitlines()
+    for line in expected.splitlines():
+        if not line.strip() or line.strip() == "...":
+            continue
+        pattern = re.compile(".*".join(re.escape(part.strip()) for part in line.split("...")))
+        for index in range(here, len(rest)):
+            if pattern.search(rest[index]):
+                here = index + 1
+                break
+        else:
+            return line
+    return None
+
+
+class Terminal:
+    """A shell on a terminal of its own, into which lines are typed."""
+
+    def __init__(self, environment: dict[str, str]):
+        ours, theirs = pty.openpty()
+        self._process = subprocess.Popen(
+            ["setsid", "--ctty", "bash", "-i"],
+            stdin=theirs,
+            stdout=theirs,
+            stderr=theirs,
+            cwd=TOP,
+            env=environment,
+        )
+        os.close(theirs)
+        self._file, self._output, self._changed = ours, "", threading.Condition()
+        self._begin = 0  # of what the last block has printed
+        self.busy, self._started = False, 0  # whether a program keeps running, and since which output
+        self._shell = b""  # the command line of the shell that has started it
+        threading.Thread(target=self._read, daemon=True).start()
+        self._prompt(0, 30.0)
+
+    def _read(self) -> None:
+        decoder = codecs.getincrementaldecoder("utf-8")("replace")
+        with suppress(OSError):
+            while data := os.read(self._file, 65536):
+                with self._changed:
+                    self._output += decoder.decode(data)
+                    self._changed.notify_all()
+
+    @property
+    def raw(self) -> str:
+        with self._changed:
+            return self._output
+
+    @property
+    def printed(self) -> str:
+        """What the last block has printed so far."""
+        return PROMPT.sub("", ESCAPES.sub("", self.raw[self._begin :]))
+
+    def _wait(self, condition, limit: float) -> bool:
+        end = time.monotonic() + limit
+        with self._changed:
+            while not condition():
+                left = end - time.monotonic()
+                if left <= 0:
+                    return False
+                self._changed.wait(min(left, 0.1))  # not every condition is a change of the output
+        return True
+
+    def _prompt(self, begin: int, limit: float) -> str | None:
+        """Waits for the next prompt; returns the status, or "more" for an unfinished command."""
+        self._wait(lambda: PROMPT.search(self._output, begin), limit)
+        found = PROMPT.search(self.raw, begin)
+        return found and found[1]
+
+    def type(self, text: str, options: set[str]) -> None:
+        """Types a block, command by command."""
+        if self.busy:
+            raise PageError("a program is still running in this terminal")
+        self._begin = len(self.raw)
+        lines = text.rstrip("\n").split("\n")
+        for index, line in enumerate(lines):
+            begin, last = len(self.raw), index == len(lines) - 1
+            keeps_running = last and "keeps running" in options
+            if keeps_running:
+                self._shell = self._foreground()
+            os.write(self._file, line.encode() + b"\n")
+            if keeps_running:
+                self.busy, self._started = True, begin
+                return
+            limit = LONG_LIMIT if "takes minutes" in options else LIMIT
+            status = self._prompt(begin, limit)
+            if status is None:
+                raise PageError(f"`{line}` did not end within {limit:.0f} s:\n{self.tail()}")
+            failed = status not in ("0", "more")
+            if failed != (last and "fails" in options) and not (last and "may fail" in options):
+                raise PageError(f"`{line}` ended with status {status}:\n{self.tail()}")
+            if last and status == "more":
+                raise PageError(f"`{line}` is not a complete command")
+
+    def prints(self, check, limit: float) -> bool:
+        """Waits until what the last block has printed passes a check."""
+        if self.busy:
+            self._wait(lambda: check(self.printed) or PROMPT.search(self._output, self._started), limit)
+        return check(self.printed)
+
+    def _foreground(self) -> bytes:
+        """The command line of what Ctrl-C would interrupt; empty if it has just ended."""
+        with suppress(OSError):
+            return Path(f"/proc/{os.tcgetpgrp(self._file)}/cmdline").read_bytes()
+        return b""
+
+    def _program_runs(self) -> bool:
+        """Whether the shell has started a program. Before, Ctrl-C would interrupt the shell in its fork."""
+        return self._foreground() not in (b"", self._shell)
+
+    def interrupt(self) -> None:
+        """Presses Ctrl-C once the program runs, and waits for the prompt."""
+        if not self._wait(lambda: PROMPT.search(self._output, self._started) or self._program_runs(), LIMIT):
+            raise PageError(f"the shell has not started the program:\n{self.tail()}")
+        if not PROMPT.search(self.raw, self._started):  # at the prompt, Ctrl-C would print a second one
+            os.write(self._file, b"\x03")
+        if self._prompt(self._started, LIMIT) is None:
+            raise PageError(f"the program did not end after Ctrl-C:\n{self.tail()}")
+        self.busy = False
+
+    def tail(self) -> str:
+        return "\n".join(self.printed.splitlines()[-40:])
+
+    def close(self) -> None:
+        if self._process.poll() is None:
+            self._process.send_signal(signal.SIGHUP)
+            try:
+                self._process.wait(5)
+            except subprocess.TimeoutExpired:
+                self._process.kill()
+                self._process.wait()
+        os.close(self._file)
+
+
+def check_picture(path: Path) -> None:
+    """A picture is large enough and has something on it, up to a reasonable distance from its edges."""
+    if not path.exists():
+        raise PageError(f"there is no picture {path.name}")
+    with Image.open(path) as picture:
+        grey = picture.convert("L")
+        if min(picture.size) < 300:
+            raise PageError(f"{path.name} has {picture.size} pixels only")
+        width, height = grey.size
+        middle = grey.crop((width // 4, height // 4, 3 * width // 4, 3 * height // 4))
+        if min(max(ImageStat.Stat(part).stddev) for part in (grey, middle)) < 5.0:
+            raise PageError(f"{path.name} has nothing on it")
+
+
+class Reader:
+    """Follows pages: its home is a new folder, its ROS master has a port of its own."""
+
+    def __init__(self, home: Path, **variables: str):
+        self.home, self._mark = home, uuid.uuid4().hex
+        self.log = home.with_suffix(".log")  # at the end: what all terminals have shown
+        home.mkdir(parents=True, exist_ok=True)
+        (home / ".bashrc").write_text(BASHRC)
+        kept = ("DISPLAY", "LIBGL_ALWAYS_SOFTWARE", "CCACHE_DIR")
+        self._environment = {
+            "HOME": str(home),
+            "PATH": "/usr/local/bin:/usr/bin:/bin",
+            "LANG": "C.UTF-8",
+            "TERM": "xterm",
+            "ROS_MASTER_URI": f"http://localhost:{free_port()}",
+            "ROS_HOME": str(home / ".ros"),
+            "ROS_LOG_DIR": str(home / ".ros" / "log"),
+            "TUTORIAL_READER": self._mark,
+            **{name: os.environ[name] for name in kept if name in os.environ},
+            **variables,
+        }
+        self._terminals: dict[str, Terminal] = {}
+        self.pictures: dict[str, Path] = {}  # made so far, by their names in docs/pictures
+        self._first, self._programs = "", 0
+
+    def __enter__(self) -> "Reader":
+        return self
+
+    def __exit__(self, *_) -> None:
+        for terminal in self._terminals.values():
+            if terminal.busy:
+                with suppress(AssertionError, OSError):
+                    terminal.interrupt()
+        self.log.write_text("\n".join(terminal.raw for terminal in self._terminals.values()))
+        for pid in self._leftovers():
+            with suppress(ProcessLookupError):
+                os.kill(pid, signal.SIGKILL)
+        for terminal in self._terminals.values():
+            terminal.close()
+
+    def _leftovers(self) -> list[int]:
+        """Processes that the commands have left."""
+        mark, found = f"TUTORIAL_READER={self._mark}".encode(), []
+        for entry in Path("/proc").iterdir():
+            with suppress(OSError):
+                if entry.name.isdigit() and mark in (entry / "environ").read_bytes().split(b"\0"):
+                    found.append(int(entry.name))
+        return found
+
+    def follow(self, page: Page) -> None:
+        """Fails at the first step that does not do what the page says."""
+        self._first = page.first
+        self._terminal = self.terminal("1")
+        for step in page.steps:
+            begin = time.monotonic()
+            try:
+                getattr(self, f"_do_{step.kind}")(step)
+            except AssertionError as error:
+                others = [t.tail() for t in self._terminals.values() if t.busy and t is not self._terminal]
+                others_output = "".join(f"\n---- meanwhile, in another terminal:\n{tail}" for tail in others)
+                raise PageError(f"{page.path.name}:{step.line}: {error}{others_output}") from error
+            took = time.monotonic() - begin
+            if took > 1.0:
+                print(f"{page.path.name}:{step.line}: {step.kind} {took:.1f} s", flush=True)
+
+    def _do_bash(self, step: Step) -> None:
+        if "not run" not in step.options:
+            self._terminal.type(step.text, step.options)
+
+    def _do_text(self, step: Step) -> None:
+        terminal = self._terminal
+        if not terminal.prints(lambda printed: lines_in_order(step.text, printed) is None, LIMIT):
+            line = lines_in_order(step.text, terminal.printed)
+            raise PageError(f"the line `{line}` was not printed, but:\n{terminal.tail()}")
+
+    def _do_expect(self, step: Step) -> None:
+        if not self._terminal.prints(lambda printed: step.text in printed, LIMIT):
+            raise PageError(f"`{step.text}` was not printed, but:\n{self._terminal.tail()}")
+
+    def _do_file(self, step: Step) -> None:
+        path = self._path(step.path)
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(step.text, encoding="utf-8")
+
+    def _do_program(self, step: Step) -> None:
+        self._programs += 1
+        path = self.home / f"program_{self._programs}.{SUFFIXES.get(step.language, 'txt')}"
+        path.write_text(step.text, encoding="utf-8")
+        self._terminal.type(f"(cd && {step.path} {path})", set())
+
+    def _do_type(self, step: Step) -> None:
+        self._terminal.type(step.text, {"keeps running"})
+
+    def _do_terminal(self, step: Step) -> None:
+        self._terminal = self.terminal(step.text)
+
+    def terminal(self, name: str) -> Terminal:
+        if name not in self._terminals:
+            self._terminals[name] = Terminal(self._environment)
+            if self._first:
+                self._terminals[name].type(self._first, set())
+        return self._terminals[name]
+
+    def _do_press(self, step: Step) -> None:
+        self.terminal(step.text.removeprefix("Ctrl-C in terminal ")).interrupt()
+
+    def _do_await(self, step: Step) -> None:
+        command, _, text = step.text.partition(" == ")
+        end = time.monotonic() + LIMIT
+        while True:
+            done = subprocess.run(
+                [TOP / "franka", "shell", "bash", "-c", command],
+                env=self._environment,
+                capture_output=True,
+                text=True,
+                stdin=subprocess.DEVNULL,
+                timeout=LIMIT,
+            )
+            if text in done.stdout:
+                return
+            if time.monotonic() > end:
+                printed = f"{done.stdout}{done.stderr}\n{self._terminal.tail()}"
+                raise PageError(f"`{command}` still does not print `{text}`, but {printed}")
+
+    def _do_picture(self, step: Step) -> None:
+        made, name = step.text.split(" is ")
+        path = self._path(made)
+        check_picture(path)
+        self.pictures[name] = path
+
+    def _do_window(self, step: Step) -> None:
+        title, name = step.text.split(" is ")
+        path = self.home / name
+        end = time.monotonic() + LIMIT
+        while not self._drawn(title, path):
+            if time.monotonic() > end:
+                raise PageError(f"the window {title} stays empty")
+        check_picture(path)
+        self.pictures[name] = path
+
+    def _drawn(self, title: str, path: Path) -> bool:
+        """Takes two pictures of a window; whether it shows a scene, and the same one in both."""
+        before = path.with_name(f"before_{path.name}")
+        try:
+            colours(before, self._place(title))
+            time.sleep(0.5)
+            colours(path, self._place(title))
+        except subprocess.CalledProcessError:  # a window that just opens may be replaced by another one
+            return False
+        scenes = []
+        for picture in (before, path):
+            with Image.open(picture) as whole:  # without panels and the line that counts frames
+                width, height = whole.size
+                box = (width // 2, height // 8, width, 7 * height // 8)
+                scenes.append(whole.convert("RGB").crop(box))
+        # Edges of an arm at rest may flicker.
+        if scenes[0].size != scenes[1].size or max(ImageStat.Stat(ImageChops.difference(*scenes)).mean) > 0.2:
+            return False
+        return max(ImageStat.Stat(scenes[1]).stddev) > 10.0
+
+    def _do_drag(self, step: Step) -> None:
+        found = re.fullmatch(r"(.*) (\d+),(\d+) to (\d+),(\d+)", step.text)
+        self._place(found[1])
+        x, y, to_x, to_y = map(int, found.groups()[1:])
+        drag(WINDOWS_AT + x, y, WINDOWS_AT + to_x, to_y)
+
+    @staticmethod
+    def _place(title: str) -> int:
+        """Waits for a window and puts it where nothing covers it; there is no window manager."""
+        end = time.monotonic() + LIMIT
+        while (window := window_of(title)) is None:
+            if time.monotonic() > end:
+                raise PageError(f"there is no window {title}")
+            time.sleep(0.2)
+        move_window(window, WINDOWS_AT, 0, WINDOW_SIZE)
+        return window
+
+    def _path(self, written: str) -> Path:
+        return Path(written.replace("~", str(self.home), 1)) if written[0] == "~" else TOP / written

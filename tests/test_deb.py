@@ -1,0 +1,372 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The Debian packages: what describes them; in the long form they are built, installed on a bare Debian,
+used, and removed without a trace."""
+
+import importlib.util
+import json
+import os
+import re
+import shutil
+import subprocess
+import xml.etree.ElementTree as ElementTree
+from pathlib import Path
+
+import pytest
+import yaml
+from bare_debian import BareDebian, bare_debian
+
+TOP = Path(__file__).resolve().parent.parent
+SOURCES = TOP / "catkin_ws" / "src"
+PACKAGING = TOP / "packaging"
+PREFIX = "/opt/franka_ros"
+RELEASES = ["bookworm", "trixie"]
+# Packages of ours that stand for no ROS package.
+FURTHER = {"ros-franka-setup", "ros-franka-dev", "ros-franka-sweep"}
+
+
+def load_make_source():
+    spec = importlib.util.spec_from_file_location("make_source", PACKAGING / "make_source.py")
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+make_source = load_make_source()
+
+
+def ros_packages() -> dict[str, ElementTree.Element]:
+    """package.xml of each package of the workspace, by name; those of tests belong to no release."""
+    files = [path for path in SOURCES.rglob("package.xml") if "test" not in path.parts]
+    files.append(TOP / "python" / "package.xml")  # a link in the workspace
+    roots = [ElementTree.parse(path).getroot() for path in files]
+    return {root.findtext("name"): root for root in roots}
+
+
+def paragraphs(text: str) -> dict[str, dict[str, str]]:
+    """The binary packages of a file debian/control, by name."""
+    found = {}
+    for block in text.strip().split("\n\n"):
+        fields, name = {}, ""
+        for line in block.splitlines():
+            if line.startswith(" "):
+                fields[name] += "\n" + line
+            else:
+                name, _, fields[name] = line.partition(": ") if ": " in line else line.partition(":")
+        if "Package" in fields:
+            assert fields["Package"] not in found
+            found[fields["Package"]] = fields
+    return found
+
+
+def names(field: str) -> dict[str, str]:
+    """Names of a list of packages, with the versions required."""
+    parts = [part.strip() for part in field.split(",") if part.strip()]
+    return {part.split(" ")[0]: "".join(re.findall(r"\((.*)\)", part)) for part in parts}
+
+
+@pytest.fixture(scope="module", params=RELEASES)
+def debian(request, tmp_path_factory) -> Path:
+    """The folder debian/ for a release."""
+    folder = tmp_path_factory.mktemp("debian") / "debian"
+    make_source.write_debian(folder, make_source.read_packages(SOURCES), request.param)
+    return folder
+
+
+@pytest.fixture(scope="module")
+def control(debian) -> dict[str, dict[str, str]]:
+    return paragraphs((debian / "control").read_text())
+
+
+def test_each_ros_package_is_one_deb(debian, control):
+    expected = {f"ros-franka-{name.replace('_', '-')}" for name in ros_packages()}
+    assert len(expected) > 30
+    assert set(control) == expected | FURTHER
+    folders = dict(line.split() for line in (debian / "folders").read_text().splitlines())
+    assert set(folders) == expected
+    for deb, folder in folders.items():
+        name = ElementTree.parse(SOURCES / folder / "package.xml").getroot().findtext("name")
+        assert deb == f"ros-franka-{name.replace('_', '-')}"
+
+
+def test_versions_are_those_of_the_package_xml_files(debian, control):
+    (release,) = [name for name in RELEASES if f" {name};" in (debian / "changelog").read_text()]
+    number = make_source.NUMBERS[release]
+    own = ros_packages()["franka_ros"].findtext("version")
+    versions = dict(line.split() for line in (debian / "versions").read_text().splitlines())
+    assert set(versions) == set(control)
+    for name, root in ros_packages().items():
+        version = root.findtext("version")
+        replaced = "" if version == own else f"{version}+franka"
+        assert versions[f"ros-franka-{name.replace('_', '-')}"] == f"{replaced}{own}~deb{number}"
+    changelog = subprocess.check_output(["dpkg-parsechangelog", "-l", debian / "changelog"], text=True)
+    assert f"Version: {own}~deb{number}\n" in changelog
+
+
+def test_dependencies_of_package_xml_become_those_of_the_deb(debian, control):
+    versions = dict(line.split() for line in (debian / "versions").read_text().splitlines())
+    table = yaml.safe_load((PACKAGING / "dependencies.yaml").read_text())
+    ours = ros_packages()
+    for name, root in ours.items():
+        deb = control[f"ros-franka-{name.replace('_', '-')}"]
+        depends, recommends = names(deb["Depends"]), names(deb.get("Recommends", ""))
+        assert depends["ros-franka-setup"] == f"= {versions['ros-franka-setup']}"
+        for kind in ("depend", "exec_depend", "build_export_depend"):
+            for key in (each.text for each in root.findall(kind)):
+                if key in ours:
+                    other = f"ros-franka-{key.replace('_', '-')}"
+                    assert depends[other] == f"= {versions[other]}"
+                elif isinstance(table[key], list):
+                    assert set(table[key]) <= set(depends), (name, key)
+                elif isinstance(table[key], dict):
+                    assert set(table[key]["recommends"]) <= set(recommends)
+                else:
+                    assert table[key] in ("linked", "build")
+
+
+def test_metapackage_depends_on_every_ros_package(control):
+    reached, open_ones = set(), {"ros-franka-franka-ros"}
+    while open_ones:
+        deb = open_ones.pop()
+        reached.add(deb)
+        open_ones |= {name for name in names(control[deb]["Depends"]) if name in control} - reached
+    # The stand-ins of ros_control that none of our packages uses are installed by those who use them.
+    assert {name for name in control if "franka-" in name.removeprefix("ros-franka-")} <= reached
+    assert names(control["ros-franka-franka-ros"]["Provides"]).keys() == {"franka-ros"}
+
+
+def test_table_of_dependencies_has_no_unused_key():
+    kinds = ("depend", "exec_depend", "build_export_depend", "build_depend", "buildtool_depend")
+    used = {each.text for root in ros_packages().values() for kind in kinds for each in root.findall(kind)}
+    table = yaml.safe_load((PACKAGING / "dependencies.yaml").read_text())
+    assert set(table) <= used
+
+
+def test_every_debian_package_that_is_named_exists(control):
+    # Where apt has no lists, it knows what is installed, as ./franka install does with all of these.
+    known = set(subprocess.check_output(["apt-cache", "pkgnames"], text=True).split())
+    fields = [deb.get(kind, "") for deb in control.values() for kind in ("Depends", "Recommends")]
+    named = {name for field in fields for name in names(field) if not name.startswith("${")}
+    of_this_release = set(make_source.build_packages(this_release())) | make_source.TOOLS
+    of_others = {name for each in RELEASES for name in make_source.build_packages(each)} - of_this_release
+    assert named - known - set(control) - of_others == set()
+
+
+def this_release() -> str:
+    text = Path("/etc/os-release").read_text()
+    return re.search(r"^VERSION_CODENAME=(\w+)$", text, re.MULTILINE)[1]
+
+
+def test_build_dependencies_exist_in_the_release():
+    bookworm, trixie = (set(make_source.build_packages(each)) for each in RELEASES)
+    assert {"libsdformat-dev", "python3-nose"} == bookworm - trixie
+    assert {"qt6-svg-plugins"} == trixie - bookworm
+    assert {"libmujoco-dev", "catkin", "libroscpp-dev"} <= bookworm & trixie
+    assert not {"chromium", "clang-22", "python3-matplotlib", "ccache"} & bookworm
+
+
+def test_an_unknown_dependency_is_refused():
+    packages = make_source.read_packages(SOURCES)
+    first = packages[0]
+    strange = make_source.RosPackage(**{**vars(first), "keys": ("libteleport-dev",)})
+    with pytest.raises(
+        make_source.PackagingError, match="does not say which Debian package is libteleport-dev"
+    ):
+        make_source.relations(strange, packages, make_source.Versions(packages, "trixie"))
+
+
+def test_the_copyright_file_names_every_holder():
+    copyright_file = (PACKAGING / "debian" / "copyright").read_text()
+    holders = re.findall(r"Copyright (?:\(c\) )?(\d[\d-]* .+)", (TOP / "NOTICE").read_text())
+    assert len(holders) > 4
+    for holder in holders:
+        text = re.sub(r"^(\S+) Franka Robotics$", r"\1 Franka Robotics GmbH", holder.rstrip("., "))
+        assert text in copyright_file, text
+    assert "xacro" in copyright_file and "BSD-3-clause" in copyright_file
+
+
+def test_a_source_tree_is_written_once(tmp_path):
+    program = [PACKAGING / "make_source.py", "--release", "trixie", tmp_path]
+    done = subprocess.run(program, text=True, capture_output=True, timeout=60)
+    assert done.returncode == 2 and f"{tmp_path} exists already" in done.stderr
+
+
+def test_a_missing_xacro_is_reported(tmp_path):
+    with pytest.raises(make_source.PackagingError, match=r"has no xacro; run ./franka install"):
+        make_source.copy_xacro(tmp_path, tmp_path / "source")
+
+
+def in_script(code: str, **variables: str) -> subprocess.CompletedProcess:
+    """Shell code with the functions of ./franka."""
+    return subprocess.run(
+        ["bash", "-c", f"source {TOP / 'franka'}; {code}"],
+        env={**os.environ, **variables},
+        text=True,
+        capture_output=True,
+        timeout=60,
+    )
+
+
+def test_only_this_command_requires_the_packaging_tools():
+    others = in_script("required_packages").stdout.split()
+    code = "cmd_install() { required_packages; exit; }; cmd_deb"
+    ours = in_script(code).stdout.split()
+    assert set(ours) - set(others) == {"debhelper", "dh-python", "dpkg-dev", "lintian"}
+    assert set(others) < set(ours)
+
+
+def test_the_packages_become_a_repository(tmp_path):
+    made = tmp_path / "out" / "deb"
+    folder = made / "one"
+    (folder / "DEBIAN").mkdir(parents=True)
+    (folder / "DEBIAN" / "control").write_text(
+        "Package: one\nVersion: 1\nArchitecture: all\nMaintainer: a <a@example.org>\nDescription: one\n"
+    )
+    subprocess.run(["dpkg-deb", "--build", folder, made], check=True, capture_output=True)
+    old = tmp_path / "dist" / "deb" / "old_1_all.deb"
+    old.parent.mkdir(parents=True)
+    old.touch()
+    done = in_script(f"top={tmp_path}; publish_deb")
+    assert done.returncode == 0, done.stderr
+    assert sorted(path.name for path in old.parent.iterdir()) == ["Packages", "one_1_all.deb"]
+    assert "Filename: ./one_1_all.deb\n" in (old.parent / "Packages").read_text()
+
+
+def test_lintian_error_fails_the_command(tmp_path):
+    program = tmp_path / "lintian"
+    program.write_text("#!/bin/sh\necho 'W: one: small'\necho 'E: one: large'\nexit 2\n")
+    program.chmod(0o755)
+    (tmp_path / "out").mkdir()
+    done = in_script(f"top={tmp_path}; lint_deb", PATH=f"{tmp_path}:{os.environ['PATH']}")
+    assert done.returncode == 1 and done.stderr == "E: one: large\n"
+
+
+# ---- long form -------------------------------------------------------------------------------------------
+
+BUILDS_DEBS = pytest.mark.long_form("builds the Debian packages, for a bare Debian")
+# Folders whose contents are not part of packages: logs, caches and lists of apt and dpkg, other file systems.
+OUTSIDE = ("dev", "proc", "sys", "tmp", "run", "root", "var/cache", "var/log", "var/lib/apt", "var/lib/dpkg")
+MOVES = r"""
+set -e
+source /opt/franka_ros/setup.bash
+export ROS_HOSTNAME=localhost
+robot='franka_gazebo panda.launch headless:=true controller:=joint_position_example_controller'
+pyfranka-run --launch "$robot" --log /tmp/launch.log -- /usr/bin/python3 /tmp/moves.py
+"""
+MOVES_PY = """
+import rospy
+from sensor_msgs.msg import JointState
+
+rospy.init_node("moves")
+positions = []
+begin = rospy.wait_for_message("/joint_states", JointState, 60).position[0]
+deadline = rospy.Time.now() + rospy.Duration(30)
+while rospy.Time.now() < deadline:
+    away = abs(rospy.wait_for_message("/joint_states", JointState, 60).position[0] - begin)
+    positions.append(away)
+    if away > 0.05:  # the controller swings by up to 0.0785 rad
+        break
+print("moved", max(positions))
+"""
+
+
+INSTALLED = ("ros-franka-franka-ros", "ros-franka-sweep")
+
+
+def deb_of(repository: Path, name: str) -> Path:
+    (deb,) = repository.glob(f"{name}_*.deb")
+    return deb
+
+
+def contents(deb: Path) -> list[str]:
+    listed = subprocess.check_output(["dpkg-deb", "--contents", deb], text=True)
+    return [line.split(maxsplit=5)[5].split(" -> ")[0] for line in listed.splitlines()]
+
+
+@BUILDS_DEBS
+def test_each_file_is_in_one_deb(repository):
+    owners: dict[str, list[str]] = {}
+    for deb in repository.glob("*.deb"):
+        for name in contents(deb):
+            if not name.endswith("/"):
+                owners.setdefault(name, []).append(deb.name)
+    assert {name: debs for name, debs in owners.items() if len(debs) > 1} == {}
+    for name in ("lib/libfranka_hw.so", "bin/franka_sim", "setup.bash", "include/franka/robot.h"):
+        assert f".{PREFIX}/{name}" in owners
+
+
+@BUILDS_DEBS
+def test_each_ros_package_installs_its_description(repository):
+    for name in ros_packages():
+        deb = deb_of(repository, f"ros-franka-{name.replace('_', '-')}")
+        assert f".{PREFIX}/share/{name}/package.xml" in contents(deb)
+
+
+@BUILDS_DEBS
+def test_packages_do_not_contain_the_build_path(repository, tmp_path):
+    for deb in repository.glob("*.deb"):
+        subprocess.run(["dpkg-deb", "--extract", deb, tmp_path], check=True)
+    files = [path for path in tmp_path.rglob("*") if path.is_file() and not path.is_symlink()]
+    assert [path for path in files if os.fsencode(TOP) in path.read_bytes()] == []
+
+
+@BUILDS_DEBS
+def test_packages_without_compiled_code_have_none(repository, tmp_path):
+    for deb in repository.glob("*_all.deb"):
+        subprocess.run(["dpkg-deb", "--extract", deb, tmp_path], check=True)
+    files = [path for path in tmp_path.rglob("*") if path.is_file()]
+    assert [path for path in files if path.read_bytes()[:4] == b"\x7fELF"] == []
+
+
+def files_of(bare: BareDebian) -> set[str]:
+    """All files and folders that packages may own, or leave."""
+    found = set()
+    for folder, folders, files in os.walk(bare.root):
+        below = Path(folder).relative_to(bare.root)
+        folders[:] = [name for name in folders if str(below / name) not in OUTSIDE]
+        found |= {str(below / name) for name in [*folders, *files]}
+    return found
+
+
+def install_dependencies(bare: BareDebian) -> None:
+    """Installs what the packages need from Debian, so that later changes are those of the packages."""
+    apt = ["env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "install", "-y", "--no-install-recommends"]
+    (bare.root / "etc/apt/sources.list.d/franka-ros.list").write_text("deb [trusted=yes] file:/packages ./\n")
+    bare.must("apt-get", "update")
+    planned = bare.must(*apt, "--simulate", *INSTALLED)
+    needed = [name for name in re.findall(r"^Inst (\S+)", planned, re.MULTILINE) if "ros-franka" not in name]
+    assert len(needed) > 100
+    bare.must(*apt, *needed, timeout=1800)
+
+
+@BUILDS_DEBS
+def test_installed_packages_simulate_and_leave_nothing(repository, tmp_path_factory):
+    with bare_debian(tmp_path_factory.mktemp("deb")) as bare:
+        shutil.copytree(repository, bare.root / "packages")
+        shutil.copy(TOP / "ci" / "install", bare.root / "tmp")
+        install_dependencies(bare)
+        before = files_of(bare)
+
+        bare.must("/tmp/install", "/packages", *INSTALLED, timeout=1800)
+        (bare.root / "tmp" / "moves.py").write_text(MOVES_PY)
+        printed = bare.must("bash", "-c", MOVES)
+        assert float(re.search(r"moved (\S+)", printed)[1]) > 0.05
+        demo = (
+            f"source {PREFIX}/setup.bash && ROS_HOSTNAME=localhost rosrun franka_sim_mujoco pick_and_place "
+            "--start --speed 0 --no-pictures --output /tmp/demo"
+        )
+        bare.must("bash", "-c", demo)
+        report = json.loads((bare.root / "tmp" / "demo" / "report.json").read_text())
+        assert report[0]["in_tray"]
+        (bare.root / "tmp" / "square.py").write_text(
+            "def case(index, seed):\n    return {'square': index**2}\n"
+        )
+        sweep = "pyfranka-sweep /tmp/square.py --cases 4 --output /tmp/squares.csv --workers 2"
+        bare.must("bash", "-c", f"source {PREFIX}/setup.bash && {sweep}")
+        assert ",9" in (bare.root / "tmp" / "squares.csv").read_text()
+        assert {f"{PREFIX[1:]}/setup.bash", f"{PREFIX[1:]}/lib/libfranka_hw.so"} <= files_of(bare) - before
+
+        installed = bare.must("dpkg-query", "-W", "-f", "${Package}\n", "ros-franka-*").split()
+        bare.must("apt-get", "purge", "-y", *installed)
+        # dpkg removes /opt too, as no other package has anything there.
+        assert files_of(bare) | {"opt"} == before | {"opt"}

@@ -1,0 +1,91 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The Dockerfile: checked by hadolint; in the long form its stages are built in a bare Debian,
+and commands run in them as in containers."""
+
+import json
+import shutil
+import subprocess
+from pathlib import Path
+
+import pytest
+from bare_debian import bare_debian
+from dockerfile import Image, stages_of
+
+TOP = Path(__file__).resolve().parent.parent
+DOCKERFILE = TOP / "Dockerfile"
+
+
+def test_the_dockerfile_has_no_findings():
+    done = subprocess.run(
+        [TOP / ".venv" / "bin" / "hadolint", "--no-color", DOCKERFILE],
+        text=True,
+        capture_output=True,
+        timeout=60,
+    )
+    assert (done.returncode, done.stdout) == (0, "")
+
+
+def test_images_do_not_run_as_root():
+    stages = stages_of(DOCKERFILE.read_text())
+    assert list(stages) == ["packages", "runtime", "development"]
+    for name in ("runtime", "development"):
+        assert [value for kind, value in stages[name].instructions if kind == "USER"][-1] == "1000:1000"
+    assert stages["development"].base == "runtime"
+    assert (stages["packages"].base, stages["runtime"].base) == ("debian:bookworm", "debian:bookworm-slim")
+
+
+# ---- long form -------------------------------------------------------------------------------------------
+
+BUILDS_IMAGES = pytest.mark.long_form("builds the images on a bare Debian")
+
+
+@pytest.fixture(scope="session")
+def image(repository, tmp_path_factory):
+    """The stage `runtime`."""
+    with bare_debian(tmp_path_factory.mktemp("image")) as bare:
+        image = Image(bare, TOP, {("packages", "/source/dist/deb"): repository})
+        image.build(stages_of(DOCKERFILE.read_text())["runtime"])
+        yield image
+
+
+@BUILDS_IMAGES
+def test_a_container_draws_pictures_without_a_display(image):
+    done = image.run(
+        *("rosrun", "franka_sim_mujoco", "pick_and_place", "--start", "--speed", "0", "--output", "demo")
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    demo = image.bare.root / "franka" / "demo"
+    assert json.loads((demo / "report.json").read_text())[0]["in_tray"]
+    assert len(list(demo.glob("*.png"))) >= 3
+    assert demo.stat().st_uid == 1000
+
+
+@BUILDS_IMAGES
+def test_a_container_runs_a_command_with_a_robot(image):
+    code = (
+        "import os, pyfranka; robot = pyfranka.Robot(os.environ['FRANKA_ROBOT_IP']); "
+        "print(os.getuid(), robot.server_version)"
+    )
+    done = image.run("pyfranka-run", "--robot", "fr3", "--", "python3", "-c", code)
+    assert (done.returncode, done.stdout) == (0, "1000 10\n"), done.stderr
+
+
+@BUILDS_IMAGES
+def test_runtime_image_has_no_window_libraries_and_no_build_tools(image):
+    for program in ("rviz", "git", "ccache", "pytest-3"):
+        assert image.run("sh", "-c", f"command -v {program}").returncode != 0, program
+
+
+@BUILDS_IMAGES
+def test_users_build_their_packages_in_the_development_image(image):
+    image.build(stages_of(DOCKERFILE.read_text())["development"])
+    source = image.bare.root / "franka" / "ws" / "src"
+    shutil.copytree(TOP / "tests" / "out_of_tree" / "my_arm", source / "my_arm")
+    subprocess.run(["chown", "-R", "1000:1000", source.parent], check=True)
+    done = image.run("bash", "-c", "cd ws && catkin_make -DPYTHON_EXECUTABLE=/usr/bin/python3", timeout=1800)
+    assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-3000:]
+    listed = image.run(
+        "bash", "-c", "source ws/devel/setup.bash && rospack plugins --attrib=plugin controller_interface"
+    )
+    assert "my_arm" in listed.stdout

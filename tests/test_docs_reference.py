@@ -1,0 +1,358 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The site's reference is complete: every public name is described, and every described name exists.
+
+test_docs_names.py does this for topics, services, actions and parameters.
+"""
+
+import subprocess
+import types
+
+import pytest
+from docsite import (
+    command_lines,
+    cpp_api,
+    cpp_comments,
+    descriptions,
+    docstrings,
+    dynamic_parameters,
+    python_api,
+    python_comments,
+)
+from docsite.interfaces import KINDS, read_interface
+from docsite.launch_files import describe, read_launch_file
+from docsite.packages import packages
+from docsite.plugins import plugins_of
+from docsite.tree import Tree
+
+# A few words; less is not a description.
+MIN_LENGTH = 8
+PACKAGES = {package.name: package for package in packages()}
+LAUNCH = [(package.name, path) for package in packages() for path in package.files("launch/**/*.launch")]
+INTERFACES = [path for package in packages() for kind in KINDS for path in package.files(f"{kind}/*.{kind}")]
+
+# ---- launch files, interfaces, plugins -------------------------------------------------------------------
+
+
+def without_doc(path):
+    launch = read_launch_file(path)
+    return [each.name for each in launch.arguments if len(each.doc) < MIN_LENGTH and each.doc != "[Hz]"]
+
+
+@pytest.mark.parametrize(("package", "path"), LAUNCH, ids=lambda value: getattr(value, "name", value))
+def test_launch_files_and_their_arguments_are_described(package, path):
+    assert len(read_launch_file(path).comment) >= MIN_LENGTH
+    assert not without_doc(path)
+
+
+def test_an_argument_without_doc_is_found(tmp_path):
+    path = tmp_path / "x.launch"
+    path.write_text(
+        """<launch>
+          <!-- Starts nothing. -->
+          <arg name="sim" default="false" doc="Start a simulated robot first?"/>
+          <arg name="robot_ip" default="127.0.0.1" if="$(arg sim)"/>
+          <arg name="robot_ip" unless="$(arg sim)" doc="Address of the robot"/>
+          <arg name="bare" default=""/>
+          <arg name="inner" value="3"/>
+          <include file="y.launch"><arg name="passed" value="$(arg sim)"/></include>
+        </launch>"""
+    )
+    assert without_doc(path) == ["bare"]
+    text = describe(read_launch_file(path), "some_package")
+    assert "Starts nothing." in text and "passed" not in text and "inner" not in text
+    assert "| `robot_ip` | `127.0.0.1` if `sim:=true`; required unless `sim:=true` |" in text
+    assert "| `bare` | empty |" in text
+
+
+@pytest.mark.parametrize("path", INTERFACES, ids=lambda path: f"{path.parent.parent.name}/{path.name}")
+def test_messages_services_and_actions_are_described(path):
+    assert len(read_interface(path).description) >= MIN_LENGTH
+
+
+def test_a_definition_without_a_comment_is_found(tmp_path):
+    path = tmp_path / "X.srv"
+    path.write_text(
+        "# Copyright (c) 2026\n# SPDX-License-Identifier: Apache-2.0\nstring name  # of it\n---\nbool ok\n"
+    )
+    assert read_interface(path).description == ""
+
+
+def test_plugin_classes_are_described():
+    found = [(package.name, plugin) for package in packages() for plugin in plugins_of(package)]
+    assert len(found) > 40
+    assert not [(name, each.name) for name, each in found if len(each.description) < MIN_LENGTH]
+
+
+def test_packages_are_described():
+    assert len(PACKAGES) > 30
+    assert not [each.name for each in packages() if len(each.description) < MIN_LENGTH]
+
+
+# ---- C++ and Python --------------------------------------------------------------------------------------
+
+
+def test_public_names_of_cpp_have_a_comment(site):
+    names = cpp_comments.public_names()
+    assert len(names) > 1600
+    packages_of_names = {each.file.split("/include/")[0].rsplit("/", 1)[-1] for each in names}
+    assert {"franka_example_controllers", "franka_gazebo", "libfranka", "franka_sim"} <= packages_of_names
+    assert {"franka_core::kFr3Limits", "franka_core::ArmLimits::dtau"} <= {each.name for each in names}
+    assert not [f"{each.file}:{each.line}: {each.name}" for each in names if not each.described]
+
+
+def test_names_without_a_comment_are_found(tmp_path):
+    header = tmp_path / "x.h"
+    header.write_text(
+        """
+        /// A thing.
+        class Thing {
+         public:
+          Thing();
+          ~Thing();
+          bool operator==(const Thing&) const;
+          Thing(const Thing&) = delete;
+          /// What it does.
+          void described();
+          void described(int);
+          void bare();
+          using Ptr = Thing*;
+          using Number = double;
+          double bare_field;
+          double field, other_field;  ///< of this line
+          static constexpr int kBare = 1;
+          /// @name A group
+          /// @{
+          int first();
+          int second();
+          /// @}
+         private:
+          void hidden();
+          struct Inside {
+            double hidden_field;
+          };
+        };
+        class Bare {};
+        #define BARE_MACRO 1
+        #define MACRO 2  ///< of something
+        double bareFunction();
+        namespace outer {
+        /// Of a namespace.
+        double function();
+        constexpr double kBareConstant = 3.0;
+        }
+        """
+    )
+    settings = tmp_path / "Doxyfile"
+    settings.write_text(cpp_api.SETTINGS.format(files=header, top=tmp_path, out=tmp_path))
+    subprocess.run(["doxygen", str(settings)], check=True, timeout=60)
+    found = cpp_comments.names_in(tmp_path / "xml", {"x.h"})
+    described = {each.name for each in found if each.described}
+    bare = {"Bare", "Thing::bare", "Thing::Number", "Thing::bare_field", "Thing::kBare"}
+    bare |= {"BARE_MACRO", "bareFunction", "outer::kBareConstant"}
+    assert {each.name for each in found} - described == bare
+    assert {"Thing", "Thing::described", "Thing::first", "Thing::second", "Thing::field"} <= described
+    assert {"Thing::other_field", "MACRO", "outer::function"} <= described
+
+
+def test_every_module_of_python_has_a_page_or_a_reason():
+    names = python_api.all_modules()
+    assert {"pyfranka.plot", "pyfranka.meshes", "pyfranka.run", "pyfranka.sim.batch"} <= set(names)
+    assert not python_api.without_page(names)
+    listed = {each.name for each in python_api.MODULES}
+    # What is listed exists, and is either shown or left out.
+    assert not (listed | set(python_api.LEFT_OUT)) - set(names)
+    assert not listed & set(python_api.LEFT_OUT)
+
+
+def test_a_module_without_a_page_is_found():
+    names = ["pyfranka", "pyfranka.plot", "pyfranka.plot.figure", "pyfranka.new", "pyfranka.plotting"]
+    assert python_api.without_page(names) == ["pyfranka.new", "pyfranka.plotting"]
+
+
+def test_public_names_of_python_have_a_docstring():
+    assert not python_comments.undocumented()
+
+
+def test_names_without_a_docstring_are_found(monkeypatch):
+    class Thing:
+        """A thing."""
+
+        def described(self):
+            """What it does."""
+
+        def bare(self):
+            pass
+
+        @property
+        def value(self):
+            return 0
+
+    def function():
+        pass
+
+    module = types.ModuleType("some_module", "A module.")
+    for each in (Thing, function):
+        each.__module__ = "some_module"
+        setattr(module, each.__name__, each)
+    monkeypatch.setattr(python_comments, "MODULES", [types.SimpleNamespace(name="some_module")])
+    monkeypatch.setattr(python_comments.importlib, "import_module", lambda _: module)
+    found = python_comments.undocumented()
+    assert found == ["some_module.Thing.bare", "some_module.Thing.value", "some_module.function"]
+
+
+def test_every_package_with_public_headers_has_a_page(site):
+    for package in {header.package for header in cpp_api.public_headers()}:
+        page = (site / "reference" / "cpp" / f"{package}.html").read_text()
+        headers = [each for each in cpp_api.public_headers() if each.package == package]
+        assert not [each.include for each in headers if each.include not in page]
+
+
+def test_pages_of_cpp_show_functions_members_and_groups(site):
+    page = (site / "reference" / "cpp" / "libfranka.html").read_text()
+    for name in ("Robot7setLoad", "Robot8readOnce", "RobotState5tau_J", "Robot7control", "8Duration5toSec"):
+        assert name in page
+    assert "Callbacks get the newest state" in page  # of a group of members
+
+
+# ---- command lines ---------------------------------------------------------------------------------------
+
+
+def test_every_program_is_in_the_reference(site):
+    found = command_lines.programs()
+    names = {each.path.name for each in found}
+    assert set(command_lines.TARGETS) <= names
+    assert {"franka_desk", "pick_and_place", "new_controller", "spawner", "spawn_robot"} <= names
+    for each in found:
+        page = (site / "reference" / "programs" / f"{each.package}.html").read_text()
+        assert f"<h2>{each.path.name}<" in page
+
+
+def test_a_program_that_refuses_help_ends_the_build(tmp_path):
+    program = tmp_path / "bad"
+    program.write_text("#!/bin/sh\necho 'no help here' >&2\nexit 3\n")
+    program.chmod(0o755)
+    with pytest.raises(RuntimeError, match="bad --help failed: no help here"):
+        command_lines.help_of(program)
+
+
+def test_every_subcommand_is_in_the_reference(site):
+    """franka_plot and franka_info have words with options of their own."""
+    found = {each.path.name: each for each in command_lines.programs()}
+    for name, words in (("franka_plot", ("robot", "topic", "bag", "log")), ("franka_info", ("record",))):
+        assert command_lines.SUBCOMMANDS[name] == words
+        page = (site / "reference" / "programs" / f"{found[name].package}.html").read_text()
+        for word in words:
+            assert f"<h3>{name} {word}<" in page
+
+
+def test_subcommands_are_those_of_the_programs(site):
+    """Every word that a program's help offers is listed, and the reverse."""
+    for each in command_lines.programs():
+        offered = command_lines.subcommands_in(command_lines.help_of(each.path))
+        assert offered == command_lines.SUBCOMMANDS.get(each.path.name, ()), each.path.name
+
+
+# ---- robot descriptions and parameters at run time -------------------------------------------------------
+
+DESCRIPTIONS = [path for package in packages() for path in package.files("robots/**/*.urdf.xacro")]
+CONFIGS = [path for package in packages() for path in package.files("cfg/*.cfg")]
+
+
+def test_arguments_of_robot_descriptions_are_described(site):
+    page = (site / "reference" / "packages" / "franka_description.html").read_text()
+    found = {path.name: descriptions.read_description(path) for path in DESCRIPTIONS}
+    found = {name: each for name, each in found.items() if each.arguments}
+    assert set(found) == {"panda.urdf.xacro", "fr3.urdf.xacro", "dual_panda_example.urdf.xacro"}
+    for name, each in found.items():
+        assert not [name for name, _, meaning in each.arguments if len(meaning) < MIN_LENGTH]
+        assert f"<h3>{name}<" in page
+    assert [name for name, *_ in found["fr3.urdf.xacro"].arguments][-1] == "inertials"
+    assert dict(each[:2] for each in found["panda.urdf.xacro"].arguments)["tcp_xyz"] == "0 0 0.1034"
+
+
+def test_an_argument_without_a_meaning_is_found(tmp_path):
+    path = tmp_path / "x.urdf.xacro"
+    path.write_text(
+        """<?xml version="1.0"?>
+        <!-- Copyright (c) 2026 -->
+        <!-- A robot.
+             told, other  what it is
+                          in two lines
+             third        another -->
+        <robot xmlns:xacro="http://www.ros.org/wiki/xacro">
+          <xacro:arg name="told" default="1"/><xacro:arg name="other" default=""/><xacro:arg name="bare"/>
+        </robot>"""
+    )
+    found = descriptions.read_description(path)
+    assert found.comment == "A robot."
+    assert found.arguments == [
+        ("told", "1", "what it is in two lines"),
+        ("other", "", "what it is in two lines"),
+        ("bare", None, ""),
+    ]
+
+
+@pytest.mark.parametrize("path", CONFIGS, ids=lambda path: path.name)
+def test_parameters_at_run_time_have_ranges_and_meanings(path, site):
+    config = dynamic_parameters.read_config(path)
+    assert config.description and config.parameters
+    package = path.parent.parent.name
+    page = (site / "reference" / "packages" / f"{package}.html").read_text()
+    for each in config.parameters:
+        assert each.name in page
+        assert len(each.meaning) >= MIN_LENGTH
+        assert each.type == "bool" or each.lowest <= each.default <= each.highest
+
+
+def test_ranges_are_those_of_the_generated_configuration():
+    """dynamic_reconfigure's own generator made the module that the controllers use."""
+    from franka_example_controllers.cfg import compliance_paramConfig, teleop_paramConfig
+
+    for module in (compliance_paramConfig, teleop_paramConfig):
+        name = module.__name__.rsplit(".", 1)[1].removesuffix("Config")
+        (path,) = [path for path in CONFIGS if path.stem == name]
+        read = {each.name: each for each in dynamic_parameters.read_config(path).parameters}
+        assert {name: each.lowest for name, each in read.items()} == module.min
+        assert {name: each.highest for name, each in read.items()} == module.max
+        assert {name: each.default for name, each in read.items()} == module.defaults
+
+
+# ---- pieces ----------------------------------------------------------------------------------------------
+
+
+def test_docstrings_become_restructured_text():
+    text = [
+        "A *plain* text of `q_d` and name_.",
+        "",
+        "    code(1)",
+        "",
+        "    code(2)",
+        "",
+        "* one",
+        "  more",
+        "* two",
+    ]
+    assert docstrings.to_rest(text) == [
+        "A \\*plain\\* text of ``q_d`` and name\\_.",
+        *("", "::", "", "    code(1)", "", "    code(2)", ""),
+        *("", "* one", "  more", "", "* two", ""),
+    ]
+
+
+def test_overloads_of_pybind11_are_shown_as_code():
+    text = ["Overloaded function.", "", "1. f(self: A, x: float) -> None", "", "Does it."]
+    assert docstrings.to_rest(text)[2] == "1) ``f(self: A, x: float) -> None``"
+
+
+def test_unchanged_files_keep_their_times_and_old_ones_go(tmp_path):
+    tree = Tree(tmp_path)
+    tree.write("a/b.md", "text")
+    tree.write("old.md", "text")
+    tree.close()
+    before = (tmp_path / "a/b.md").stat().st_mtime_ns
+    tree = Tree(tmp_path)
+    tree.write("a/b.md", "text")
+    tree.close()
+    assert (tmp_path / "a/b.md").stat().st_mtime_ns == before
+    assert not (tmp_path / "old.md").exists()

@@ -1,0 +1,85 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The table of exit statuses in docs/how_to/shell.md has every program, and is true."""
+
+import re
+import subprocess
+from pathlib import Path
+
+import pytest
+from test_entry import COMMANDS
+
+TOP = Path(__file__).resolve().parent.parent
+PAGE = TOP / "docs" / "how_to" / "shell.md"
+DEVEL, SOURCE = TOP / "catkin_ws" / "devel", TOP / "catkin_ws" / "src"
+# Programs of others in the common folder, under their own names.
+OTHERS = {"roslaunch", "xacro"}
+# Nodes, which roslaunch starts and ends.
+NODES = re.compile(r"_node$|_publisher$|\.py$|^simulated_robots$|^parameter_sliders$")
+# Programs of the build, not for users.
+OF_BUILDS = {"install_meshes", "install_page_libraries", "mesh_conversion.py", "roslaunch", "spawn_model"}
+# Which statuses mean, without a robot: the program, its words, and the column of the table.
+CASES = [
+    ("franka_sim", ["--no-such-option"], 2),
+    ("franka_sim", ["--ip", "192.0.2.1"], 1),
+    ("franka_info", ["--no-such-option"], 3),
+    ("franka_info", ["127.0.99.7"], 2),
+    ("franka_plot", ["log", "FILE", "-o", "a.png"], 1),
+    ("franka_plot", ["robot"], 2),
+    ("franka_desk", ["--no-such-option"], 2),
+    ("franka_desk", ["--listen", "192.0.2.1:9443"], 1),
+    ("spawner", ["--no-such-option"], 2),
+    ("new_controller", ["my_package", "MyLaw", "--interfaces", "thought"], 2),
+    ("new_controller", ["my_package", "MyLaw", "--interfaces", "effort"], 0),
+    ("spawn_robot", ["-param", "robot_description"], 2),
+    ("fit_robot", ["FILE", "a.yaml"], 1),
+    ("fit_robot", [], 2),
+    ("pick_and_place", ["--no-such-option"], 2),
+    ("pyfranka-run", ["--no-such-option"], 2),
+    ("pyfranka-run", ["--", "sh", "-c", "exit 7"], 7),
+    ("pyfranka-sweep", ["--no-such-option"], 2),
+]
+
+
+def rows() -> dict[str, list[str]]:
+    """Names of the table, and the texts of their columns."""
+    found = {}
+    for line in PAGE.read_text().splitlines():
+        if line.startswith("| `"):
+            head, *columns = (cell.strip() for cell in line.strip("|").split("|"))
+            for name in re.findall(r"`([^`]+)`", head):
+                words = name.removeprefix("./franka ").removeprefix("controller_manager ").split()
+                found[words[0]] = columns
+    return found
+
+
+def test_every_command_and_program_is_in_the_table():
+    names = set(rows())
+    scripts = [*SOURCE.glob("franka_*/scripts/*"), *DEVEL.glob("bin/*")]
+    programs = {path.name for path in scripts if path.is_file()} - OTHERS - OF_BUILDS - {"cmake.lock"}
+    programs = {name for name in programs if not NODES.search(name)}
+    assert {"fit_robot", "new_controller", "franka_sim", "pyfranka-run"} <= programs
+    assert not (programs | set(COMMANDS)) - names
+
+
+@pytest.mark.parametrize(("program", "words", "status"), CASES)
+def test_the_statuses_are_those_of_the_table(program, words, status, tmp_path):
+    (tmp_path / "FILE").write_text("nothing\n")
+    path = subprocess.run(
+        ["bash", "-c", f"command -v {program}"], text=True, capture_output=True
+    ).stdout.strip()
+    command = [path] if path else ["rosrun", "controller_manager", program]
+    done = subprocess.run(
+        [*command, *words],
+        cwd=tmp_path,
+        text=True,
+        capture_output=True,
+        timeout=120,
+        stdin=subprocess.DEVNULL,
+    )
+    assert done.returncode == status, done.stderr
+    columns = rows()[program]
+    told = columns[status] if status < 3 else columns[3]
+    assert told, f"the table says nothing about status {status} of {program}"
+    if status and status != 7:
+        assert len(done.stderr.strip()) > 10, "an error is a sentence"

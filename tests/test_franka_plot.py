@@ -1,0 +1,116 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""franka_plot with a ROS master and with a window; python/test/test_plot.py tests everything else."""
+
+import os
+import signal
+import subprocess
+import time
+from contextlib import contextmanager
+
+import pytest
+from franka_sim_mujoco.session import Session
+from PIL import Image, ImageChops
+from pyfranka.franka_sim import FrankaSim
+from screen import colours, virtual_screen, window_of
+from waiting import wait_for
+
+LAUNCH = """<launch>
+  <node name="states" pkg="rostopic" type="rostopic" output="screen"
+    args="pub -r 50 /left/franka_states franka_msgs/FrankaState
+      '{header: {frame_id: left_fr3_link0}, q: [0.1, 0.2, 0.3, -2, 0.5, 1.5, 0.7], robot_mode: 2}'"/>
+  <node name="other" pkg="rostopic" type="rostopic" args="pub -r 1 /chatter std_msgs/String hello"/>
+</launch>"""
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("plot")
+    (folder / "states.launch").write_text(LAUNCH)
+    with Session(str(folder / "states.launch"), log=folder / "launch.log") as running:
+        running.wait_for_master()
+        running.run("rostopic", "echo", "-n1", "/left/franka_states", timeout=60)
+        running.run("rostopic", "echo", "-n1", "/chatter", timeout=60)
+        yield running
+
+
+def test_a_topic_is_plotted(session, tmp_path):
+    file = tmp_path / "a.svg"
+    session.run("franka_plot", "topic", "/left/franka_states", "--seconds", "0.5", "-s", "q", "-o", str(file))
+    text = file.read_text()
+    assert "limits of an FR3" in text and "move" in text and "joint 7" in text
+
+
+@pytest.mark.parametrize(
+    "topic, sentence",
+    [
+        ("/right/franka_states", "No node publishes /right/franka_states. There are: /left/franka_states."),
+        ("/chatter", "/chatter has messages of std_msgs/String, not franka_msgs/FrankaState."),
+    ],
+)
+def test_a_wrong_topic_is_refused(session, tmp_path, topic, sentence):
+    result = session.run("franka_plot", "topic", topic, "-o", str(tmp_path / "a.png"), check=False)
+    assert (result.returncode, result.stderr) == (1, f"franka_plot: {sentence}\n")
+
+
+def test_without_a_master_it_prints_a_message(session, tmp_path):
+    command = [
+        "env",
+        "ROS_MASTER_URI=http://127.0.0.1:9",
+        "franka_plot",
+        "topic",
+        "-o",
+        str(tmp_path / "a.png"),
+    ]
+    result = session.run(*command, check=False)
+    assert result.returncode == 1 and "There is no ROS master" in result.stderr
+
+
+PATIENCE = 60.0  # [s]
+
+
+@contextmanager
+def window(picture, *words, environment=None):
+    """A window of franka_plot, once it shows something; it ends by Ctrl-C and prints nothing."""
+    with virtual_screen():
+        variables = {**(environment or os.environ), "DISPLAY": os.environ["DISPLAY"]}
+        command = ["franka_plot", *words]
+        program = subprocess.Popen(command, env=variables, stderr=subprocess.PIPE, text=True)
+        try:
+            deadline = time.monotonic() + PATIENCE
+            while not window_of("franka_plot") or colours(picture) < 50:
+                assert program.poll() is None and time.monotonic() < deadline
+                time.sleep(0.1)
+            yield program
+            program.send_signal(signal.SIGINT)
+            printed = program.communicate(timeout=30)[1]
+        finally:
+            program.kill()
+    assert (program.returncode, printed) == (0, "")
+
+
+def test_a_window_follows_the_topic(session, tmp_path):
+    words = ["topic", "/left/franka_states", "-s", "q,dq"]
+    with window(tmp_path / "a.png", *words, environment=session.environment):
+        pass
+
+
+def changed(before, after) -> int:
+    """How many pixels two pictures of the screen differ in."""
+    with Image.open(before) as one, Image.open(after) as other:
+        difference = ImageChops.difference(one.convert("L"), other.convert("L"))
+    return sum(difference.point(lambda grey: 255 if grey > 60 else 0).histogram()[1:])
+
+
+def test_a_window_follows_a_robot_on_the_network(tmp_path):
+    """The curves show that the arm is pushed, and that this ends in a reflex."""
+    before, after = tmp_path / "before.png", tmp_path / "after.png"
+    with FrankaSim("panda", pace="realtime") as sim:
+        remote = sim.robot.remote
+        with window(before, "robot", sim.robot.address, "--seconds", "3", "-s", "O_F_ext_hat_K,q"):
+            begin = remote.time()
+            wait_for(lambda: remote.time() > begin + 3.5, "A window full of a robot at rest")
+            colours(before)
+            remote.push("panda_link4", (0, 400, 0), 50)
+            remote.wait(lambda now: now.mode == "Reflex")
+            wait_for(lambda: colours(after) > 50 and changed(before, after) > 2000, "The push in the window")

@@ -1,0 +1,304 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Both nodes of franka_control survive the loss of a robot: silent for ten seconds, killed, restarted."""
+
+import os
+import signal
+import time
+
+import pytest
+import rospy
+from actionlib_msgs.msg import GoalStatus
+from control_nodes import (
+    SUCCEEDED,
+    ControlNode,
+    arms_and_launch,
+    follow_pose,
+)
+from diagnosis import ERROR, OK, Diagnosis
+from franka_msgs.msg import ErrorRecoveryGoal
+from franka_msgs.srv import SetLoad
+from geometry_msgs.msg import PoseStamped
+from pyfranka.franka_sim import FrankaSim, SimRobot
+from ros_client import call, latest, launched, set_example_parameters, trigger
+from std_msgs.msg import String
+from waiting import holds, wait_for
+
+AGAIN = pytest.mark.long_form("the same once more, with automatic reconnection, and with an FR3")
+# Robots, the number of arms, and whether the node (with two arms: for the second) reconnects automatically.
+SETUPS = [
+    pytest.param(("panda", 1, False), id="panda"),
+    pytest.param(("panda", 1, True), id="panda reconnects", marks=AGAIN),
+    pytest.param(("fr3", 1, False), id="fr3", marks=AGAIN),
+    pytest.param(("fr3", 1, True), id="fr3 reconnects", marks=AGAIN),
+]
+PAIRS = [
+    pytest.param(("panda", 2, True), id="2 panda"),
+    pytest.param(("fr3", 2, True), id="2 fr3", marks=AGAIN),
+]
+GONE = 10.0  # time of one silence of the robot [s]
+RETURN = 20.0  # limit for a robot that comes back [s]
+AT_ONCE = 5.0  # [s] for an answer, on a busy machine
+POSE, TRAJECTORY = "cartesian_impedance_example_controller", "effort_joint_trajectory_controller"
+TRAJECTORY_ALONE = "trajectory_controller_alone"
+
+pytestmark = pytest.mark.own_process("setup")
+one_arm = pytest.mark.parametrize("setup", SETUPS, indirect=True, scope="module")
+two_arms = pytest.mark.parametrize("setup", PAIRS, indirect=True, scope="module")
+
+
+@pytest.fixture(scope="module")
+def setup(request):
+    return request.param
+
+
+class Node(ControlNode):
+    """A node whose robots can be killed and started again."""
+
+    def __init__(self, kind, arms, session, reconnects):
+        super().__init__(arms)
+        self._kind, self._addresses, self._session = kind, arms, session
+        self.reconnects, self.robots, self.diagnosis = reconnects, {}, Diagnosis(self.name[1:])
+        self.controller = POSE if self.alone else TRAJECTORY
+        if self.alone:
+            set_example_parameters(kind)
+            self.target = rospy.Publisher(f"/{POSE}/equilibrium_pose", PoseStamped, queue_size=1)
+        self.controllers.load(self.controller)
+
+    @property
+    def log(self):
+        return self._session.log.read_text(errors="replace")
+
+    def start(self, arm):
+        self.robots[arm.name] = FrankaSim(robot_at(self._kind, self._addresses[arm.name]), pace="patient")
+        arm.operator = self.robots[arm.name].robot.remote
+
+    def signal(self, arm, number):
+        os.kill(self.robots[arm.name].process.pid, number)
+
+    def kill(self, arm):
+        self.robots.pop(arm.name).kill()
+
+    def follow(self, arms=None, by=0.05, controller=TRAJECTORY):
+        """The controller moves its arms: joint by joint, or the only one to a pose."""
+        if self.alone:
+            return follow_pose(self.arms[0], self.target)
+        return self.move_joints(controller, by, 2.0, arms)
+
+    def connect(self):
+        """Connects as soon as the robots accept connections."""
+
+        def connected():
+            success, message = self.trigger("connect")
+            return success or "Already connected" in message
+
+        wait_for(connected, "A connection", RETURN)
+
+    def answers(self):
+        return len(self.controllers.states()) >= 2
+
+
+def robot_at(kind, address):
+    return SimRobot(kind, address=address, hand="none")
+
+
+@pytest.fixture(scope="module")
+def node(setup, tmp_path_factory):
+    kind, count, reconnects = setup
+    folder = tmp_path_factory.mktemp("lost")
+    arms, launch = arms_and_launch(kind, count, 15, folder, reconnects)
+    robots = {name: FrankaSim(robot_at(kind, address), pace="patient") for name, address in arms.items()}
+    options = ["realtime_config:=ignore", "connect_timeout:=30"]
+    try:
+        with launched(*launch, *options, log=folder / "launch.log") as session:
+            node = Node(kind, arms, session, reconnects)
+            node.robots = robots
+            yield node
+    finally:
+        for robot in robots.values():
+            robot.kill()
+
+
+@pytest.fixture
+def moving(node):
+    """All robots are there, connected and moving under one controller, whatever happened before."""
+    for arm in node.arms:
+        if arm.name not in node.robots:
+            node.start(arm)
+    node.connect()
+    if TRAJECTORY_ALONE in node.controllers.running():
+        node.controllers.stop(TRAJECTORY_ALONE)
+    node.prepare(node.controller)
+    return node
+
+
+def check_comes_back(node):
+    """After the robot's return: connection, recovery, and the controller continues."""
+    arm, before = node.arms[0], node.arms[0].state
+    if not node.reconnects:
+        wait_for(lambda: node.trigger("connect")[0], "A connection", RETURN)
+    wait_for(lambda: arm.state.time != before.time and not arm.is_in("moving"), "A state of the connection")
+    outcome = None, ""
+    # With the connection comes a new action server: goals are lost before this process is connected to it.
+    while outcome[0] is None:
+        outcome = node.recovery.run(ErrorRecoveryGoal(), 5.0)
+    assert outcome == SUCCEEDED
+    node.wait_until_all_are("moving")
+    node.follow()
+
+
+@one_arm
+def test_a_silent_robot_is_reported_and_comes_back(moving):
+    arm = moving.arms[0]
+    lost = moving.log.count("the robot is lost")
+    moving.signal(arm, signal.SIGSTOP)
+    try:
+        wait_for(lambda: arm.has_error, "A report of the silence")
+        wait_for(lambda: moving.log.count("the robot is lost") > lost, "Its line in the log")
+        time.sleep(1.0 if moving.reconnects else GONE)  # at least: also an attempt to connect fails
+        assert moving.answers()
+    finally:
+        moving.signal(arm, signal.SIGCONT)
+    check_comes_back(moving)
+
+
+@one_arm
+def test_a_robot_killed_in_a_recovery_and_restarted_is_connected_again(moving):
+    arm = moving.arms[0]
+    arm.push()
+    wait_for(lambda: arm.is_in("in reflex") and arm.has_error, "The reflex")
+    lost = moving.log.count("the robot is lost")
+    moving.signal(arm, signal.SIGSTOP)
+    goal = moving.recovery.send(ErrorRecoveryGoal())
+    wait_for(lambda: goal.get_goal_status() == GoalStatus.ACTIVE, "The begin of the recovery")
+    moving.kill(arm)
+    wait_for(lambda: moving.log.count("the robot is lost") > lost, "A report of the death")
+    assert moving.answers()
+    if not moving.reconnects:
+        success, message = moving.trigger("connect")
+        assert not success and "refused" in message
+    moving.start(arm)
+    check_comes_back(moving)
+
+
+@one_arm
+def test_disconnect_and_connect_still_work(moving):
+    moving.controllers.stop(POSE)
+    moving.wait_until_all_are("idle")
+    assert moving.trigger("disconnect") == (True, "")
+    assert moving.trigger("connect") == (True, "")
+    before = moving.arms[0].states
+    wait_for(lambda: moving.arms[0].states > before, "A new state")
+
+
+@two_arms
+def test_the_diagnostics_report_each_arm(moving):
+    moving.follow()
+    for name in (arm.name for arm in moving.arms):
+        level, hardware, values = moving.diagnosis.shows(name, "Ready", Mode="Move")
+        assert (level, hardware, values["Mode"]) == (OK, name, "Move")
+        assert int(values["Commands since the last report"]) > 0
+        mean = float(values["From a state to its command, mean [ms]"])
+        assert 0.0 < mean <= float(values["From a state to its command, longest [ms]"])
+        assert float(values["Latest state behind the promptest [ms]"]) > 0.0
+    _, _, values = moving.diagnosis.status_when("Control loop", lambda *_: True)
+    assert int(values["Cycles since the last report"]) > 0
+
+
+def offers(arm):
+    """Services of an arm, out of those that this test uses."""
+    _, _, (_, _, services) = rospy.get_master().getSystemState()
+    names = {name for name, _ in services}
+    return [name for name in ("connect", "disconnect", "set_load") if arm.service(name) in names]
+
+
+def lose(node, arm):
+    """Kills an arm's robot; the other arm stops."""
+    (other,) = [other for other in node.arms if other != arm]
+    node.kill(arm)
+    wait_for(lambda: arm.has_error and other.has_error and other.is_in("idle"), "The report of the loss")
+    return other
+
+
+@two_arms
+def test_a_lost_arm_is_reported_and_the_other_one_keeps_its_state(moving):
+    arm = moving.arms[0]
+    other = lose(moving, arm)
+    assert moving.diagnosis.shows(arm.name, "Not connected to the robot")[:2] == [ERROR, arm.name]
+    at = other.state.q
+    begin = time.monotonic()
+    answer = call(other.service("set_load"), SetLoad, load_inertia=[0.0] * 9)
+    assert (answer.success, answer.error) == (True, "")
+    assert TRAJECTORY in moving.controllers.states()
+    assert time.monotonic() - begin < AT_ONCE
+    assert other.is_in("idle") and other.has_error, "One controller moves both: it waits."
+    assert offers(other) == ["connect", "disconnect", "set_load"]
+    assert offers(arm) == ["connect", "disconnect"]
+    success, message = moving.trigger("connect")
+    assert not success and f"'{arm.name}': libfranka" in message and "refused" in message
+    assert f"'{other.name}' is connected." in message
+    status, text = moving.recover()
+    assert status == GoalStatus.ABORTED and f"{arm.name}: " in text and "connect" in text
+    assert latest(arm.service("abort"), String).data.startswith("libfranka: ")
+    number = other.state.header.seq
+    wait_for(lambda: other.state.header.seq > number + 5, "New states of the other arm")
+    assert other.state.q == pytest.approx(at, abs=0.005)
+    shown = moving.diagnosis.status_when(other.name, lambda _, values: values.get("Mode") == "Idle")
+    assert shown[2]["Mode"] == "Idle"
+    assert f"{arm.name}: the robot is lost. libfranka: " in moving.log
+    assert "Call the service connect when it is back." in moving.log
+
+
+def load_alone(node, arm):
+    """Loads a controller for this arm only, configured like the one for both."""
+    if TRAJECTORY_ALONE not in node.controllers.states():
+        parameters = rospy.get_param(f"{node.name}/{TRAJECTORY}")
+        parameters["joints"] = [joint for joint in parameters["joints"] if joint.startswith(arm.name)]
+        rospy.set_param(f"{node.name}/{TRAJECTORY_ALONE}", parameters)
+        node.controllers.load(TRAJECTORY_ALONE)
+
+
+@two_arms
+def test_the_other_arm_moves_alone_while_the_lost_one_reconnects(moving):
+    arm = moving.arms[0]
+    other = lose(moving, arm)
+    success, message = trigger(arm.service("disconnect"))
+    assert not success and f"A controller commands '{arm.name}'" in message
+    moving.controllers.stop(TRAJECTORY)
+    assert trigger(arm.service("disconnect")) == (True, "")
+    moving.wait_for(lambda arm: not arm.has_error, "The end of the errors")
+    assert not moving.controllers.switches([TRAJECTORY]), "One of them is not there."
+    assert f"no controller can command '{arm.name}'" in moving.log
+    load_alone(moving, other)
+    moving.controllers.start(TRAJECTORY_ALONE)
+    wait_for(lambda: other.is_in("moving"), "The motion of the other arm")
+    moving.follow([other], 0.1, TRAJECTORY_ALONE)
+
+    moving.start(arm)
+    assert trigger(arm.service("connect")) == (True, "")
+    wait_for(lambda: arm.is_in("idle"), "The connection")
+    assert other.is_in("moving") and not other.has_error
+    assert moving.controllers.switches([TRAJECTORY], [TRAJECTORY_ALONE])
+    moving.wait_until_all_are("moving")
+    moving.follow(by=-0.05)
+
+
+@two_arms
+def test_an_arm_that_reconnects_automatically_moves_on_command(moving):
+    arm = moving.arms[1]
+    other = lose(moving, arm)
+    moving.start(arm)
+    shown = moving.diagnosis.status_when(arm.name, lambda _, values: values.get("Mode") == "Idle")
+    assert shown[1] == arm.name
+    wait_for(lambda: "set_load" in offers(arm) and arm.is_in("idle"), "The connection")
+    assert f"{arm.name}: the robot is lost." in moving.log
+    assert "Trying to connect again every second." in moving.log
+    begin = arm.state.time, other.state.time
+    while arm.state.time < begin[0] + 1.0 or other.state.time < begin[1] + 1.0:
+        assert arm.has_error and not arm.is_in("moving") and not other.is_in("moving"), (
+            "It moved without a request."
+        )
+        assert holds(lambda states=arm.states: arm.states > states)
+    assert moving.recover() == SUCCEEDED
+    moving.wait_until_all_are("moving")
+    moving.follow(by=-0.05)

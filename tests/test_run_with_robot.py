@@ -1,0 +1,328 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""pyfranka-run, and the forms for continuous integration that call it: a command runs with a robot."""
+
+import os
+import re
+import secrets
+import shutil
+import signal
+import subprocess
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+import pytest
+import yaml
+
+TOP = Path(__file__).resolve().parent.parent
+DEVEL = TOP / "catkin_ws" / "devel"
+RUN = DEVEL / "bin" / "pyfranka-run"
+READ = """
+import os, pyfranka
+robot = pyfranka.Robot(os.environ["FRANKA_ROBOT_IP"], pyfranka.RealtimeConfig.Ignore)
+print(robot.read_once().robot_mode)
+"""
+
+
+def run(*words: str | Path, **variables: str) -> subprocess.CompletedProcess:
+    return subprocess.run(
+        [RUN, *words],
+        env={**os.environ, **variables},
+        text=True,
+        capture_output=True,
+        timeout=200,
+        stdin=subprocess.DEVNULL,
+    )
+
+
+def runs(number: str) -> bool:
+    """If a process is there. A zombie is not: it waits for an init that may never reap it."""
+    try:
+        state = Path("/proc", number, "stat").read_text().rpartition(")")[2].split()[0]
+    except OSError:
+        return False
+    return state not in "ZX"
+
+
+@pytest.fixture(autouse=True)
+def leaves_no_process(monkeypatch):
+    """No process that the test has started remains: all inherit a variable."""
+    mark = f"MARK={secrets.token_hex(8)}"
+    monkeypatch.setenv(*mark.split("="))
+    yield
+    left = []
+    for folder in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):
+            if os.fsencode(mark) in (folder / "environ").read_bytes().split(b"\0"):
+                left.append((folder / "comm").read_text())
+    assert left == []
+
+
+@pytest.mark.parametrize("robot", ["panda", "fr3"])
+def test_the_command_reads_its_robot(robot):
+    done = run("--robot", robot, "--", "/usr/bin/python3", "-c", READ)
+    assert (done.returncode, done.stdout) == (0, "RobotMode.Idle\n"), done.stderr
+    assert re.search(rf"the robot is ready: {robot} at 127\.\d+\.\d+\.\d+\n", done.stderr)
+    assert "last lines" not in done.stderr
+
+
+def test_options_reach_the_robot(tmp_path):
+    log = tmp_path / "robot.log"
+    done = run("--robot=fr3", "--address=127.0.63.1", "--option=--protocol=7", f"--log={log}", "--", "true")
+    assert done.returncode == 0, done.stderr
+    assert "waits for clients at 127.0.63.1" in log.read_text()
+
+
+def test_a_failing_command_keeps_its_status_and_shows_the_robots_log():
+    done = run("--", "bash", "-c", "echo mine; exit 3")
+    assert (done.returncode, done.stdout) == (3, "mine\n")
+    assert "status 3; the robot's last lines:\n" in done.stderr and "waits for clients at" in done.stderr
+
+
+def test_a_command_that_a_signal_ends_has_its_number():
+    assert run("--", "bash", "-c", "kill -SEGV $$").returncode == 128 + signal.SIGSEGV
+
+
+def test_a_late_command_is_ended_with_its_children(tmp_path):
+    file = tmp_path / "child"
+    done = run("--timeout=2", "--", "bash", "-c", f"sleep 1000 & echo $! >{file}; wait")
+    assert done.returncode == 124 and "did not end within 2 s" in done.stderr
+    assert not runs(file.read_text().strip())
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        (["--realism=perfect"], "perfect"),
+        (["--address=8.8.8.8"], "8.8.8.8"),
+        (["--world=nowhere.xml"], "nowhere.xml"),
+        (["--option=--fast"], "--fast"),
+    ],
+)
+def test_a_robot_that_cannot_start_is_reported_before_the_command(words, sentence):
+    done = run(*words, "--", "echo", "mine")
+    assert (done.returncode, done.stdout) == (125, ""), done.stderr
+    assert "the robot did not start:" in done.stderr and sentence in done.stderr
+
+
+def test_a_robot_that_ends_before_the_command_is_a_failure():
+    code = "import os; from pyfranka.remote import Remote; Remote(os.environ['FRANKA_ROBOT_IP']).send('quit')"
+    wait = "until ps --ppid $PPID -o stat=,comm= | grep -q '^Z.*franka_sim'; do sleep 0.05; done"
+    done = run("--timeout=60", "--", "bash", "-c", f'/usr/bin/python3 -c "{code}"; {wait}')
+    assert done.returncode == 125, done.stderr
+    assert "the robot ended before the command. franka_sim has ended with status 0." in done.stderr
+
+
+@pytest.mark.parametrize(("command", "status"), [("/there/is/none", 127), (str(TOP / "README.md"), 126)])
+def test_a_command_that_cannot_be_run_is_reported(command, status):
+    done = run("--", command)
+    assert done.returncode == status and command in done.stderr
+
+
+@pytest.mark.parametrize(
+    ("words", "sentence"),
+    [
+        ([], "a command is missing"),
+        (["--robot=ur5", "--", "true"], 'there is no robot "ur5"; there are panda, fr3'),
+        (["--robot=fr3", "--launch=a b.launch", "--", "true"], "exclude each other"),
+        (["--timeout=-1", "--", "true"], "invalid seconds value: '-1'"),
+        (["--fast", "--", "true"], "unrecognized arguments: --fast"),
+    ],
+)
+def test_wrong_arguments_are_refused(words, sentence):
+    done = run(*words)
+    assert done.returncode == 2 and sentence in done.stderr
+
+
+def test_a_signal_ends_command_and_robot():
+    process = subprocess.Popen(
+        [RUN, "--", "bash", "-c", "echo started; sleep 1000"],
+        stdout=subprocess.PIPE,
+        stderr=subprocess.PIPE,
+        text=True,
+    )
+    assert process.stdout.readline() == "started\n"
+    process.terminate()
+    _, output = process.communicate(timeout=60)
+    assert process.returncode == 128 + signal.SIGTERM and "ended by SIGTERM" in output
+
+
+# ---- roslaunch -------------------------------------------------------------------------------------------
+
+LAUNCH = "franka_gazebo fr3.launch headless:=true controller:=joint_impedance_example_controller"
+
+
+def test_a_launched_robot_is_ready_for_the_command():
+    code = """
+        rosservice call /controller_manager/list_controllers | grep -A1 joint_impedance | grep -q running
+        rostopic echo -n 1 /joint_states/name | grep -o fr3_joint7
+    """
+    done = run("--launch", LAUNCH, "--", "bash", "-eo", "pipefail", "-c", code)
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "fr3_joint7" in done.stdout
+
+
+def test_a_launch_file_that_does_not_exist_is_reported():
+    done = run("--launch=franka_gazebo robot_arm.launch", "--", "echo", "mine")
+    assert (done.returncode, done.stdout) == (125, "")
+    assert "robot_arm.launch" in done.stderr and "roslaunch has ended with status 1" in done.stderr
+
+
+def test_a_launch_without_a_robot_is_reported(tmp_path):
+    file = tmp_path / "empty.launch"
+    file.write_text("<launch/>")
+    done = run(f"--launch={file}", "--start-timeout=4", "--", "echo", "mine")
+    assert (done.returncode, done.stdout) == (125, "")
+    assert "states had no message within 4 s" in done.stderr
+
+
+def test_without_ros_a_launch_is_refused(tmp_path):
+    done = run("--launch=franka_gazebo panda.launch", "--", "/bin/true", PATH=str(tmp_path))
+    assert done.returncode == 125 and "no program roslaunch on PATH" in done.stderr
+
+
+# ---- forms for continuous integration --------------------------------------------------------------------
+
+ACTION = yaml.safe_load((TOP / "ci" / "github" / "action.yml").read_text(encoding="utf-8"))
+GITLAB = yaml.safe_load((TOP / "ci" / "gitlab" / "franka.yml").read_text(encoding="utf-8"))[".franka"]
+
+
+def of_service(folder: Path, **variables: str) -> dict[str, str]:
+    """The environment of a job, with the workspace instead of installed packages."""
+    ours = {"PATH": "/usr/bin:/bin", "HOME": str(folder), "FRANKA_PREFIX": str(DEVEL)}
+    return ours | {"MARK": os.environ["MARK"]} | variables
+
+
+def test_the_action_uses_each_input_once_and_none_in_its_scripts():
+    steps = ACTION["runs"]["steps"]
+    used = [
+        re.fullmatch(r"\$\{\{ inputs\.(\w+) \}\}", text)[1] for step in steps for text in step["env"].values()
+    ]
+    assert sorted(used) == sorted(ACTION["inputs"])
+    assert not [step for step in steps if "${{" in step["run"]]
+    assert all(given.get("required") or "default" in given for given in ACTION["inputs"].values())
+    assert all(given["description"] for given in ACTION["inputs"].values())
+
+
+def action(folder: Path, **inputs: str) -> subprocess.CompletedProcess:
+    """Runs the steps as GitHub does; ends with the first that fails."""
+    given = {name: str(each.get("default", "")) for name, each in ACTION["inputs"].items()} | inputs
+    done = None
+    for step in ACTION["runs"]["steps"]:
+        script = folder / "step.sh"
+        script.write_text(step["run"])
+        variables = {
+            name: re.sub(r"\$\{\{ inputs\.(\w+) \}\}", lambda match: given[match[1]], text)
+            for name, text in step["env"].items()
+        }
+        done = subprocess.run(
+            ["bash", "--noprofile", "--norc", "-eo", "pipefail", script],
+            env=of_service(folder, GITHUB_ACTION_PATH=str(TOP / "ci" / "github"), **variables),
+            cwd=folder,
+            text=True,
+            capture_output=True,
+            timeout=200,
+        )
+        if done.returncode != 0:
+            break
+    return done
+
+
+def test_the_action_runs_a_users_pytest(tmp_path):
+    (tmp_path / "test_mine.py").write_text(
+        READ + "def test_mode():\n    assert robot.read_once().robot_mode == pyfranka.RobotMode.Idle\n"
+    )
+    done = action(
+        tmp_path, robot="fr3", run=f"{sys.executable} -m pytest -q -p no:cacheprovider test_mine.py"
+    )
+    assert done.returncode == 0 and "1 passed" in done.stdout, done.stdout + done.stderr
+
+
+def test_the_action_fails_with_its_command(tmp_path):
+    done = action(tmp_path, run="false | true\necho not reached")
+    assert done.returncode == 1 and "not reached" not in done.stdout
+    assert "the robot's last lines" in done.stderr
+
+
+def test_the_action_needs_a_command(tmp_path):
+    done = action(tmp_path)
+    assert done.returncode == 2 and "FRANKA_RUN is empty" in done.stderr
+
+
+@pytest.fixture
+def source(tmp_path):
+    """A clone of the project, as GitLab's job makes it: its folder ci/."""
+    folder = tmp_path / "source"
+    shutil.copytree(TOP / "ci", folder / "ci")
+    for words in (
+        ["init", "--quiet", "--initial-branch=main"],
+        ["add", "."],
+        ["-c", "user.name=test", "-c", "user.email=test@example.org", "commit", "--quiet", "-m", "ci"],
+    ):
+        subprocess.run(["git", *words], cwd=folder, check=True)
+    return f"file://{folder}"
+
+
+def test_the_job_of_gitlab_runs_a_users_rostest(tmp_path, source):
+    package = tmp_path / "mine"
+    package.mkdir()
+    (package / "package.xml").write_text("<package><name>mine</name></package>")
+    (package / "mine.test").write_text(
+        '<launch><test test-name="mine" pkg="rostest" type="publishtest"><rosparam>\n'
+        "topics: [{name: /joint_states, timeout: 30, negative: False}]\n"
+        "</rosparam></test></launch>"
+    )
+    setup = tmp_path / "setup.bash"
+    setup.write_text(f"export ROS_PACKAGE_PATH={tmp_path}:$ROS_PACKAGE_PATH\n")
+    project = tmp_path / "project"
+    project.mkdir()
+    variables = GITLAB["variables"] | {
+        "FRANKA_SOURCE": source,
+        "FRANKA_LAUNCH": "franka_gazebo panda.launch headless:=true",
+        "FRANKA_SETUP": str(setup),
+        "FRANKA_RUN": "rostest --text --reuse-master mine mine.test",
+        "CI_PROJECT_DIR": str(project),
+    }
+    script = "\n".join([*GITLAB["before_script"], *GITLAB["script"]])
+    done = subprocess.run(
+        ["bash", "-eo", "pipefail", "-c", script],
+        env=of_service(tmp_path, **variables),
+        cwd=project,
+        text=True,
+        capture_output=True,
+        timeout=200,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "SUMMARY" in done.stdout and "ERRORS: 0" in done.stdout
+
+
+@pytest.mark.parametrize(
+    ("words", "status", "sentence"),
+    [
+        (["--help"], 0, "usage: ci/install [REPOSITORY"),
+        (["--now"], 2, 'no option "--now"'),
+        ([str(TOP)], 2, "there is no file Packages in"),
+        ([], 0, "is installed already"),
+    ],
+)
+def test_the_installer_answers(words, status, sentence):
+    done = subprocess.run(
+        [TOP / "ci" / "install", *words],
+        env={**os.environ, "FRANKA_PREFIX": str(DEVEL)},
+        text=True,
+        capture_output=True,
+        timeout=60,
+    )
+    assert done.returncode == status and sentence in done.stdout + done.stderr
+
+
+def test_job_without_packages_reports_the_missing_packages(tmp_path):
+    done = subprocess.run(
+        [TOP / "ci" / "run"],
+        env={"PATH": "/usr/bin:/bin", "FRANKA_RUN": "true", "FRANKA_PREFIX": str(tmp_path)},
+        text=True,
+        capture_output=True,
+        timeout=60,
+    )
+    assert done.returncode == 2 and "ci/install installs the packages" in done.stderr

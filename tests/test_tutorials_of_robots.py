@@ -1,0 +1,143 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""docs/tutorials/real_robot.md and porting_from_noetic.md: commands and files exist; rehearsals and the
+ported package run in simulation."""
+
+import re
+import subprocess
+import sys
+from pathlib import Path
+
+import page_commands
+import pyfranka
+import pytest
+from fci_session import simulated
+from overlay import Overlay
+
+TOP = Path(__file__).resolve().parent.parent
+TUTORIALS = TOP / "docs/tutorials"
+DEVEL = TOP / "catkin_ws/devel"
+PACKAGE = TOP / "tests/out_of_tree/from_noetic"
+OF_DEBIAN = r"`(?!ros-noetic)((?:lib|python3-|ros-|pluginlib)[a-z0-9-]+|rviz)`"
+
+# Packages that the pages name and ./franka install does not install. A machine with lists checks them.
+NOT_INSTALLED = {
+    *("libcv-bridge-dev", "libfcl-dev", "liboctomap-dev", "libompl-dev", "librviz-dev", "linux-cpupower"),
+    *("linux-image-rt-amd64", "python3-cv-bridge", "rt-tests"),
+}
+
+
+def page(name: str) -> str:
+    return (TUTORIALS / f"{name}.md").read_text(encoding="utf-8")
+
+
+def anchors(file: Path) -> set[str]:
+    """The anchors of a page's headings, as MyST and GitHub make them."""
+    headings = re.findall(r"^#+ (.+)$", file.read_text(encoding="utf-8"), re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+@pytest.mark.parametrize("folder", ["troubleshooting", "how_to", "tutorials"])
+def test_links_lead_somewhere(folder):
+    broken = []
+    for file in sorted((TOP / "docs" / folder).glob("*.md")):
+        for target in re.findall(r"\]\(([^)\s]+)\)", file.read_text(encoding="utf-8")):
+            if "://" in target:
+                continue
+            name, _, anchor = target.partition("#")
+            other = (file.parent / name).resolve() if name else file
+            if not other.exists() or (anchor and anchor not in anchors(other)):
+                broken.append(f"{file.name}: {target}")
+    assert not broken
+
+
+def test_debian_has_the_named_packages():
+    """Those that the pages say to install. Without Debian's lists, apt knows what is installed only."""
+    names = set(re.findall(r"apt-get install (\S+)", page("real_robot")))
+    names |= set(re.findall(OF_DEBIAN, page("porting_from_noetic")))
+    assert len(names) > 20 and names >= NOT_INSTALLED
+    listing = subprocess.check_output(["apt-cache", "pkgnames"], text=True).split()
+    has_lists = len(listing) > 20000
+    assert sorted(names - set(listing) - (set() if has_lists else NOT_INSTALLED)) == []
+    assert not [package for package in listing if "moveit" in package]  # as step 6 says
+
+
+def test_commands_of_the_rehearsal_are_accepted():
+    """Each line of step 1 is sent to a robot in a motion, which survives all but the user stop."""
+    sent = [
+        command[1]
+        for command in page_commands.commands_of(TUTORIALS / "real_robot.md")
+        if command[0] == "echo" and command[1].split()[0] in page_commands.control_lines()
+    ]
+    disturbances = [line for line in sent if not line.startswith(("user_stop", "load"))]
+    assert len(disturbances) == 4
+    with simulated("panda", "lockstep") as robot:
+        client, pending, ticks = robot.connect(), list(disturbances), 0
+
+        def hold(state, period):
+            nonlocal ticks
+            ticks += 1
+            if pending and ticks % 200 == 0:
+                robot.remote.send(pending.pop(0))
+            torques = pyfranka.Torques([0.0] * 7)
+            return pyfranka.motion_finished(torques) if ticks > 1200 else torques
+
+        client.control_torques(hold)
+        assert not pending
+        for line in (line for line in sent if line.startswith(("user_stop", "load"))):
+            robot.remote.send(line)
+        assert robot.remote.state().mode == "Idle"
+
+
+def test_franka_info_prints_the_documented_output():
+    with simulated("panda", "realtime") as robot:
+        text = subprocess.run(
+            ["franka_info", robot.address, "1"], text=True, capture_output=True, timeout=60, check=False
+        ).stdout
+    for word in ("Verdict", "States", "Round trip", "Lateness", "External force", "version 5"):
+        assert word in text, text
+
+
+def test_enforcing_real_time_refuses_without_it(monkeypatch):
+    """Step 2's rehearsal: without a real-time kernel, the client refuses a simulated robot as a real one."""
+    program = "import pyfranka, sys; pyfranka.Robot(sys.argv[1]).control_torques(lambda state, period: 1)"
+    with simulated("panda", "lockstep") as robot:
+        monkeypatch.setenv("FRANKA_REALTIME", "enforce")
+        command = [sys.executable, "-c", program, robot.address]
+        result = subprocess.run(command, text=True, capture_output=True, timeout=60, check=False)
+    if not Path("/sys/kernel/realtime").exists():
+        assert "Running kernel does not have realtime capabilities" in result.stderr
+
+
+def test_table_of_dependencies_matches_the_packages():
+    """Packages that step 2 names exist here."""
+    names = re.search(r"under the names of Noetic: (.+?)\. Remove", page("porting_from_noetic"), re.S)[1]
+    missing = [name for name in re.findall(r"`(\w+)`", names) if page_commands.folder_of(name) is None]
+    assert not missing
+
+
+def test_the_ported_package_builds_and_runs(tmp_path):
+    overlay = Overlay(DEVEL, PACKAGE, tmp_path)
+    overlay.build()
+    for snippet in re.findall(r"^```xml\n(.*?)^```", page("porting_from_noetic"), re.S | re.M):
+        launch = " ".join((PACKAGE / "launch/from_noetic.launch").read_text().split())
+        assert " ".join(snippet.split()) in launch
+    for snippet in re.findall(r"^```cmake\n(.*?)^```", page("porting_from_noetic"), re.S | re.M):
+        for line in snippet.splitlines():
+            assert line.split("#")[0].strip() in (PACKAGE / "CMakeLists.txt").read_text()
+    log = tmp_path / "launch.log"
+    port = overlay.environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
+    launch = overlay.start(f"roslaunch -p {port} from_noetic from_noetic.launch", log)
+    try:
+        # rostopic fails until the master answers, and may miss a publisher that starts at the same time.
+        command = (
+            "until timeout 20 rostopic echo -n 1 /from_noetic_controller/height 2> /dev/null; do true; done;"
+            "rosservice call /gazebo/get_body_pose 'body: block'"
+        )
+        printed = overlay.run(command, timeout=240)
+    finally:
+        launch.terminate()
+        launch.wait(60)
+    assert 0.3 < float(re.search(r"data: (\S+)", printed)[1]) < 0.8
+    assert "success: True" in printed, printed + log.read_text()
+    assert "plugin 'gazebo_ros_state'" in log.read_text()  # named in the warning about what is not simulated

@@ -1,0 +1,146 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The how-to pages, README.md and the pages of franka_sim, Desk and the examples do what they say: their
+blocks are typed and run as they stand (tests/support/tutorial.py), in the long form.
+
+The short form types some pages.
+"""
+
+import os
+import re
+import shutil
+from pathlib import Path
+
+import pytest
+from code_blocks import SHELL, all_blocks
+from screen import virtual_screen
+from test_tutorials import follow
+from tutorial import (
+    MORE_PAGES,
+    NOT_RUN,
+    PAGES,
+    PICTURES,
+    RUN_BY,
+    SCREEN,
+    TOP,
+    PageError,
+    Reader,
+    check_reason,
+    read,
+)
+
+# Pages that take less than a minute together.
+SHORT = {"shell", "ci", "containers", "packages", "sim_to_real"}
+# Pages with commands or programs that are not typed here, and what runs them.
+ELSEWHERE = {
+    "docs/index.md": "README.md has the same block",
+    "docs/python.md": "python/test/test_sim.py, test_sweep.py and test_pytest_plugin.py run its programs",
+    "docs/gym.md": "python/test/test_gym.py runs its program",
+    "docs/write_your_own.md": "tests/test_new_controller.py and the tutorials make such packages",
+}
+# Their commands are for faults, which a machine without them cannot show.
+TROUBLESHOOTING = "docs/troubleshooting/"
+
+
+def named(path: Path) -> str:
+    return str(path.relative_to(TOP)).removeprefix("docs/")
+
+
+def parameters(path: Path):
+    marks = () if path.stem in SHORT else pytest.mark.long_form("follows a page that takes longer")
+    return pytest.param(path, id=named(path), marks=marks)
+
+
+@pytest.mark.parametrize("path", map(parameters, MORE_PAGES))
+def test_page_does_what_it_says(path, tmp_path):
+    with virtual_screen(SCREEN):
+        pictures = follow(read(path), tmp_path)
+    if os.environ.get("FRANKA_UPDATE_PICTURES"):
+        for name, picture in pictures.items():
+            shutil.copy(picture, PICTURES / name)
+
+
+# ---- what can be checked without following a page --------------------------------------------------------
+
+
+def test_pages_with_commands_are_typed_or_run_elsewhere():
+    typed = {str(path.relative_to(TOP)) for path in [*PAGES, *MORE_PAGES]}
+    runnable = {block.page for block in all_blocks() if block.language in {*SHELL, "python", "cpp", "xml"}}
+    left = {page for page in runnable - typed if not page.startswith(TROUBLESHOOTING)}
+    assert left == set(ELSEWHERE)
+
+
+@pytest.mark.parametrize("path", [*PAGES, *MORE_PAGES], ids=named)
+def test_what_a_page_assumes_stands_in_its_text(path):
+    """The terminal that a reader opens, and the commands that run beside those of the blocks."""
+    page = read(path)
+    if page.first:
+        assert f"`{page.first}`" in page.prose
+    prose = " ".join(page.prose.split())
+    for step in page.of("type"):
+        assert f"`{step.text}`" in prose, f"{path.name}:{step.line}: the text has no {step.text}"
+
+
+def blocks_that_are_not_run() -> list[tuple[str, int, str, str]]:
+    """Page, line, reason and text of each block that is not run."""
+    found = []
+    for path in [*PAGES, *MORE_PAGES]:
+        lines = path.read_text(encoding="utf-8").splitlines()
+        for number, line in enumerate(lines, 1):
+            reason = re.fullmatch(r"\s*<!-- not run: (.*) -->", line)
+            if reason:
+                end = next(i for i in range(number + 1, len(lines)) if lines[i].strip() == "```")
+                found.append((named(path), number, reason[1], "\n".join(lines[number + 1 : end])))
+    return found
+
+
+def test_blocks_that_are_not_run_show_their_reason():
+    blocks = blocks_that_are_not_run()
+    assert len(blocks) > 15
+    wrong = [
+        f"{page}:{line}: {reason}"
+        for page, line, reason, text in blocks
+        if not RUN_BY.fullmatch(reason) and not re.search(NOT_RUN[reason], text, re.M)
+    ]
+    assert not wrong
+
+
+@pytest.mark.parametrize(
+    "reason",
+    ["it is too much work", "run by tests/test_none.py::test_it", "run by tests/test_deb.py::test_none"],
+)
+def test_other_reasons_are_refused(reason):
+    with pytest.raises(PageError):
+        check_reason(reason, "page.md:1")
+
+
+def test_a_page_whose_program_fails_is_found(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text("# A page\n\n<!-- run with: python3 -->\n```python\nraise SystemExit(3)\n```\n")
+    with pytest.raises(PageError, match="ended with status 3"), Reader(tmp_path / "home") as reader:
+        reader.follow(read(page))
+
+
+def test_programs_run_in_the_terminal_of_the_page(tmp_path):
+    page = tmp_path / "page.md"
+    page.write_text(
+        "# A page\n\n<!-- terminals: export WORD=hello -->\n<!-- type: sleep 100 -->\n"
+        "<!-- press Ctrl-C in terminal 1 -->\n<!-- terminal 2 -->\n<!-- run with: python3 -->\n```python\n"
+        'import os\nprint(os.environ["WORD"], os.getcwd())\n```\n<!-- expect: hello -->\n'
+        f"<!-- expect: {tmp_path / 'home'} -->\n"
+    )
+    with Reader(tmp_path / "home") as reader:
+        reader.follow(read(page))
+
+
+def test_every_picture_has_code_that_makes_it():
+    scripts = [path.read_text() for path in (TOP / "tests" / "support").glob("*_pictures.py")]
+    demo = (TOP / "catkin_ws/src/franka_sim_mujoco/scripts/pick_and_place").read_text()
+    without = [
+        path.name
+        for path in (TOP / "docs" / "pictures").glob("*.png")
+        if not any(f'"{path.name}"' in text for text in scripts)
+        and not (TOP / "examples" / "python" / f"{path.stem}.py").is_file()
+        and f"-{path.stem}" not in demo
+    ]
+    assert not without
