@@ -3,34 +3,40 @@
 # SPDX-License-Identifier: Apache-2.0
 """Runs every test of the built workspace and ends with one line, `N passed, N failed`.
 
-In this order: style, compiler warnings, gtest, rostest, and pytest (`tests/test_*.py`, `test/test_*.py` of
-packages), three programs at a time on two processors. Each file of pytest has a process of its own, because
-rospy can be initialised once in a process. Cases are counted from the result files, since catkin's own
-summary counts some twice. A table lists the reasons of skipped tests; the run fails if a reason names neither
-a missing package nor the long form. Called by `./franka test`, which provides the environment.
+In this order: style and compiler warnings, which end the run if they fail; gtest, rostest and pytest
+(`tests/test_*.py`, `test/test_*.py` of packages), three programs at a time on two processors. Each file of
+pytest has a process of its own. Cases that failed run once more at the end, alone: those that pass then are
+flaky, and do not make the run red. Each case is added to out/test-history.jsonl. A table lists the reasons of
+skipped tests; the run fails if a reason names neither a missing package nor the long form. Called by
+`./franka test`, which provides the environment.
 """
 
 import argparse
+import json
 import os
 import re
 import shutil
 import subprocess
 import sys
 import time
+from collections import Counter
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 from pathlib import Path
-from subprocess import PIPE, STDOUT
 
 TOP = Path(__file__).resolve().parent.parent
 sys.path.append(str(TOP / "tests" / "support"))
-from tally import Tally  # noqa: E402
+from programs import node_ids, registered, run_pytest, run_registered  # noqa: E402
+from tally import Case, Tally  # noqa: E402
 
 SOURCE = TOP / "catkin_ws" / "src"
 BUILD = TOP / "catkin_ws" / "build"
 RESULTS = BUILD / "test_results"
 PYTEST_RESULTS = TOP / "out" / "pytest"
+HISTORY = TOP / "out" / "test-history.jsonl"
 # Programs of rostest and pytest at a time: they sleep for 42 % of their time (measured on two processors).
 WORKERS = round(1.5 * (os.cpu_count() or 2))
+AGAIN = 30  # cases that failed: if there are more, it is the product, and none runs again (chosen here)
 
 
 def packages() -> dict[str, Path]:
@@ -40,62 +46,114 @@ def packages() -> dict[str, Path]:
     return found
 
 
-def run(title: str, command: list[str], **options) -> int:
+@contextmanager
+def stage(title: str):
+    """Prints the title, and the duration at the end."""
     print(f"\n== {title}", flush=True)
     begin = time.monotonic()
-    code = subprocess.run(command, **options).returncode
+    yield
     print(f"== {title}: {time.monotonic() - begin:.0f} s", flush=True)
-    return code
 
 
-def run_ctest(kind: str, names: list[str], workers: int) -> None:
-    pattern = f"_ctest_({'|'.join(names)})_{kind}" if names else f"_ctest_.*_{kind}"
-    command = ["ctest", "-R", pattern, f"-j{workers}", "--timeout", "600", "--output-on-failure"]
-    run(kind, command, cwd=BUILD)
+def fails(title: str, command: list[str]) -> bool:
+    with stage(title):
+        return subprocess.run(command, check=False).returncode != 0
 
 
 # Files whose tests count lost milliseconds, or change what other tests use, say so in this line.
 ALONE = re.compile(r"^pytestmark = .*pytest\.mark\.alone", re.MULTILINE)
 
 
-def run_pytest_file(path: Path, long: bool) -> bool:
-    """Prints the output if a test failed, otherwise the number of tests.
+def results_of(path: Path) -> Path:
+    return PYTEST_RESULTS / f"{'.'.join(path.relative_to(TOP).with_suffix('').parts)}.xml"
 
-    @returns whether pytest could run the file
+
+def run_all(tests: list, files: list[Path], long: bool) -> dict:
+    """The cases of each registered test and of each file of pytest."""
+    cases = {}
+    for kind, workers in (("gtest", os.cpu_count() or 2), ("rostest", WORKERS)):
+        with stage(kind):
+            cases |= run_registered(BUILD, [test for test in tests if f"_{kind}_" in test.name], workers)
+    with stage("pytest"):
+        alone = [path for path in files if ALONE.search(path.read_text(encoding="utf-8"))]
+        together = [path for path in files if path not in alone]
+        with ThreadPoolExecutor(WORKERS) as pool:
+            ran = list(pool.map(lambda path: run_pytest(path, results_of(path), long), together))
+        ran += [run_pytest(path, results_of(path), long) for path in alone]
+        cases |= dict(zip(together + alone, ran))
+    return cases
+
+
+def run_again(cases: dict, long: bool) -> list[str]:
+    """Runs the cases that failed once more, one program at a time, and replaces their verdicts.
+
+    @returns the names of those that passed now
     """
-    name = ".".join(path.relative_to(TOP).with_suffix("").parts)
-    command = [sys.executable, "-m", "pytest", "-q", "--timeout=900", str(path)]
-    command += [f"--junitxml={PYTEST_RESULTS / name}.xml"] + (["--long"] if long else [])
-    if "hypothesis" not in path.read_text(encoding="utf-8"):
-        command += ["-p", "no:hypothesispytest"]  # it takes seconds to import
-    result = subprocess.run(command, cwd=TOP, text=True, errors="replace", stdout=PIPE, stderr=STDOUT)
-    output = result.stdout.rstrip()
-    lines = output.splitlines() or ["pytest printed nothing"]
-    if result.returncode:
-        print(f"{output}\n-- {path.relative_to(TOP)}: status {result.returncode}", flush=True)
-    else:
-        print(f"{path.relative_to(TOP)}: {lines[-1]}", flush=True)
-    return result.returncode in (0, 1)
+    broken = {
+        program: [case for case in found if case.verdict == "failed"]
+        for program, found in cases.items()
+        if any(case.verdict == "failed" for case in found)
+    }
+    count, flaky = sum(map(len, broken.values())), []
+    if not broken:
+        return []
+    if count > AGAIN:
+        print(f"\n{count} cases failed, more than {AGAIN}: they do not run again")
+        return []
+    with stage("again"):
+        for program, failed in broken.items():
+            if isinstance(program, Path):
+                file = results_of(program).with_suffix(".again.xml")
+                second = run_pytest(program, file, long, node_ids(program, failed))
+            else:
+                second = run_registered(BUILD, [program], 1)[program]
+            verdicts = {case.name: case.verdict for case in second}
+            # A program that died has no case of that name: nothing of it may fail then.
+            passed = all(verdicts.get(case.name, "passed") == "passed" for case in failed)
+            if passed and "failed" not in verdicts.values():
+                flaky += [case.name for case in failed]
+                others = [case for case in cases[program] if case not in failed and case.name not in verdicts]
+                cases[program] = others + second
+    return flaky
 
 
-def run_pytest(paths: list[Path], long: bool) -> bool:
-    """@returns whether pytest could run all files"""
-    print("\n== pytest", flush=True)
-    begin = time.monotonic()
-    alone = [path for path in paths if ALONE.search(path.read_text(encoding="utf-8"))]
-    together = [path for path in paths if path not in alone]
-    with ThreadPoolExecutor(WORKERS) as pool:
-        ran = list(pool.map(lambda path: run_pytest_file(path, long), together))
-    ran += [run_pytest_file(path, long) for path in alone]
-    print(f"== pytest: {time.monotonic() - begin:.0f} s", flush=True)
-    return all(ran)
+def write_history(tally: Tally) -> None:
+    """Appends a line a case; `load` is the machine's average of five minutes at the end of the run."""
+    now, load = round(time.time()), os.getloadavg()[1]
+    with HISTORY.open("a", encoding="utf-8") as file:
+        for case in tally.cases:
+            verdict = "flaky" if case.name in tally.flaky else case.verdict
+            line = {"run": now, "case": case.name, "verdict": verdict, "seconds": case.seconds, "load": load}
+            file.write(json.dumps(line) + "\n")
+
+
+def print_history() -> int:
+    """The slowest cases of the last run, and those that were ever flaky or failed."""
+    if not HISTORY.exists():
+        print("There is no history: run ./franka test.", file=sys.stderr)
+        return 2
+    lines = [json.loads(line) for line in HISTORY.read_text(encoding="utf-8").splitlines()]
+    runs = Counter(line["run"] for line in lines)
+    last = [line for line in lines if line["run"] == max(runs)]
+    print("The slowest cases of the last run [s]:")
+    for line in sorted(last, key=lambda line: -line["seconds"])[:20]:
+        print(f"{line['seconds']:8.1f}  {line['case']}")
+    print(f"Flaky or failed in {len(runs)} runs:")
+    for (case, verdict), count in Counter(
+        (line["case"], line["verdict"]) for line in lines if line["verdict"] in ("flaky", "failed")
+    ).most_common():
+        print(f"{count:8}  {verdict:6}  {case}")
+    return 0
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(prog="./franka test")
     parser.add_argument("packages", nargs="*", help="only these packages; `tests` is the end-to-end folder")
     parser.add_argument("--long", action="store_true", help="long forms of soaks, sweeps and style checks")
+    parser.add_argument("--history", action="store_true", help="slow and flaky cases of earlier runs")
     arguments = parser.parse_args()
+    if arguments.history:
+        return print_history()
     known = packages()
     unknown = [name for name in arguments.packages if name not in known and name != "tests"]
     if unknown:
@@ -112,40 +170,32 @@ def main() -> int:
         shutil.rmtree(folder, ignore_errors=True)
     PYTEST_RESULTS.mkdir(parents=True)
 
-    style = [sys.executable, str(TOP / "tests" / "style.py")] + (["--long"] if arguments.long else [])
-    style_failed = not arguments.packages and run("style", style)
-    compiler_warnings = [sys.executable, str(TOP / "tests" / "compiler_warnings.py")]
-    warned = not arguments.packages and run("compiler warnings", compiler_warnings)
-    files = []
+    if not arguments.packages:
+        style = [sys.executable, str(TOP / "tests" / "style.py")] + (["--long"] if arguments.long else [])
+        warnings = [sys.executable, str(TOP / "tests" / "compiler_warnings.py")]
+        broken = [
+            Case(f"{title}: see above", "failed")
+            for title, command in (("style", style), ("compiler warnings", warnings))
+            if fails(title, command)
+        ]
+        if broken:
+            print("\n".join(Tally(broken).lines()))
+            return 1
+    tests, files = [], []
     if selected or not arguments.packages:
-        run_ctest("gtest", selected, os.cpu_count() or 2)
-        run_ctest("rostest", selected, WORKERS)
+        tests = registered(BUILD, f"_ctest_({'|'.join(selected) or '.*'})_(gtest|rostest)_")
     if end_to_end:  # first, as they take longest
         files += sorted((TOP / "tests").glob("test_*.py"))
     for name, folder in known.items():
         if name in selected or not arguments.packages:
             files += sorted(folder.glob("test/**/test_*.py"))
-    pytest_broken = not run_pytest(files, arguments.long)
 
-    tally = Tally()
-    for path in sorted(RESULTS.glob("**/*.xml")):
-        # A rostest writes its cases to rosunit-*.xml; its own file repeats them as one, and reports if a
-        # node died or a test never ended.
-        tally.add(path, only_failures=path.name.startswith("rostest-"))
-    for path in sorted(PYTEST_RESULTS.glob("*.xml")):
-        tally.add(path)
-    if style_failed:
-        tally.failed.append("style: see above")
-    if warned:
-        tally.failed.append("compiler warnings: see above")
-    if pytest_broken:
-        tally.failed.append("pytest could not run everything: see above")
+    cases = run_all(tests, files, arguments.long)
+    flaky = run_again(cases, arguments.long)
+    tally = Tally([case for found in cases.values() for case in found], flaky)
+    write_history(tally)
     print()
-    for name in tally.failed:
-        print(f"FAILED {name}")
-    for line in tally.table_of_skips():
-        print(line)
-    print(f"{tally.passed} passed, {len(tally.failed)} failed")
+    print("\n".join(tally.lines()))
     return 1 if tally.failed or not tally.passed else 0
 
 

@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import pytest
-from tally import Tally, is_allowed
+from tally import Case, Tally, cases_of, is_allowed
 
 TOP = Path(__file__).resolve().parent.parent
 # As GoogleTest 1.12 writes it; newer versions name more attributes.
@@ -31,9 +31,7 @@ WHOLE_FILE = 'import pytest\npytest.skip("{reason}", allow_module_level=True)\n'
 
 
 def tally_of(path: Path) -> Tally:
-    tally = Tally()
-    tally.add(path)
-    return tally
+    return Tally(cases_of(path))
 
 
 def gtest(folder: Path, reason: str) -> Tally:
@@ -77,9 +75,9 @@ def test_other_reasons_are_not_allowed(reason):
 def test_skips_of_gtest_are_counted_by_reason(tmp_path):
     tally = gtest(tmp_path, "searches for half a minute: ./franka test --long")
     assert (tally.passed, tally.failed) == (1, [])
-    reason, tests = tally.skipped.popitem()
-    assert reason == "searches for half a minute: ./franka test --long"
-    assert [name.split(": ")[1] for name in tests] == ["Arm.Searches"]
+    (skipped,) = [case for case in tally.cases if case.verdict == "skipped"]
+    assert skipped.reason == "searches for half a minute: ./franka test --long"
+    assert skipped.name.endswith(": Arm.Searches")
 
 
 def test_a_skip_of_gtest_for_another_reason_fails(tmp_path):
@@ -100,7 +98,7 @@ def test_a_disabled_test_of_gtest_fails(tmp_path):
 def test_skips_of_pytest_are_counted_by_reason(tmp_path):
     tally = run_pytest(tmp_path, PYTEST.format(reason="assimp is not installed"))
     assert (tally.passed, tally.failed) == (1, [])
-    assert set(tally.skipped) == {
+    assert {case.reason for case in tally.cases if case.verdict == "skipped"} == {
         "assimp is not installed",
         "searches for an hour: ./franka test --long",
     }
@@ -114,9 +112,9 @@ def test_a_skip_of_pytest_for_another_reason_fails(text, tmp_path):
 
 
 def test_a_table_lists_how_many_tests_each_reason_skips():
-    tally = Tally(
-        skipped={"a is not installed": ["one: A.b", "one: A.c"], "d is not installed": ["two: D.e"]}
-    )
+    a, d = "a is not installed", "d is not installed"
+    skips = [("one: A.b", a), ("two: D.e", d), ("one: A.c", a)]
+    tally = Tally([Case(name, "skipped", reason=reason) for name, reason in skips])
     assert tally.table_of_skips() == [
         "3 skipped:",
         "    2  a is not installed  one: A.b",

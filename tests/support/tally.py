@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Counts tests from the result files of gtest, rostest and pytest, and judges the reasons of skips."""
+"""Reads the result files of gtest, rostest and pytest, counts their cases and judges the reasons of skips."""
 
 import re
 import xml.etree.ElementTree as ElementTree
@@ -32,41 +32,71 @@ def reason_of(skip: ElementTree.Element | None) -> str:
 
 
 @dataclass
+class Case:
+    """A test of a result file. `reason` is that of a skip."""
+
+    name: str
+    verdict: str  # passed, failed, skipped
+    seconds: float = 0.0
+    reason: str = ""
+    parts: tuple[str, str] = ("", "")  # its names of class and test in the file
+
+
+def cases_of(path: Path) -> list[Case]:
+    """The cases of a result file. A file that is missing or broken is a failed case: its program has died."""
+    try:
+        root = ElementTree.parse(path).getroot()
+    except FileNotFoundError:
+        return [Case(f"{path.parent.name}: {path.stem}: its program left no results", "failed")]
+    except ElementTree.ParseError as error:
+        return [Case(f"{path.parent.name}: {path.stem}: the result file is broken ({error})", "failed")]
+    cases = []
+    for element in root.iter("testcase"):
+        parts = element.get("classname", ""), element.get("name", "")
+        name, skip = f"{path.parent.name}: {'.'.join(parts)}", element.find("skipped")
+        seconds, reason = float(element.get("time") or 0), ""
+        if element.find("failure") is not None or element.find("error") is not None:
+            verdict = "failed"
+        elif skip is not None or element.get("status") == "notrun":
+            verdict, reason = "skipped", reason_of(skip)
+            if not is_allowed(reason):
+                verdict = "failed"
+                name = f"{name} is skipped for a reason that is not allowed: {reason}"
+        else:
+            verdict = "passed"
+        cases.append(Case(name, verdict, seconds, reason, parts))
+    return cases
+
+
+@dataclass
 class Tally:
-    """Counts from the result files."""
+    """The verdicts of a run."""
 
-    passed: int = 0
-    failed: list[str] = field(default_factory=list)
-    skipped: dict[str, list[str]] = field(default_factory=dict)  # reason: tests
+    cases: list[Case] = field(default_factory=list)
+    flaky: list[str] = field(default_factory=list)  # failed, and passed when they ran once more, alone
 
-    def add(self, path: Path, only_failures: bool = False) -> None:
-        try:
-            root = ElementTree.parse(path).getroot()
-        except ElementTree.ParseError as error:
-            self.failed.append(f"{path.stem}: the result file is broken ({error})")
-            return
-        for case in root.iter("testcase"):
-            name = f"{path.parent.name}: {case.get('classname', '')}.{case.get('name', '')}"
-            skip = case.find("skipped")
-            if case.find("failure") is not None or case.find("error") is not None:
-                self.failed.append(name)
-            elif only_failures:
-                continue
-            elif skip is not None or case.get("status") == "notrun":
-                self._skip(name, reason_of(skip))
-            else:
-                self.passed += 1
+    @property
+    def passed(self) -> int:
+        return sum(case.verdict == "passed" for case in self.cases)
 
-    def _skip(self, name: str, reason: str) -> None:
-        self.skipped.setdefault(reason, []).append(name)
-        if not is_allowed(reason):
-            self.failed.append(f"{name} is skipped for a reason that is not allowed: {reason}")
+    @property
+    def failed(self) -> list[str]:
+        return [case.name for case in self.cases if case.verdict == "failed"]
+
+    def lines(self) -> list[str]:
+        """What a run ends with: failed and flaky cases, the reasons of skips, the counts."""
+        lines = [f"FAILED {name}" for name in self.failed] + [f"FLAKY {name}" for name in self.flaky]
+        return [*lines, *self.table_of_skips(), f"{self.passed} passed, {len(self.failed)} failed"]
 
     def table_of_skips(self) -> list[str]:
         """Lines: how many tests are skipped for each reason, and the first of them."""
-        if not self.skipped:
+        skipped: dict[str, list[str]] = {}
+        for case in self.cases:
+            if case.verdict == "skipped":
+                skipped.setdefault(case.reason, []).append(case.name)
+        if not skipped:
             return []
-        rows = sorted(self.skipped.items(), key=lambda row: (-len(row[1]), row[0]))
-        width = max(len(reason) for reason in self.skipped)
-        lines = [f"{sum(map(len, self.skipped.values()))} skipped:"]
+        rows = sorted(skipped.items(), key=lambda row: (-len(row[1]), row[0]))
+        width = max(map(len, skipped))
+        lines = [f"{sum(map(len, skipped.values()))} skipped:"]
         return lines + [f"{len(tests):5}  {reason:{width}}  {tests[0]}" for reason, tests in rows]

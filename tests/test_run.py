@@ -1,0 +1,145 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""The runner of the tests: programs that die or hang are failures, flaky cases are told from failed ones."""
+
+import json
+import sys
+from pathlib import Path
+
+import programs
+import pytest
+import run
+from tally import Tally
+
+TOP = Path(__file__).resolve().parent.parent
+DIES = {
+    "by a signal": "import os\ndef test_dies(): os.kill(os.getpid(), 9)\n",
+    "with status 0": "import os\ndef test_dies(): os._exit(0)\n",
+    "with status 1": "import os\ndef test_dies(): os._exit(1)\n",
+    "before its cases": "import sys\nsys.exit(0)\n",
+    "without a case": "",
+}
+# Fails the first time.
+FLAKY = """
+from pathlib import Path
+def test_passes(): pass
+def test_flaky():
+    mark = Path(__file__).with_name("mark")
+    there = mark.exists()
+    mark.touch()
+    assert there
+def test_fails(): assert {passes}
+"""
+PASSED = '<testsuite><testcase classname="Arm" name="Moves" status="run"/></testsuite>'
+
+
+@pytest.fixture
+def project(tmp_path, monkeypatch):
+    """A folder that the runner takes for the project's."""
+    for module in (programs, run):
+        monkeypatch.setattr(module, "TOP", tmp_path)
+    monkeypatch.setattr(run, "BUILD", tmp_path)
+    monkeypatch.setattr(run, "PYTEST_RESULTS", tmp_path)
+    monkeypatch.setattr(run, "HISTORY", tmp_path / "history.jsonl")
+    return tmp_path
+
+
+def run_file(project: Path, text: str) -> Tally:
+    """What the runner finds in a file of pytest, with the stage `again`."""
+    file = project / "test_arm.py"
+    file.write_text(text)
+    return finished({}, [file])
+
+
+def finished(tests: dict, files: list[Path]) -> Tally:
+    cases = run.run_all(tests, files, long=False)
+    flaky = run.run_again(cases, long=False)
+    return Tally([case for found in cases.values() for case in found], flaky)
+
+
+@pytest.mark.parametrize("how", DIES)
+def test_a_pytest_that_dies_is_a_failure(how, project):
+    tally = run_file(project, DIES[how])
+    assert any("test_arm" in name for name in tally.failed) and tally.passed == 0
+    assert tally.lines()[-1] == f"0 passed, {len(tally.failed)} failed"
+
+
+@pytest.mark.parametrize("passes", [True, False])
+def test_a_case_that_failed_runs_once_more_alone(passes, project):
+    tally = run_file(project, FLAKY.format(passes=passes))
+    if passes:
+        assert not tally.failed and tally.passed == 3
+        (flaky,) = tally.flaky
+        assert f"FLAKY {flaky}" in tally.lines() and flaky.endswith("test_arm.test_flaky")
+        assert "2 passed" not in tally.lines()[-1]
+    else:
+        assert any(name.endswith("test_fails") for name in tally.failed)
+
+
+def test_nothing_runs_again_if_very_much_failed(project, monkeypatch):
+    monkeypatch.setattr(run, "AGAIN", 1)
+    tally = run_file(project, FLAKY.format(passes=False))
+    assert len(tally.failed) == 2 and not tally.flaky
+
+
+def registered(project: Path, script: str) -> list[programs.Registered]:
+    """A gtest that is a program in Python, as CTest knows it."""
+    (project / "arm.py").write_text(f"import sys, time, os\nfrom pathlib import Path\n{script}")
+    command = f'"{sys.executable}" "{project}/arm.py" "{project}/gtest-arm.xml"'
+    (project / "CTestTestfile.cmake").write_text(f"add_test(_ctest_a_gtest_arm {command})\n")
+    return programs.registered(project, "_gtest_")
+
+
+@pytest.mark.parametrize(
+    "script, failure",
+    [
+        ("time.sleep(1000)", "its program left no results"),
+        ("os.kill(os.getpid(), 9)", "its program left no results"),
+        ("sys.exit(0)", "its program left no results"),
+        (f"Path(sys.argv[1]).write_text({PASSED!r})\nsys.exit(1)", "did not end well"),
+        (f"Path(sys.argv[1]).write_text({PASSED[:40]!r})", "the result file is broken"),
+    ],
+)
+def test_a_gtest_that_hangs_or_dies_is_a_failure(script, failure, project, monkeypatch):
+    monkeypatch.setattr(programs, "CTEST_LIMIT", 2)
+    (project / "gtest-arm.xml").write_text(PASSED)  # of an earlier run
+    tally = finished(registered(project, script), [])
+    assert len(tally.failed) == 1 and failure in tally.failed[0], tally
+
+
+def test_a_gtest_that_passes_is_counted(project):
+    tally = finished(registered(project, f"Path(sys.argv[1]).write_text({PASSED!r})"), [])
+    assert (tally.passed, tally.failed, tally.flaky) == (1, [], [])
+
+
+def test_a_gtest_that_failed_runs_once_more(project):
+    script = "first = not Path('mark').exists()\nPath('mark').touch()\n"
+    script += f"Path(sys.argv[1]).write_text({PASSED!r})\nsys.exit(first)"
+    tally = finished(registered(project, script), [])
+    assert tally.passed == 1 and not tally.failed
+    assert tally.flaky == ["_ctest_a_gtest_arm: it did not end well, see its output"]
+
+
+def test_results_of_rostest_are_those_of_the_tests_in_its_launch_file(tmp_path):
+    about = '<testsuite><testcase classname="rostest" name="testarm">{}</testcase></testsuite>'
+    test = programs.Registered("_ctest_a_rostest_arm.test", tmp_path / "rostest-arm.xml")
+    test.results.write_text(about.format(""))
+    (missing,) = test.cases(ended_well=True)
+    assert missing.verdict == "failed" and "rosunit-arm" in missing.name
+    (tmp_path / "rosunit-arm.xml").write_text(PASSED)
+    assert [case.verdict for case in test.cases(ended_well=True)] == ["passed"]
+    test.results.write_text(about.format('<failure message="a node died"/>'))
+    assert [case.verdict for case in test.cases(ended_well=False)] == ["failed"]
+
+
+def test_history_names_slow_flaky_and_failed_cases(project, capsys):
+    assert run.print_history() == 2
+    tally = run_file(project, FLAKY.format(passes=True))
+    run.write_history(tally)
+    run.write_history(tally)
+    lines = [json.loads(line) for line in run.HISTORY.read_text().splitlines()]
+    assert len(lines) == 6 and set(lines[0]) == {"run", "case", "verdict", "seconds", "load"}
+    capsys.readouterr()
+    assert run.print_history() == 0
+    printed = capsys.readouterr().out
+    assert "test_passes" in printed and "2  flaky" in printed
