@@ -13,11 +13,12 @@ from contextlib import ExitStack
 from pathlib import Path
 
 from fci_session import simulated
+from genuine_clients import folder_of
 from lines import Lines
-from report import TOP, figure
+from report import figure
 
 CLIENT = Path(__file__).resolve().parent / "pair_client.py"
-LIBRARIES = {"pyfranka": sys.executable, "panda": TOP / "out" / "genuine" / "panda" / "bin" / "python"}
+LIBRARIES = {"pyfranka": sys.executable, "panda": folder_of("panda") / "bin" / "python"}
 PAIRS = (1, 2, 4, 8)
 TRIES = 5
 WALL = 3.0  # [s] of one measurement

@@ -9,8 +9,9 @@ import time
 from pathlib import Path
 
 from fci_session import memory_of, simulated
+from genuine_clients import folder_of
 from pyfranka.franka_sim import FrankaSim, SimRobot
-from report import TOP, executables, failures, figure, print_stalls
+from report import executables, failures, figure, print_stalls
 from stalls import Stalls
 
 ZERO_TORQUES = """
@@ -49,7 +50,7 @@ def bench_client(address: str, seconds: float) -> dict[str, float]:
 
 def genuine_client(library: str, address: str) -> float | None:
     """Speed of a genuine Python client, in times real time; None if it is not installed."""
-    python = TOP / "out" / "genuine" / library / "bin" / "python"
+    python = folder_of(library) / "bin" / "python"
     if not python.exists():
         return None
     command = [str(python), "-c", ZERO_TORQUES, library, address]

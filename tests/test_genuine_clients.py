@@ -3,7 +3,7 @@
 """Franka's own client libraries, from PyPI, against the simulated robot.
 
 panda-python bundles libfranka 0.9.2 (version 5), pylibfranka libfranka 0.21.3 (version 10). Each has its own
-environment without Debian's packages (decision 33), created once in out/genuine.
+environment without Debian's packages (decision 33), which ./franka test fetches.
 """
 
 import json

@@ -75,9 +75,10 @@ class Group:
                 yield report
                 if report.when == "teardown":
                     return
+        status = self._process.wait()  # it prints until its end
         self._output.seek(0)
         printed = self._output.read().decode(errors="replace")
-        text = f"The process of this test ended with status {self._process.wait()}:\n{printed}"
+        text = f"The process of this test ended with status {status}:\n{printed}"
         yield pytest.TestReport(item.nodeid, item.location, {}, "failed", text, "call")
 
     def end(self):
