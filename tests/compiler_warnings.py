@@ -5,7 +5,8 @@
 
 The build itself continues after a warning: a user with another compiler must get programs. Warnings about
 system headers do not count, because the optimiser's warnings about them depend on the release. ccache repeats
-the warnings of cached objects, so a clean clone shows all of them.
+the warnings of cached objects, with the paths of the clone that compiled them, so a clean clone shows all of
+them.
 """
 
 import re
@@ -14,19 +15,17 @@ import sys
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
-BUILD = TOP / "catkin_ws" / "build"
 LOG = TOP / "out" / "build.log"
 WARNING = re.compile(r"^([^\s:]+):\d+(?::\d+)?: warning: .*", re.MULTILINE)
 
 
 def warnings(log: str, files: set[Path]) -> list[str]:
-    """The distinct warning lines of a log about one of `files`; its paths are relative to a build folder."""
+    """The distinct warning lines of a log about one of `files`, in this clone or another one."""
     found = {}
     for match in WARNING.finditer(log):
         # Compilers run in folders of different depth.
-        name = re.sub(r"^(\.\./)+(?=src/)", f"{TOP}/catkin_ws/", match[1])
-        path = Path(name) if Path(name).is_absolute() else BUILD / name
-        if path.resolve() in files:
+        parts = re.sub(r"^(\.\./)+(?=src/)", "catkin_ws/", match[1]).split("/")
+        if any((TOP / "/".join(parts[first:])).resolve() in files for first in range(len(parts) - 1)):
             found[match[0]] = None
     return list(found)
 

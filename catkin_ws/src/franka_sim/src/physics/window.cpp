@@ -44,6 +44,8 @@ std::string formatted(const char* format, double value) {
   return text;
 }
 
+}  // namespace
+
 /// The world's time over the clock's.
 class PaceMeter {
  public:
@@ -72,8 +74,6 @@ class PaceMeter {
   double time_{0};
   std::string text_;
 };
-
-}  // namespace
 
 struct Window::Impl {
   const physics::Glfw& library{glfw()};  // without it there is nothing to destroy

@@ -9,8 +9,6 @@ namespace franka {
 namespace fci = franka_core::fci;
 namespace gripper_codec = franka_core::fci::gripper;
 
-namespace {
-
 struct HandProtocol {
   using Request = gripper_codec::Request;
   using Reply = gripper_codec::Reply;
@@ -35,8 +33,6 @@ struct HandProtocol {
     return gripper_codec::decodeState(datagram, state);
   }
 };
-
-}  // namespace
 
 class Gripper::Impl : public GripperConnection<HandProtocol> {
  public:

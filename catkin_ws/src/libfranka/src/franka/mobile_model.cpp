@@ -11,21 +11,21 @@
 
 namespace franka {
 
-namespace {
-
-constexpr std::array<const char*, 4> kSuffixes{"_joint_0", "_joint_1", "_joint_2", "_joint_3"};
-// The joints that move the two drive modules.
-constexpr std::array<std::size_t, 2> kDriveJoints{1, 3};
 constexpr int kNoVariable = -1;
 
-struct Joint {
+struct DriveJoint {
   Eigen::Isometry3d origin{Eigen::Isometry3d::Identity()};
   Eigen::Vector3d axis{Eigen::Vector3d::UnitX()};
   bool slides{false};
   int variable{kNoVariable};  // index of kSuffixes
 };
 
-using Chain = std::vector<Joint>;  // from the root on
+namespace {
+
+constexpr std::array<const char*, 4> kSuffixes{"_joint_0", "_joint_1", "_joint_2", "_joint_3"};
+// The joints that move the two drive modules.
+constexpr std::array<std::size_t, 2> kDriveJoints{1, 3};
+using Chain = std::vector<DriveJoint>;  // from the root on
 
 [[noreturn]] void refuse(const std::string& reason) {
   throw ModelException("libfranka: The model of a mobile base cannot be made. " + reason);
@@ -35,10 +35,10 @@ bool endsWith(const std::string& text, const std::string& end) {
   return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
 }
 
-Joint jointOf(const urdf::Joint& described) {
+DriveJoint jointOf(const urdf::Joint& described) {
   const urdf::Vector3& position = described.parent_to_joint_origin_transform.position;
   const urdf::Rotation& turn = described.parent_to_joint_origin_transform.rotation;
-  Joint joint;
+  DriveJoint joint;
   joint.origin.translation() << position.x, position.y, position.z;
   joint.origin.linear() = Eigen::Quaterniond(turn.w, turn.x, turn.y, turn.z).toRotationMatrix();
   joint.slides = described.type == urdf::Joint::PRISMATIC;
@@ -118,7 +118,7 @@ std::array<double, 16> MobileModel::pose(MobileFrame frame, const MobileJointPos
   }
   const std::array<double, kSuffixes.size()> positions{q.joint_0, q.joint_1, q.joint_2, q.joint_3};
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
-  for (const Joint& joint : data_->chains[index]) {
+  for (const DriveJoint& joint : data_->chains[index]) {
     pose = pose * joint.origin;
     if (joint.variable == kNoVariable) {
       continue;

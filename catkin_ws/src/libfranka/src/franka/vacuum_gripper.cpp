@@ -13,8 +13,6 @@ namespace franka {
 namespace fci = franka_core::fci;
 namespace vacuum_codec = franka_core::fci::vacuum;
 
-namespace {
-
 struct VacuumProtocol {
   using Request = vacuum_codec::Request;
   using Reply = vacuum_codec::Reply;
@@ -44,8 +42,6 @@ std::uint16_t unsigned16(std::int32_t value) {
   return static_cast<std::uint16_t>(
       std::clamp(value, 0, static_cast<std::int32_t>(std::numeric_limits<std::uint16_t>::max())));
 }
-
-}  // namespace
 
 class VacuumGripper::Impl : public GripperConnection<VacuumProtocol> {
  public:
