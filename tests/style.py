@@ -21,9 +21,11 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import nothrow
+import wall_clock
 
 TOP = Path(__file__).resolve().parent.parent
 VENV = TOP / ".venv" / "bin"
+NOT_IN_DEBIAN = TOP / "out" / "not_in_debian"  # written by ./franka
 COMPILE_COMMANDS = TOP / "compile_commands.json"
 
 HEADER = "Copyright (c) 2026 the franka_ros for Debian authors"
@@ -75,6 +77,10 @@ class ToolMissing(Exception):
     """A check cannot run; the message says what to do."""
 
 
+class NotInDebian(Exception):
+    """A check cannot run on this release; the message says why."""
+
+
 def git(*arguments: str) -> str:
     """Output of a git command; empty if it fails."""
     try:
@@ -105,13 +111,16 @@ def pinned_tool(name: str) -> str:
     for folder in (Path(sys.executable).parent, VENV):
         if (folder / name).is_file():
             return str(folder / name)
-    raise ToolMissing(f"{name} is missing: run ./franka install, which puts it into .venv.")
+    raise ToolMissing(f"{name} is missing: run ./franka install test, which puts it into .venv.")
 
 
 def debian_tool(name: str) -> str:
     found = shutil.which(name)
     if not found:
-        raise ToolMissing(f"{name} is missing: run ./franka install, which installs the Debian package.")
+        package = name.replace("++", "")
+        if NOT_IN_DEBIAN.exists() and package in NOT_IN_DEBIAN.read_text(encoding="utf-8").split():
+            raise NotInDebian(f"this Debian has no {package}, so what needs {name} is not checked.")
+        raise ToolMissing(f"{name} is missing: run ./franka install test, which installs the Debian package.")
     return found
 
 
@@ -169,6 +178,7 @@ def text_findings(path: Path) -> Iterator[str]:
     if path.suffix in {".cpp", ".h", ".hpp", ".py"} and name not in {"tests/style.py", "tests/test_style.py"}:
         yield from note_findings(name, text)
         yield from word_findings(name, text)
+        yield from wall_clock.findings(name, text)
     for number, line in enumerate(lines, 1):
         if path.suffix != ".md" and name != "tests/style.py" and MARKERS.search(line):
             yield f"{name}:{number}: a left-over marker: {line.strip()}"
@@ -343,6 +353,9 @@ def main() -> int:
         except ToolMissing as missing:
             print(f"style: {missing}", file=sys.stderr)
             clean = False
+        except NotInDebian as lacking:
+            print(f"style: {lacking}", file=sys.stderr)
+            continue
         print(f"{name}: {'clean' if clean else 'FAILED'} ({time.monotonic() - begin:.1f} s)", flush=True)
         if not clean:
             failed.append(name)

@@ -61,7 +61,7 @@ def test_the_documentation_is_built_in_a_new_clone(clone):
 
 def test_the_pages_are_typed_in_a_new_clone(clone):
     """Tutorials, pages to get started and how-to pages, by test_tutorials.py and test_typed_pages.py."""
-    in_project(clone, "./franka build", 4 * HOUR)
+    in_project(clone, "./franka install test && ./franka build", 4 * HOUR)
     tests = "test_page_commands_have_the_documented_effect or test_page_does_what_it_says"
     pages = f"tests/test_tutorials.py tests/test_typed_pages.py -k '{tests}'"
     said = in_project(

@@ -5,6 +5,7 @@
 import os
 import shutil
 import subprocess
+import time
 from pathlib import Path
 
 import pytest
@@ -60,6 +61,48 @@ def test_packages_depend_on_the_release(release):
     assert all(" " not in name and "[" not in name for name in names)
 
 
+def packages_of(*groups: str) -> set[str]:
+    return set(in_script(f"required_packages {' '.join(groups)}").split())
+
+
+def test_packages_of_tests_come_with_their_group_only():
+    tools = {"clang-22", "clang-tidy-22", "chromium", "python3-selenium", "xvfb"}
+    running = packages_of()
+    assert {"catkin", "rviz", "librostest-dev"} <= running and not running & {*tools, "doxygen"}
+    assert packages_of("docs") == running | {"doxygen"}
+    assert packages_of("docs", "wheel") == packages_of("docs")
+    assert packages_of("test") >= packages_of("docs") | tools
+
+
+def test_every_package_belongs_to_a_group():
+    sections = [line[1:-1] for line in (TOP / "apt-packages.txt").read_text().splitlines() if line[:1] == "["]
+    groups = {"run", *in_script("group_names").split()}
+    assert set(sections) <= groups
+    assert packages_of(*(groups - {"test"})) < packages_of("test")
+    assert {path.stem for path in (TOP / "locks").glob("venv*.in")} == {
+        "venv" if group == "test" else f"venv-{group}" for group in groups
+    }
+
+
+@pytest.mark.parametrize(
+    ("command", "groups"),
+    [
+        ("build", ""),
+        ("demo", ""),
+        ("shell", ""),
+        ("docs", "docs"),
+        ("wheel", "wheel"),
+        ("deb", "extras docs"),
+        ("bench", "test"),
+        ("test", "test"),
+        ("test --style", "test"),
+    ],
+)
+def test_a_command_installs_its_groups(tmp_path, command, groups):
+    code = f'workspace={tmp_path}; cmd_install() {{ echo "$*"; exit; }}; cmd_{command}'
+    assert in_script(code) == f"{groups}\n"
+
+
 @pytest.mark.parametrize("system", ["ID=ubuntu\nVERSION_CODENAME=noble\nPRETTY_NAME='Ubuntu 24.04'\n", None])
 def test_another_system_is_refused(tmp_path, system):
     file = tmp_path / "os-release"
@@ -101,6 +144,7 @@ def test_each_command_explains_itself_without_doing_anything(command):
     "arguments",
     [
         ["install", "--now"],
+        ["install", "docs", "rviz"],
         ["build", "franka_hw"],
         ["demo", "--gui", "robot:=ur5"],
         ["demo", "panda"],
@@ -132,6 +176,7 @@ def test_an_option_without_a_value_is_refused_before_a_build():
     "arguments",
     [
         "install",
+        "install docs test",
         "demo robot:=fr3 --gui --seed -3 --speed=0.5",
         "test --long franka_hw tests",
         "bench fci tick",
@@ -242,6 +287,7 @@ def test_a_shell_has_roscd_and_completion(tmp_path):
         ),
         ("./franka be", {"bench"}),
         ("./franka bench ti", {"tick"}),
+        ("./franka install docs ex", {"extras"}),
         ("./franka test --long franka_gaz", {"franka_gazebo"}),
         ("./franka demo --no-p", {"--no-pictures"}),
         ("./franka demo robot:=f", {"fr3"}),  # for bash a new word starts after :=
@@ -381,6 +427,73 @@ def test_a_verbose_build_shows_everything(tmp_path):
 
 
 # ---- steps that fail, two commands at once ---------------------------------------------------------------
+
+
+@pytest.fixture
+def debian(tmp_path):
+    """Code for a Debian with `needed` installed, and without `compiler`. The file apt has calls of apt."""
+    (tmp_path / "out").mkdir()
+    (tmp_path / "list").write_text("[run]\nneeded\n\n[test]\nbrowser\ncompiler\n")
+    return f"""
+        top={tmp_path} package_lists=({tmp_path}/list)
+        offline() {{ false; }}
+        as_root() {{ echo "$@" >>$top/apt; }}
+        dpkg-query() {{ echo "installed needed"; }}
+        apt-cache() {{ printf '%s\\n' browser needed; }}
+    """
+
+
+def test_a_package_that_debian_lacks_is_named_and_the_others_are_installed(debian, tmp_path):
+    printed = in_script(f"{debian} step Begin install_packages test")
+    assert "lacks compiler:" in printed
+    installed = (tmp_path / "apt").read_text().splitlines()[-1].split()
+    assert "browser" in installed and "compiler" not in installed
+    assert in_script(f"{debian} missing_packages test").split() == ["browser"]
+    yesterday = time.time() - 25 * 3600
+    os.utime(tmp_path / "out" / "not_in_debian", (yesterday, yesterday))
+    assert in_script(f"{debian} missing_packages test").split() == ["browser", "compiler"]
+
+
+def test_a_package_for_running_that_debian_lacks_is_requested(debian, tmp_path):
+    (tmp_path / "list").write_text("[run]\nneeded\ncompiler\n")
+    in_script(f"{debian} install_packages")
+    assert (tmp_path / "apt").read_text().split()[-1] == "compiler"
+
+
+def failing(code: str, *before: str) -> str:
+    """The error message of shell code that ends with status 1 when it runs with the script's functions."""
+    command = [*before, "bash", "-c", f"source {FRANKA}; {code}; echo went on"]
+    result = subprocess.run(command, text=True, capture_output=True, timeout=60)
+    assert result.returncode == 1 and "went on" not in result.stdout, result
+    return result.stderr
+
+
+def test_without_root_and_sudo_the_command_for_an_administrator_is_printed(debian):
+    user = "id() { echo 1000; }; command() { false; }"
+    printed = failing(f"{debian} {user}; step Begin install_packages test")
+    assert "apt-get install browser compiler\n" in printed
+
+
+def test_what_another_user_has_left_is_named(tmp_path):
+    left = tmp_path / "venv" / "lib" / "module.py"
+    left.parent.mkdir(parents=True)
+    left.touch(0o444)
+    user = '[ "$1" = -u ] && echo 65534 || echo somebody'
+    # Root without this capability may write only what the modes of files allow, as all others do.
+    before = ["setpriv", "--bounding-set=-dac_override"] if os.geteuid() == 0 else []
+    code = f"top={tmp_path} venv={tmp_path}/venv workspace={tmp_path}; id() {{ {user}; }}; begin_alone"
+    printed = failing(code, *before)
+    assert f"{left} belongs to " in printed and f"sudo chown -R somebody {tmp_path}" in printed
+
+
+@pytest.mark.parametrize(("free", "said"), [("3", "only 3 MB are left on the disk of /a disk"), ("3000", "")])
+def test_a_full_disk_is_named(tmp_path, free, said):
+    listed = f"df() {{ printf 'Avail Mounted on\\n{free}M /a disk\\n 9000M /tmp\\n'; }}"
+    printed = failing(f"{listed}; step Begin false")
+    assert said in printed and ("MB are left" in printed) == bool(said)
+    assert "Begin failed" in printed
+    (tmp_path / "out").touch()
+    assert said in failing(f"{listed}; top={tmp_path}; begin_alone")
 
 
 @pytest.mark.parametrize(

@@ -4,6 +4,7 @@
 
 import os
 import re
+import shutil
 import subprocess
 import sys
 from importlib import metadata
@@ -59,6 +60,18 @@ def test_a_lock_has_what_its_source_asks_for(name, python):
             assert requirement.specifier.contains(versions[canonicalize_name(requirement.name)]), requirement
 
 
+@pytest.mark.parametrize("python", PYTHONS)
+@pytest.mark.parametrize("name", [name for name in NAMES if name.startswith("venv-")])
+def test_a_group_has_versions_of_the_whole_environment(name, python):
+    group = locked(name, python)
+    assert group and group.items() <= locked("venv", python).items()
+
+
+def test_running_needs_few_packages():
+    assert {"xacro", "pytest"} <= set(locked("venv-run", "3.11"))
+    assert not {"dask", "pyarrow", "mypy", "sphinx", "hypothesis"} & set(locked("venv-run", "3.11"))
+
+
 def test_the_environment_equals_its_lock():
     """Nothing is missing, has another version, or came beside it."""
     folders = [str(folder) for folder in Path(sys.prefix).glob("lib/python*/site-packages")]
@@ -76,7 +89,7 @@ SCRIPT = """
 source {franka}
 top={top} venv={top}/.venv
 offline() {{ false; }}
-install_locked() {{ [ -n "$reachable" ] && touch "$venv/$(basename "$2")"; }}
+install_locked() {{ [ -n "$reachable" ] && touch "$venv/$(basename "$2" .txt)"; }}
 {code}
 """
 
@@ -84,7 +97,8 @@ install_locked() {{ [ -n "$reachable" ] && touch "$venv/$(basename "$2")"; }}
 def in_project(top: Path, code: str, reachable: str = "yes") -> subprocess.CompletedProcess:
     """Runs code with the entry script's functions in another project, with a registry that answers or not."""
     (top / "locks").mkdir(exist_ok=True)
-    (top / "locks" / "venv.txt").touch()
+    for name in ("venv", "venv-run", "venv-wheel"):
+        (top / "locks" / f"{name}.txt").touch()
     return subprocess.run(
         ["bash", "-c", SCRIPT.format(franka=TOP / "franka", top=top, code=code)],
         env={**os.environ, "reachable": reachable},
@@ -94,14 +108,72 @@ def in_project(top: Path, code: str, reachable: str = "yes") -> subprocess.Compl
     )
 
 
-def test_an_environment_of_an_earlier_lock_is_noticed_and_made_anew(tmp_path):
-    made = in_project(tmp_path, 'python_ready && exit 9; step "Making" install_python; python_ready')
+@pytest.fixture(scope="module")
+def first(tmp_path_factory) -> Path:
+    """A project whose .venv has the group run."""
+    top = tmp_path_factory.mktemp("project") / "first"
+    top.mkdir()
+    made = in_project(top, 'python_ready && exit 9; step "Making" install_python; python_ready')
+    assert made.returncode == 0 and "making it again" not in made.stdout, made
+    return top
+
+
+@pytest.fixture
+def project(first, tmp_path) -> Path:
+    return shutil.copytree(first, tmp_path / "project", symlinks=True)
+
+
+def groups_in(project: Path) -> set[str]:
+    return {path.name for path in (project / ".venv").glob("venv*")}
+
+
+def test_an_environment_of_an_earlier_lock_is_noticed_and_made_anew(project):
+    (project / ".venv" / "left_over").touch()
+    (project / "locks" / "venv.txt").write_text("another==1\n")
+    assert in_project(project, "python_ready").returncode == 1
+    made = in_project(project, "install_python && python_ready")
+    assert made.returncode == 0 and "making it again" in made.stdout, made
+    assert not (project / ".venv" / "left_over").exists()
+
+
+def test_an_environment_of_another_python_is_noticed(project):
+    assert in_project(project, "python_ready").returncode == 0
+    assert in_project(project, "readlink() { echo /usr/bin/python3.99; }; python_ready").returncode == 1
+
+
+def test_a_group_is_added_to_the_environment(project):
+    (project / ".venv" / "of_the_first").touch()
+    assert in_project(project, "python_ready wheel").returncode == 1
+    assert in_project(project, "install_python wheel && python_ready wheel && python_ready").returncode == 0
+    assert groups_in(project) == {"venv-run", "venv-wheel"}
+    assert in_project(project, "install_python test && python_ready wheel test").returncode == 0
+    assert (project / ".venv" / "of_the_first").exists()
+
+
+def test_the_environment_of_the_tests_has_all_groups(project):
+    made = in_project(project, "install_python test && python_ready && python_ready wheel docs")
     assert made.returncode == 0, made
-    (tmp_path / ".venv" / "left_over").touch()
-    (tmp_path / "locks" / "venv.txt").write_text("another==1\n")
-    assert in_project(tmp_path, "python_ready").returncode == 1
-    assert in_project(tmp_path, "install_python && python_ready").returncode == 0
-    assert not (tmp_path / ".venv" / "left_over").exists()
+
+
+def test_a_group_that_pip_did_not_finish_makes_the_environment_incomplete(project):
+    failed = in_project(project, 'step "Adding" install_python wheel', reachable="")
+    assert failed.returncode == 1 and "Adding failed" in failed.stderr
+    assert in_project(project, "python_ready").returncode == 1
+    made = in_project(project, "install_python && python_ready")
+    assert made.returncode == 0 and "incomplete" in made.stdout, made
+
+
+def test_the_whole_environment_is_locked_before_its_groups(tmp_path):
+    (tmp_path / "locks").mkdir()
+    for name in ("other", "venv", "venv-run"):
+        (tmp_path / "locks" / f"{name}.in").touch()
+    uv = tmp_path / "uv"
+    uv.write_text('#!/bin/sh\necho "$@" >>../log\n')
+    uv.chmod(0o755)
+    made = in_project(tmp_path, f'install_locked() {{ cp {uv} "${{1%/*}}"; }}; cmd_lock --upgrade')
+    assert made.returncode == 0, made
+    sources = [line.split()[-1] for line in (tmp_path / "log").read_text().splitlines()]
+    assert sources == ["venv.in", "other.in", "venv-run.in"]
 
 
 def test_an_environment_that_pip_did_not_finish_does_not_count_as_made(tmp_path):

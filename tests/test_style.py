@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 import style
+import wall_clock
 
 TOP = Path(__file__).resolve().parent.parent
 LICENCE = f"// {style.HEADER}\n// SPDX-License-Identifier: Apache-2.0\n"
@@ -133,6 +134,63 @@ def test_similar_words_pass(line):
     assert list(style.word_findings("a.h", line)) == []
 
 
+WALL_CLOCK = {  # tests whose verdict depends on the machine, and similar ones whose verdict does not
+    ".py": (
+        [
+            "time.sleep(1.0)",
+            "assert time.monotonic() - begin < 5",
+            "assert 0.1 < time.perf_counter() - begin <= LIMIT",
+            "took = time.monotonic() - begin; assert 2.5 > took",
+            "took = time.monotonic() - begin; self.assertLess(took, 2.0)",
+            "late.append(time.time() - begin); assert max(late) < 0.05",
+        ],
+        [
+            "time.sleep(1.0)  # the fault itself",
+            "time.sleep(0.01)  # between two looks",
+            "assert time.monotonic() - begin < 30",
+            "assert time.monotonic() - begin > 0.5",
+            "assert state.time - begin < 5",
+            "assert time.monotonic() - begin < PATIENCE",
+        ],
+    ),
+    ".cpp": (
+        [
+            "std::this_thread::sleep_for(milliseconds(1));",
+            "EXPECT_LT(steady_clock::now() - begin, milliseconds(20));",
+            "const auto took = steady_clock::now() - begin; ASSERT_LE(took, 2s);",
+        ],
+        [
+            "std::this_thread::sleep_for(kStall);  // the fault itself",
+            "EXPECT_LT(steady_clock::now() - begin, std::chrono::seconds(30));",
+            "EXPECT_GE(steady_clock::now() - begin, milliseconds(20));",
+            "EXPECT_LT(state.time - begin, 2.0);",
+        ],
+    ),
+}
+
+
+@pytest.mark.parametrize("suffix", WALL_CLOCK)
+def test_a_test_that_judges_the_wall_clock_is_refused(suffix):
+    frame = {
+        ".py": "LIMIT = 2.0\nPATIENCE = 40.0\n{}def test_arm(self):\n    {}\n",
+        ".cpp": "{}(Arm{}, Moves) {{\n  {}\n}}\n",
+    }[suffix]
+
+    def found(line: str, realtime: bool = False, name: str = "test/arm_test") -> list[str]:
+        if suffix == ".py":
+            text = frame.format("@pytest.mark.realtime('pace')\n" * realtime, line)
+        else:
+            text = frame.format("TEST", "OnWallClock" * realtime, line)
+        return list(wall_clock.findings(name + suffix, text))
+
+    refused, accepted = WALL_CLOCK[suffix]
+    for line in refused:
+        assert len(found(line)) == 1, line
+        assert not found(line, realtime=True) and not found(line, name="src/arm"), line
+    for line in accepted:
+        assert not found(line), line
+
+
 def test_clang_tidy_fails_on_a_name_in_a_changed_file_only(repository, monkeypatch, capfd):
     old = repository.add("old.cpp", "class old_name {};\n")
     new = repository.add("new.cpp", "class NewName {};\n")
@@ -224,7 +282,18 @@ def test_missing_tool_fails_with_a_message(repository, check, tool, monkeypatch,
     monkeypatch.setattr(style, "VENV", repository.folder)
     monkeypatch.setattr(style.shutil, "which", lambda name: None)
     assert run(check, monkeypatch=monkeypatch) == 1
-    assert f"{tool} is missing: run ./franka install" in capsys.readouterr().err
+    assert f"{tool} is missing: run ./franka install test" in capsys.readouterr().err
+
+
+def test_a_check_whose_tool_debian_lacks_says_so_and_fails_nothing(repository, monkeypatch, capsys):
+    repository.add("a.py", "")
+    lacking = repository.folder / "not_in_debian"
+    lacking.write_text("clang-22\n")
+    monkeypatch.setattr(style, "NOT_IN_DEBIAN", lacking)
+    monkeypatch.setattr(style.shutil, "which", lambda name: None)
+    assert run("nothrow", monkeypatch=monkeypatch) == 0
+    assert "this Debian has no clang-22" in capsys.readouterr().err
+    assert run("clang-tidy", monkeypatch=monkeypatch) == 1
 
 
 def test_folder_that_is_not_a_clone_fails_with_a_message(tmp_path, monkeypatch, capsys):

@@ -54,7 +54,7 @@ def run_pytest(folder: Path, text: str) -> Tally:
     "reason",
     [
         "assimp is not installed",
-        "chromium and chromedriver are not installed: run ./franka install",
+        "chromium and chromedriver are not installed: run ./franka install test",
         "PyPI has no wheel of panda-python==1.1.1 for Python 3.13.5",
         "takes 20 s: ./franka test --long",
         "only root can make a bare Debian: run ./franka test --long as root",

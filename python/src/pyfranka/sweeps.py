@@ -183,7 +183,8 @@ def _require() -> None:
         if importlib.util.find_spec(name) is None:
             raise ImportError(
                 f"A sweep needs the Python package {name}, which this Python ({sys.executable}) does not "
-                "have: pip install pyfranka[cluster]; in the workspace use .venv/bin/python3.",
+                "have: pip install pyfranka[cluster]; in the workspace run ./franka install extras, and use "
+                ".venv/bin/python3.",
                 name=name,
             )
 
