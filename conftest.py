@@ -37,6 +37,7 @@ def pytest_addoption(parser):
 
 def pytest_configure(config):
     config.addinivalue_line("markers", "long_form(reason): run in the long form only")
+    config.addinivalue_line("markers", "realtime(reason): its subject is the wall clock")
 
 
 def is_long(config) -> bool:
@@ -45,10 +46,13 @@ def is_long(config) -> bool:
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection_modifyitems(config, items):
+    long, realtime = is_long(config), os.environ.get("FRANKA_TEST_REALTIME") == "1"
+    if realtime and not long:
+        items[:] = [item for item in items if item.get_closest_marker("realtime")]
     for item in items:
-        mark = item.get_closest_marker("long_form")
-        if mark and not is_long(config):
-            item.add_marker(pytest.mark.skip(reason=f"{mark.args[0]}: ./franka test --long"))
+        for name, form, wanted in (("long_form", "long", long), ("realtime", "realtime", long or realtime)):
+            if (mark := item.get_closest_marker(name)) and not wanted:
+                item.add_marker(pytest.mark.skip(reason=f"{mark.args[0]}: ./franka test --{form}"))
 
 
 @pytest.fixture(scope="session")

@@ -6,9 +6,13 @@
 In this order: style and compiler warnings, which end the run if they fail; gtest, rostest and pytest
 (`tests/test_*.py`, `test/test_*.py` of packages), three programs at a time on two processors. Each file of
 pytest has a process of its own. Cases that failed run once more at the end, alone: those that pass then are
-flaky, and do not make the run red. Each case is added to out/test-history.jsonl. A table lists the reasons of
-skipped tests; the run fails if a reason names neither a missing package nor the long form. Called by
-`./franka test`, which provides the environment.
+flaky, and do not make the run red. But for the long form all have a network of their own, the loopback only.
+Each case is added to out/test-history.jsonl. A table lists the reasons of skipped tests; the run fails if a
+reason names neither a missing package nor another form. Called by `./franka test`, which provides the
+environment.
+
+`--realtime` runs only the cases whose subject is the wall clock, one program at a time: tests of pytest with
+the mark `realtime`, and gtests whose names end with OnWallClock. `--long` runs every case.
 """
 
 import argparse
@@ -26,6 +30,7 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
 sys.path.append(str(TOP / "tests" / "support"))
+import own_network  # noqa: E402
 from programs import node_ids, registered, run_pytest, run_registered  # noqa: E402
 from tally import Case, Tally  # noqa: E402
 
@@ -36,6 +41,7 @@ PYTEST_RESULTS = TOP / "out" / "pytest"
 HISTORY = TOP / "out" / "test-history.jsonl"
 # Programs of rostest and pytest at a time: they sleep for 42 % of their time (measured on two processors).
 WORKERS = round(1.5 * (os.cpu_count() or 2))
+STRIDE = 7
 AGAIN = 30  # cases that failed: if there are more, it is the product, and none runs again (chosen here)
 
 
@@ -60,31 +66,34 @@ def fails(title: str, command: list[str]) -> bool:
         return subprocess.run(command, check=False).returncode != 0
 
 
-# Files whose tests count lost milliseconds, or change what other tests use, say so in this line.
+# Files whose tests change what other tests use say so in this line.
 ALONE = re.compile(r"^pytestmark = .*pytest\.mark\.alone", re.MULTILINE)
+REALTIME = re.compile(r"pytest\.mark\.realtime")
+REALTIME_GTESTS = "*OnWallClock*"
 
 
 def results_of(path: Path) -> Path:
     return PYTEST_RESULTS / f"{'.'.join(path.relative_to(TOP).with_suffix('').parts)}.xml"
 
 
-def run_all(tests: list, files: list[Path], long: bool) -> dict:
+def run_all(tests: list, files: list[Path], workers: int = WORKERS) -> dict:
     """The cases of each registered test and of each file of pytest."""
     cases = {}
-    for kind, workers in (("gtest", os.cpu_count() or 2), ("rostest", WORKERS)):
+    for kind, most in (("gtest", os.cpu_count() or 2), ("rostest", WORKERS)):
         with stage(kind):
-            cases |= run_registered(BUILD, [test for test in tests if f"_{kind}_" in test.name], workers)
+            chosen = [test for test in tests if f"_{kind}_" in test.name]
+            cases |= run_registered(BUILD, chosen, min(workers, most))
     with stage("pytest"):
         alone = [path for path in files if ALONE.search(path.read_text(encoding="utf-8"))]
         together = [path for path in files if path not in alone]
-        with ThreadPoolExecutor(WORKERS) as pool:
-            ran = list(pool.map(lambda path: run_pytest(path, results_of(path), long), together))
-        ran += [run_pytest(path, results_of(path), long) for path in alone]
+        with ThreadPoolExecutor(workers) as pool:
+            ran = list(pool.map(lambda path: run_pytest(path, results_of(path)), together))
+        ran += [run_pytest(path, results_of(path)) for path in alone]
         cases |= dict(zip(together + alone, ran))
     return cases
 
 
-def run_again(cases: dict, long: bool) -> list[str]:
+def run_again(cases: dict) -> list[str]:
     """Runs the cases that failed once more, one program at a time, and replaces their verdicts.
 
     @returns the names of those that passed now
@@ -104,7 +113,7 @@ def run_again(cases: dict, long: bool) -> list[str]:
         for program, failed in broken.items():
             if isinstance(program, Path):
                 file = results_of(program).with_suffix(".again.xml")
-                second = run_pytest(program, file, long, node_ids(program, failed))
+                second = run_pytest(program, file, node_ids(program, failed))
             else:
                 second = run_registered(BUILD, [program], 1)[program]
             verdicts = {case.name: case.verdict for case in second}
@@ -149,7 +158,8 @@ def print_history() -> int:
 def main() -> int:
     parser = argparse.ArgumentParser(prog="./franka test")
     parser.add_argument("packages", nargs="*", help="only these packages; `tests` is the end-to-end folder")
-    parser.add_argument("--long", action="store_true", help="long forms of soaks, sweeps and style checks")
+    parser.add_argument("--long", action="store_true", help="every case, in its long form")
+    parser.add_argument("--realtime", action="store_true", help="only cases whose subject is the wall clock")
     parser.add_argument("--history", action="store_true", help="slow and flaky cases of earlier runs")
     arguments = parser.parse_args()
     if arguments.history:
@@ -164,13 +174,18 @@ def main() -> int:
         return 2
     selected = [name for name in arguments.packages if name != "tests"]
     end_to_end = not arguments.packages or "tests" in arguments.packages
+    realtime = arguments.realtime and not arguments.long
     if arguments.long:
         os.environ["FRANKA_TEST_LONG"] = "1"
+    if arguments.long or realtime:
+        os.environ["FRANKA_TEST_REALTIME"] = "1"
+    if not arguments.long:
+        os.environ["GTEST_FILTER"] = REALTIME_GTESTS if realtime else f"-{REALTIME_GTESTS}"
     for folder in (RESULTS, PYTEST_RESULTS):
         shutil.rmtree(folder, ignore_errors=True)
     PYTEST_RESULTS.mkdir(parents=True)
 
-    if not arguments.packages:
+    if not arguments.packages and not realtime:
         style = [sys.executable, str(TOP / "tests" / "style.py")] + (["--long"] if arguments.long else [])
         warnings = [sys.executable, str(TOP / "tests" / "compiler_warnings.py")]
         broken = [
@@ -183,15 +198,22 @@ def main() -> int:
             return 1
     tests, files = [], []
     if selected or not arguments.packages:
-        tests = registered(BUILD, f"_ctest_({'|'.join(selected) or '.*'})_(gtest|rostest)_")
+        kinds = "gtest" if realtime else "gtest|rostest"
+        tests = registered(BUILD, f"_ctest_({'|'.join(selected) or '.*'})_({kinds})_")
     if end_to_end:  # first, as they take longest
-        files += sorted((TOP / "tests").glob("test_*.py"))
+        named = sorted((TOP / "tests").glob("test_*.py"))
+        # Neighbours wait for the same thing to be built, such as the site's pages: they do not run together.
+        files += [path for first in range(STRIDE) for path in named[first::STRIDE]]
     for name, folder in known.items():
         if name in selected or not arguments.packages:
             files += sorted(folder.glob("test/**/test_*.py"))
 
-    cases = run_all(tests, files, arguments.long)
-    flaky = run_again(cases, arguments.long)
+    if realtime:
+        files = [path for path in files if REALTIME.search(path.read_text(encoding="utf-8"))]
+    if not arguments.long and (reason := own_network.enter()):
+        print(f"\nThe tests use this machine's network, as they could not have one of their own: {reason}")
+    cases = run_all(tests, files, 1 if realtime else WORKERS)
+    flaky = run_again(cases)
     tally = Tally([case for found in cases.values() for case in found], flaky)
     write_history(tally)
     print()

@@ -16,7 +16,7 @@ NETWORK = ["unshare", "--map-root-user", "--net"]
 ADDRESSES = ["127.0.0.1", "127.0.77.2"]
 CLIENTS = """
 for address in {addresses}; do
-  for try in $(seq 100); do franka_info $address 0.2 >out 2>err; grep -q Robot out && break; sleep 0.2; done
+  for try in $(seq 150); do franka_info $address 0.2 >out 2>err; grep -q Robot out && break; sleep 0.2; done
   grep Robot out
 done
 """

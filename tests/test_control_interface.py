@@ -7,11 +7,10 @@ The client uses fci_wire in lock-step, so that each line acts between two of its
 
 import struct
 import subprocess
-import time
 
 import pytest
 from fci_motion import begin, drive, finish, hold
-from fci_session import go_first, go_with_all, simulated
+from fci_session import simulated
 from fci_wire import COMMUNICATION, IDLE, LAYOUTS, MOVE, REFLEX, Client, connected
 from genuine_clients import client_python
 from pyfranka.remote import LineRefused
@@ -19,15 +18,6 @@ from pyfranka.remote import LineRefused
 GRAVITY = 9.81
 GUIDING, USER_STOPPED = 3, 5
 CARTESIAN_REFLEX = 7  # the error's index
-REPEATED_AFTER = 0.3  # [s] without an answer, in lock-step (fci/host.cpp)
-
-
-@pytest.fixture(autouse=True)
-def before_other_work():
-    """The client is in this process; in lock-step it must not be silent for half a second."""
-    go_first()
-    yield
-    go_with_all()
 
 
 @pytest.fixture(scope="module", params=["panda", "fr3"])
@@ -246,25 +236,15 @@ def test_a_deactivated_interface_drops_its_client_and_refuses_others(sim, client
 def test_losses_repeat_after_a_reset(sim):
     """The loss is set once; each run after a `reset` then loses the same commands."""
     sim.remote.loss(0.2, 3)
-    hashes = []
-    for _ in range(10):
+    hashes = set()
+    for _ in range(2):
         sim.remote.reset()
-        longest = 0.0
         with connected(sim) as client:
-            last = time.monotonic()
             state, first = begin(client)
-            for _ in range(300):
-                state = drive(client, state, hold(first), 1)[-1]
-                now = time.monotonic()
-                longest, last = max(longest, now - last), now
+            state = drive(client, state, hold(first), 300)[-1]
             assert state.rate < 1.0
             finish(client, state, first)
             set_load(client)
-        # A client that stalls gets the same state again, and this one answers it again: another run.
-        if longest < REPEATED_AFTER:
-            hashes.append(sim.remote.hash())
-        if len(hashes) == 2:
-            break
+        hashes.add(sim.remote.hash())
     sim.remote.loss(0)
-    assert len(hashes) == 2, "The client stalled in nine of ten runs."
-    assert hashes[0] == hashes[1]
+    assert len(hashes) == 1

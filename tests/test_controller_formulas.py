@@ -7,7 +7,6 @@ The simulation is stepped, so the results do not depend on the speed of this pro
 
 import json
 import threading
-import time
 from functools import partial
 
 import controller_formulas as formulas
@@ -25,7 +24,7 @@ from ros_client import Controllers, launched
 from ros_client import call as call_any
 from rosgraph_msgs.msg import Log
 from std_srvs.srv import Empty
-from waiting import wait_for
+from waiting import holds, wait_for
 
 JOINT_ERROR, POSE_ERROR = 1e-3, 5e-4  # [rad], [m] of measured values
 DESIRED_ERROR = 1e-5  # [rad] or [m] of desired values
@@ -122,18 +121,15 @@ class Arm:
         self.controllers = Controllers()
         self.controllers.load(*map(full, MOTIONS + OTHERS))
 
-    def step(self, seconds):
-        """Advances the time; returns the new states."""
+    def step(self, seconds, age=0.08):
+        """Advances the time until the latest state is at most so old [s]; returns the new states."""
         begin = len(self.states)
         now = call("/gazebo/step", Step, round(1000 * seconds)).time
         # A state is published every 34 ms, unless the last one is still being sent.
-        recent = rospy.Duration(0.08)
+        recent = rospy.Duration(age)
         for _ in range(100):
-            end = time.monotonic() + 0.5
-            while time.monotonic() < end:
-                if self.states[-1].header.stamp > now - recent:
-                    return self.states[begin:]
-                time.sleep(0.001)
+            if holds(lambda now=now: self.states[-1].header.stamp > now - recent, 0.5, 0.001):
+                return self.states[begin:]
             now = call("/gazebo/step", Step, 20).time
         raise AssertionError("No states come any more.")
 
@@ -152,7 +148,7 @@ class Arm:
         thread = threading.Thread(target=lambda: results.append(act()))
         thread.start()
         while thread.is_alive():
-            self.step(0.02)
+            self.step(0.02, age=0.036)
         assert results, "It failed."
         return results[0]
 
@@ -168,6 +164,8 @@ class Arm:
         """A controller's run from the last state before its start to its stop, and what `act` returns."""
         begin = len(self.states) - 1
         assert self.switches(start=[name]), name
+        for _ in range(10):  # loses none of the first states, because each is awaited
+            self.step(0.02, age=0.036)
         try:
             result = act()
         finally:

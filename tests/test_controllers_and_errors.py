@@ -10,7 +10,7 @@ import pytest
 import rospy
 from control_nodes import COMBINED, ONE, SUCCEEDED, ControlNode
 from ros_client import launched
-from waiting import holds, wait_for
+from waiting import wait_for
 
 PACKAGE = """<package format="2">
   <name>throwing_controllers</name> <version>0.0.0</version> <description>For a test.</description>
@@ -164,7 +164,7 @@ def check_that_all_stay_at_rest(node):
     while any(arm.state.time < begin[arm.name] + 0.5 for arm in node.arms):
         assert all(arm.is_in("idle") for arm in node.arms)
         count = node.arms[0].states
-        assert holds(lambda count=count: node.arms[0].states > count)
+        wait_for(lambda count=count: node.arms[0].states > count, "A new state")
     node.start("good")
     node.wait_until_all_are("moving")
 

@@ -2,13 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """The genuine clients franka-desk 0.1.0 and franka-deskapi 1.0.1 start a robot through Desk."""
 
-from desk_clients import DESKAPI, client_of, fails, franka_desk
+from desk_clients import DESKAPI, FRANKA_DESK, fails
 from desk_session import PASSWORD, USER, is_locked, is_ready, move
 
 
 def test_franka_desk_brings_the_robot_up_and_down(desk_client):
-    with desk_client("franka_desk", "fr3-v1") as (desk, client):
-        client.run(franka_desk() + "    desk.bring_up()")
+    with desk_client("franka_desk", "fr3-v1", port=8443) as (desk, client):
+        client.run(FRANKA_DESK + "    desk.take_control_token(); desk.unlock_joints()")
+        assert client.value("desk.get_arm_info()") == {"status": "Connected", "armType": "FR3"}
+        client.run("desk.end_effector_power_off()")
+        assert client.value("desk.get_end_effector_power()")["status"] == "Off"
+        client.run("desk.end_effector_power_on()")
+        assert client.value("desk.get_safety_recovery()") == {}
+        assert client.value("desk.get_self_tests_state()")["status"] == "OK"
+        client.run("desk.get_arm_warnings(); desk.get_configuration()")
+        client.run("desk.set_arm_mounting(desk.get_arm_mounting())")
+        client.run("desk.start_arm_motion(); desk.stop_arm_motion()")
+        assert "BrakesClosed" in fails(client, "desk.lock_joints(); desk.activate_fci()", "OperationError")
+        client.run("desk.bring_up()")
         assert is_ready(desk.report())
         assert client.value("desk.get_fci_state()") == "Active"
         move(desk.robot)
@@ -21,78 +32,11 @@ def test_franka_desk_brings_the_robot_up_and_down(desk_client):
         assert client.value("desk.get_control_token_info()['owner']") is None
 
 
-def test_franka_desk_waits_for_the_user_stop(desk_client):
-    with desk_client("franka_desk", "fr3-v1") as (desk, client):
-        with desk.held("input x31"):
-            desk.wait(lambda report: report["inputs"]["x31"])
-            client.run(franka_desk() + "    desk.take_control_token()")
-            assert client.value("desk.is_user_stop_engaged()")
-            assert "stop is pressed" in fails(client, "desk.unlock_joints()", "UserStopEngaged")
-            fails(client, "desk.wait_until_user_stop_released(timeout=1.0)", "TimeoutError")
-            client.begin("desk.activate_arm()")
-        client.end()
-        assert is_ready(desk.report())
-        with desk.held("input x31"):
-            desk.wait(is_locked)
-        desk.wait(lambda report: not report["inputs"]["x31"])
-        assert not client.value("desk.is_user_stop_engaged()")
-        client.run("desk.activate_arm()")
-        assert is_ready(desk.report())
-        move(desk.robot)
-
-
-def test_franka_desk_recovers_its_token(desk_client, tmp_path):
-    with desk_client("franka_desk", "fr3-v1") as (desk, client):
-        client.run(franka_desk() + "    desk.take_control_token()")
-        with client_of("franka_desk", desk, tmp_path / "client") as next_run:
-            next_run.run(franka_desk() + "    desk.bring_up()")
-            assert is_ready(desk.report())
-        with client_of("franka_desk", desk, tmp_path / "other") as other:
-            other.run(franka_desk(", token_owner='someone'"))
-            assert f"held by '{USER}'" in fails(other, "desk.take_control_token()", "TokenUnavailable")
-            other.run(franka_desk())
-            assert "no saved token" in fails(other, "desk.take_control_token()", "TokenUnavailable")
-
-
-def test_franka_desk_reads_and_sets_the_rest(desk_client):
-    with desk_client("franka_desk", "fr3-v1") as (desk, client):
-        client.run(franka_desk() + "    desk.take_control_token(); desk.unlock_joints()")
-        assert client.value("desk.get_arm_info()") == {"status": "Connected", "armType": "FR3"}
-        client.run("desk.end_effector_power_off()")
-        assert client.value("desk.get_end_effector_power()")["status"] == "Off"
-        client.run("desk.end_effector_power_on()")
-        assert client.value("desk.get_safety_recovery()") == {}
-        assert client.value("desk.get_self_tests_state()")["status"] == "OK"
-        client.run("desk.get_arm_warnings(); desk.get_configuration()")
-        client.run("desk.set_arm_mounting(desk.get_arm_mounting())")
-        client.run("desk.start_arm_motion(); desk.stop_arm_motion()")
-        assert "BrakesClosed" in fails(client, "desk.lock_joints(); desk.activate_fci()", "OperationError")
-
-
-def test_franka_desk_reports_a_wrong_password(desk_client):
-    with desk_client("franka_desk", "fr3-v1") as (_, client):
-        client.run("from franka_desk import FrankaDeskClient")
-        wrong = f"FrankaDeskClient(HOST, {USER!r}, 'wrong').take_control_token()"
-        assert "Authentication failed" in fails(client, wrong, "AuthenticationError")
-
-
-def test_franka_desk_waits_for_a_reboot(desk_client):
-    with desk_client("franka_desk", "fr3-v1", options=["boot-time=3"]) as (desk, client):
-        client.run(franka_desk() + "    desk.bring_up(); desk.reboot()")
-        desk.wait(lambda report: not report["power"])
-        client.run("desk.wait_until_ready()")
-        assert is_locked(desk.report())
-        assert "423" in fails(client, "desk.unlock_joints()", "HTTPError")
-        client.run("desk.bring_up()")
-        assert is_ready(desk.report())
-        move(desk.robot)
-
-
 # ---- franka-deskapi 1.0.1 ---------------------------------------------------------------------------------
 
 
 def test_franka_deskapi_starts_the_robot(desk_client):
-    with desk_client("franka_deskapi", "fr3-v1") as (desk, client):
+    with desk_client("franka_deskapi", "fr3-v1", port=8443) as (desk, client):
         client.run(DESKAPI)
         client.run("desk.take_control(force=True); desk.unlock_brakes(); desk.set_mode_execution()")
         client.run("desk.activate_fci()")
@@ -103,13 +47,8 @@ def test_franka_deskapi_starts_the_robot(desk_client):
         desk.wait(is_ready)
         client.run("desk.set_mode_programming()")
         assert client.value("desk.get_operating_mode()")["status"] == "Programming"
-        client.run("desk.lock_brakes(); desk.close()")
+        client.run("desk.lock_brakes()")
         assert is_locked(desk.report())
-
-
-def test_franka_deskapi_reads_and_sets_the_rest(desk_client):
-    with desk_client("franka_deskapi", "fr3-v1") as (desk, client):
-        client.run(DESKAPI + "    desk.take_control(force=True)")
         for name in ("operating_mode", "system_status", "system_state", "joint_state", "joint_warnings"):
             assert client.value(f"desk.get_{name}()"), name
         for name in ("joint_info", "ee_power", "control_token", "token", "fci_status"):

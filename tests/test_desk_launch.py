@@ -7,14 +7,14 @@ import json
 import re
 import socket
 import ssl
-import time
 import urllib.error
 import urllib.request
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import pytest
 from franka_sim_mujoco.session import Session
 from pyfranka.remote import LineRefused, Remote
+from waiting import wait_for
 
 WORLD_ROBOT = "127.0.31.21"
 LAUNCHED_ROBOT = "127.0.31.22"
@@ -36,7 +36,7 @@ def system_version(address: str) -> str:
     for port in (443, 8443):
         try:
             url = f"https://{address}:{port}/admin/api/system-version"
-            with urllib.request.urlopen(url, timeout=20, context=unverified()) as answer:
+            with urllib.request.urlopen(url, timeout=60, context=unverified()) as answer:
                 return json.load(answer)
         except urllib.error.URLError as error:
             if not isinstance(error.reason, ConnectionRefusedError):
@@ -52,14 +52,13 @@ def launched(tmp_path, *launch: str):
 
 def awaited(session: Session, attempt, errors=(OSError,)):
     """What the attempt returns, as soon as it raises none of these."""
-    deadline = time.monotonic() + START_LIMIT
-    while True:
-        try:
-            return attempt()
-        except errors as error:
-            session.check()
-            assert time.monotonic() < deadline, f"{error}\n{session.tail(60)}"
-            time.sleep(0.2)
+
+    def result():
+        session.check()
+        with suppress(*errors):
+            return [attempt()]
+
+    return wait_for(result, lambda: f"{session.tail(60)}\nThe launch's answer", START_LIMIT, pause=0.2)[0]
 
 
 @pytest.fixture(scope="module")
@@ -101,8 +100,8 @@ def test_a_robot_of_a_ros_world_has_a_control_interface(remote):
 
 def test_the_control_interface_answers_while_the_world_is_paused(world, remote):
     world.run("rosservice", "call", "/gazebo/pause_physics")
-    assert remote.report(timeout=5).mode == "Idle"
-    assert remote.scene(timeout=20).robots == {"panda": "panda"}
+    assert remote.report(timeout=60).mode == "Idle"
+    assert remote.scene(timeout=60).robots == {"panda": "panda"}
     world.run("rosservice", "call", "/gazebo/unpause_physics")
 
 

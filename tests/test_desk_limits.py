@@ -3,49 +3,34 @@
 """What Desk does with requests that are malformed, too large, too many, or made by another site's page."""
 
 import asyncio
+import contextlib
 import http.client
 import json
 import os
 import re
 import socket
 import ssl
-import time
 from random import Random
 
 import pytest
 from desk_fixtures import desk_with_robot
-from desk_server import LIMITS, PASSWORD, USER, basic, unverified
+from desk_server import PASSWORD, USER, SteppedLoop, basic, unverified
 from pyfranka.desk import Limits, Options, Settings
 from pyfranka.desk.answers import DeskError
-from pyfranka.desk.limits import Throttle
-from pyfranka.desk.server import ROUTES
+from pyfranka.desk.limits import LOGIN_RATE, Throttle
+from pyfranka.desk.server import LINGER, ROUTES
 from pyfranka.desk.sessions import digest_of
 from pyfranka.desk.v1 import ROUTES as V1_ROUTES
 from waiting import wait_for
 
 CONFIGURATION = "/api/configuration"
-SMALL = Limits(
-    body=1000,
-    body_time=0.3,
-    request_time=0.5,
-    rate=50.0,
-    waiting=20,
-    wrong_logins=3,
-    connections_of_address=8,
-    sockets_of_address=3,
-)
-DEADLINE = 20.0  # [s]
+LIMITS = Limits(rate=20000.0, wrong_logins=100000, connections_of_address=8)
+DEADLINE = 60.0  # [s]
 
 
 @pytest.fixture(scope="module")
 def desk(tmp_path_factory):
-    with desk_with_robot(tmp_path_factory.mktemp("certificates")) as (_, desk):
-        yield desk
-
-
-@pytest.fixture(scope="module")
-def strict(tmp_path_factory):
-    with desk_with_robot(tmp_path_factory.mktemp("certificates"), limits=SMALL) as (_, desk):
+    with desk_with_robot(tmp_path_factory.mktemp("certificates"), limits=LIMITS) as (_, desk):
         yield desk
 
 
@@ -61,17 +46,19 @@ def is_refused(answer, *statuses):
     return answer.status in statuses and message[0].isupper() and message.endswith(".")
 
 
-def raw(desk, data, limit=DEADLINE):
-    """Sends bytes as they are. @returns all bytes of the answer."""
-    with socket.create_connection(("127.0.0.1", desk.port), timeout=limit) as plain:
+def raw(desk, data, silence=LIMITS.request_time):
+    """Sends bytes as they are, then nothing for some time [s]. @returns all bytes of the answer."""
+    with socket.create_connection(("127.0.0.1", desk.port), timeout=DEADLINE) as plain:
+        plain.setsockopt(
+            socket.IPPROTO_TCP, socket.TCP_NODELAY, 1
+        )  # the data go at once, as the clock is fast
         with unverified().wrap_socket(plain) as secure:
             secure.sendall(data)
+            desk.advance(silence)
             received = b""
-            try:
+            with contextlib.suppress(ConnectionError, ssl.SSLError):
                 while part := secure.recv(65536):
                     received += part
-            except (TimeoutError, OSError):
-                pass
             return received
 
 
@@ -216,19 +203,17 @@ def test_large_bodies_are_refused_whether_their_length_is_given_or_not(desk):
     head = b"POST /admin/api/login HTTP/1.1\r\nHost: a\r\nConnection: close\r\n"
     head += b"Transfer-Encoding: chunked\r\n\r\n"
     chunks = b"".join(b"8000\r\n" + b"x" * 0x8000 + b"\r\n" for _ in range(3)) + b"0\r\n\r\n"
-    assert b" 413 " in raw(desk, head + chunks).partition(b"\r\n")[0]
+    assert b" 413 " in raw(desk, head + chunks, silence=0.0).partition(b"\r\n")[0]
     assert alive(desk)
 
 
-def test_truncated_bodies_end_their_connection_only(strict):
+def test_truncated_bodies_end_their_connection_only(desk):
     head = b"POST /admin/api/login HTTP/1.1\r\nHost: a\r\nContent-Length: 500\r\n\r\n{"
-    assert b" 408 " in raw(strict, head).partition(b"\r\n")[0]
-    with socket.create_connection(("127.0.0.1", strict.port)) as plain:
+    assert b" 408 " in raw(desk, head, silence=LIMITS.body_time + 2 * LINGER).partition(b"\r\n")[0]
+    with socket.create_connection(("127.0.0.1", desk.port)) as plain:
         with unverified().wrap_socket(plain) as secure:
             secure.sendall(head)
-    time.sleep(0.1)
-    strict.close_connection()
-    assert alive(strict)
+    assert alive(desk)
 
 
 @pytest.mark.parametrize(
@@ -247,10 +232,10 @@ def test_truncated_bodies_end_their_connection_only(strict):
         b"\x00" * 1000,
     ],
 )
-def test_garbage_does_not_end_desk(strict, data):
-    first = raw(strict, data).partition(b"\r\n")[0]
+def test_garbage_does_not_end_desk(desk, data):
+    first = raw(desk, data).partition(b"\r\n")[0]
     assert not first or re.match(rb"HTTP/1.[01] 4\d\d ", first)
-    assert alive(strict)
+    assert alive(desk)
 
 
 def test_html_of_errors_is_escaped(desk):
@@ -262,72 +247,74 @@ def test_html_of_errors_is_escaped(desk):
 # ---- many of them ----------------------------------------------------------------------------------------
 
 
-def test_requests_above_the_rate_wait(strict):
-    time.sleep(1.1)
-    begin = time.monotonic()
-    assert all(alive(strict) for _ in range(75))
-    assert time.monotonic() - begin > 0.3
-
-
-def test_waiting_requests_are_limited():
+def test_uses_above_the_rate_wait_for_their_turn():
     async def crowd():
-        throttle = Throttle(rate=100.0, burst=2.0, waiting=3)
-        assert [throttle.use("a") for _ in range(2)] == [0.0, 0.0]
-        begin = time.monotonic()
-        waits = [throttle.wait("a", throttle.use("a")) for _ in range(8)]
-        ends = await asyncio.gather(*waits, return_exceptions=True)
-        assert 0.02 < time.monotonic() - begin
-        refused = [end for end in ends if isinstance(end, DeskError)]
-        assert len(refused) == 5 and refused[0].status == 429
+        loop, throttle = asyncio.get_running_loop(), Throttle(rate=2.0, burst=2.0, waiting=3)
+        loop.stop_clock()
+        delays = [throttle.use("a") for _ in range(5)]
+        assert delays == [0.0, 0.0, 0.5, 1.0, 1.5]
+        waits = [loop.create_task(throttle.wait("a", delay)) for delay in delays[2:]]
+        await asyncio.wait(waits, timeout=0)  # all of them have begun
+        with pytest.raises(DeskError) as refused:
+            await throttle.wait("a", throttle.use("a"))
+        assert refused.value.status == 429
         assert throttle.use("b") == 0.0  # others are not concerned
+        loop.ahead += 1.0
+        await asyncio.gather(*waits[:2])
+        assert not waits[2].done()
+        loop.ahead += 0.5
+        await waits[2]
+        assert throttle.delay("a") == pytest.approx(0.5)  # the refused use has not been counted
 
-    asyncio.run(crowd())
+    with contextlib.closing(SteppedLoop()) as loop:
+        loop.run_until_complete(crowd())
+
+
+def test_too_many_requests_and_wrong_passwords_have_to_wait(tmp_path):
+    limits = Limits(rate=10.0, waiting=0, wrong_logins=3)
+    with desk_with_robot(tmp_path, limits=limits) as (_, desk):
+        with desk.stopped_clock():
+            statuses = [desk.send("GET", "/api/system").status for _ in range(11)]
+            assert statuses == [200] * 10 + [429]
+            desk.advance(1.0)
+            wrong = {"login": USER, "password": "eA=="}
+            statuses = [desk.send("POST", "/admin/api/login", wrong).status for _ in range(4)]
+            assert statuses == [401] * 3 + [429]
+            # The right password waits too.
+            assert desk.send("GET", CONFIGURATION, **basic()).status == 429
+            desk.advance(1.0 / LOGIN_RATE)
+            assert desk.send("GET", CONFIGURATION, **basic()).status == 200
 
 
 def test_requests_that_read_never_reach_the_robot(tmp_path):
     with desk_with_robot(tmp_path) as (robot, desk):
         headers = desk.log_in()
-        robot.reports, begin = 0, time.monotonic()
-        paths = ("/admin/api/control-token", "/api/arm/joints", "/desk/api/robot/configuration")
-        for k in range(600):
-            assert desk.send("GET", paths[k % len(paths)], **headers).status == 200
-        assert robot.lines == []
-        assert robot.reports <= 20 * (time.monotonic() - begin) + 2
+        with desk.stopped_clock():  # the robot is asked for the report that is due, if any, and for no other
+            reports = robot.reports
+            paths = ("/admin/api/control-token", "/api/arm/joints", "/desk/api/robot/configuration")
+            for k in range(300):
+                assert desk.send("GET", paths[k % len(paths)], **headers).status == 200
+            assert robot.lines == [] and robot.reports <= reports + 1
 
 
 def test_equal_simultaneous_lines_are_sent_once_and_the_last_one_decides(tmp_path):
-    words = ["unlock", "lock", "unlock"]
+    words, answered = ["unlock", "lock", "unlock"], asyncio.Event()
 
-    async def send(robot, send):
-        tasks = []
-        for count, word in enumerate(words, start=1):
-            tasks += [asyncio.ensure_future(send(f"joints {word}")) for _ in range(4)]
-            while len(robot.lines) < count:
-                await asyncio.sleep(0.005)
-        await asyncio.gather(*tasks)
+    async def answer(*words):
+        await answered.wait()
+        return "ok"
 
     with desk_with_robot(tmp_path) as (robot, desk):
-        robot.answers["joints"] = slowly
-        desk.call(send(robot, desk.desk.robot.send))
+        robot.answers["joints"] = answer
+        sent, send = [], desk.desk.robot.send
+        for count, word in enumerate(words, start=1):
+            tasks = [send(f"joints {word}") for _ in range(4)]
+            sent += [asyncio.run_coroutine_threadsafe(task, desk.loop) for task in tasks]
+            wait_for(lambda count=count: len(robot.lines) >= count, word)
+        robot.call(answered.set)
+        for each in sent:
+            each.result(DEADLINE)
         assert robot.lines == [f"joints {word}" for word in words]
-
-
-async def slowly(*words):
-    await asyncio.sleep(1.0)
-    return "ok"
-
-
-def test_wrong_passwords_make_an_address_wait(tmp_path):
-    with desk_with_robot(tmp_path, limits=SMALL) as (_, desk):
-        wrong = {"login": USER, "password": "eA=="}
-        statuses = [desk.send("POST", "/admin/api/login", wrong).status for _ in range(3)]
-        begin = time.monotonic()
-        assert desk.send("POST", "/admin/api/login", wrong).status == 401
-        assert desk.send("GET", "/api/system", **basic(password="x")).status == 401
-        assert time.monotonic() - begin > 0.9
-        assert statuses == [401] * 3
-        right = {"login": USER, "password": digest_of(USER, PASSWORD)}
-        assert desk.send("POST", "/admin/api/login", right).status == 200
 
 
 def connections(desk, count):
@@ -344,27 +331,23 @@ def connections(desk, count):
         return []
 
 
-def test_connections_of_an_address_are_limited_and_silent_ones_end(strict):
-    strict.close_connection()
-    kept = wait_for(lambda: connections(strict, SMALL.connections_of_address), "All connections", DEADLINE)
+def test_connections_of_an_address_are_limited_and_silent_ones_end(desk):
+    desk.close_connection()
+    kept = wait_for(lambda: connections(desk, LIMITS.connections_of_address), "All connections")
     with pytest.raises((OSError, http.client.HTTPException)):
-        strict.send("GET", "/api/system")
-    strict.close_connection()
+        desk.send("GET", "/api/system")
+    desk.advance(LIMITS.request_time)
     for each in kept:  # they have sent nothing
-        try:
+        with contextlib.suppress(ConnectionError, ssl.SSLError):
             assert each.recv(1) == b""
-        except OSError:
-            pass
         each.close()
-    deadline = time.monotonic() + DEADLINE
-    while True:
-        try:
-            assert alive(strict)
-            break
-        except (OSError, http.client.HTTPException):
-            assert time.monotonic() < deadline
-            strict.close_connection()
-            time.sleep(0.05)
+
+    def answers():
+        desk.close_connection()
+        with contextlib.suppress(OSError, http.client.HTTPException):
+            return alive(desk)
+
+    wait_for(answers, "An answer")
 
 
 # ---- other sites -----------------------------------------------------------------------------------------

@@ -3,7 +3,6 @@
 """A client of the FCI moves a robot, and Desk ends the motion: in each way, and how the client goes on."""
 
 import threading
-import time
 
 import pyfranka
 import pytest
@@ -11,24 +10,18 @@ from desk_server import DeskServer
 from pyfranka.desk import Options
 from pyfranka.desk.robot import PORT
 from pyfranka.franka_sim import FrankaSim, SimRobot
-from stalls import in_time
 from waiting import wait_for
 
-SOON = 0.5  # [s] in which the client learns of it
-LAST_ANSWERS = 0.3  # [s] in which Desk still answers before a reboot
-DEADLINE = 30.0  # [s]
+DEADLINE = 60.0  # [s]
 TICKS = 100  # of a motion before it is ended
-SPEED = 0.1  # [rad/s]
+SPEED = 0.02  # [rad/s]
 
 ENDS = {
-    "lock": ("POST", "/desk/api/joints/lock", None),
-    "lock, newer": ("POST", "/api/arm/joints:lock", None),
-    "deactivate": ("POST", "/api/fci:deactivate", None),
-    "deactivate, older": ("DELETE", "/admin/api/control-token/fci", {}),
-    "programming": ("POST", "/desk/api/operating-mode/programming", None),
-    "release": ("DELETE", "/admin/api/control-token", {}),
-    "release, newer": ("POST", "/api/system/control-token:release", None),
-    "reboot": ("POST", "/api/system:reboot", None),
+    "lock": "/desk/api/joints/lock",
+    "deactivate": "/api/fci:deactivate",
+    "programming": "/desk/api/operating-mode/programming",
+    "release": "/api/system/control-token:release",
+    "reboot": "/api/system:reboot",
 }
 
 
@@ -39,7 +32,7 @@ def place(tmp_path_factory):
     with FrankaSim(robot, pace="patient", arguments=["--start", "locked"]) as sim:
         sim.robot.remote.send("timing brakes 0.2")
         folder = tmp_path_factory.mktemp("certificates")
-        with DeskServer(sim.robot.address, PORT, folder, options=Options(boot_time=0.5)) as desk:
+        with DeskServer(sim.robot.address, PORT, folder, options=Options(boot_time=0.1)) as desk:
             yield sim.robot, desk
 
 
@@ -49,14 +42,14 @@ class Motion(threading.Thread):
     def __init__(self, served):
         super().__init__(daemon=True)
         self._robot = served.connect()
-        self.ticks, self.error, self.ended = 0, None, 0.0
+        self.ticks, self.error = 0, None
         self.start()
 
     def run(self):
         try:
             self._robot.control_joint_velocities(self._velocities)
         except pyfranka.Exception as error:
-            self.error, self.ended = error, time.monotonic()
+            self.error = error
 
     def _velocities(self, state, period):
         self.ticks += 1
@@ -84,22 +77,9 @@ def motion_of(served):
 @pytest.mark.parametrize("how", ENDS)
 def test_desk_ends_a_motion_and_its_sequence_makes_the_next_one_possible(place, how):
     served, desk = place
-    limit = SOON + (LAST_ANSWERS if how == "reboot" else 0.0)
-    assert in_time(lambda: end_a_motion(served, desk, how), lambda took: took < limit) < limit
-    make_ready(desk)
-    motion_of(served)  # which the next test, or the end, aborts
-    assert desk.send("POST", "/desk/api/joints/lock", **desk.log_in()).status == 200
-
-
-def end_a_motion(served, desk, how):
-    """@returns how long after Desk's request the client learned of the end [s]."""
     headers = make_ready(desk)
     motion = motion_of(served)
-    method, path, body = ENDS[how]
-    begin = time.monotonic()
-    answer = desk.send(
-        method, path, body if body is None else {"token": headers["X_Control_Token"]}, **headers
-    )
+    answer = desk.send("POST", ENDS[how], **headers)
     assert answer.status in (200, 204), answer
     motion.join(DEADLINE)
     assert isinstance(motion.error, pyfranka.ControlException) and "aborted" in str(motion.error)
@@ -110,7 +90,9 @@ def end_a_motion(served, desk, how):
         assert not desk.send("GET", "/admin/api/control-token").json()["fciActive"]
     with pytest.raises(pyfranka.NetworkException):
         served.connect()
-    return motion.ended - begin
+    make_ready(desk)
+    motion_of(served)  # which the next test, or the end, aborts
+    assert desk.send("POST", "/desk/api/joints/lock", **desk.log_in()).status == 200
 
 
 def is_back(desk):
@@ -126,8 +108,6 @@ def test_forced_take_over_ends_the_motion_of_the_holder(place):
     make_ready(desk)
     motion = motion_of(served)
     forced = desk.take_control("another", "?force", **desk.log_in())
-    served.remote.send("button circle on")
-    served.remote.send("button circle off")
     served.remote.send("button circle on")
     motion.join(DEADLINE)
     served.remote.send("button circle off")

@@ -303,31 +303,34 @@ def test_control_is_released(desk, cookie):
 # ---- the stream ------------------------------------------------------------------------------------------
 
 
-def frames(desk, cookie, count, origin=""):
-    """The first frames of the stream; raises aiohttp.WSServerHandshakeError if it is refused."""
+def first_frame(desk, cookie, origin="", condition=bool):
+    """The first frame of the stream that fulfils the condition; raises aiohttp.WSServerHandshakeError if the
+    stream is refused."""
 
     async def read():
         headers = {**cookie, **({"Origin": origin} if origin else {})}
         async with aiohttp.ClientSession() as session:
             url = f"https://127.0.0.1:{desk.port}/page/live"
             async with session.ws_connect(url, headers=headers, ssl=unverified()) as socket:
-                return [json.loads(await socket.receive_str(timeout=20)) for _ in range(count)]
+                while not condition(frame := json.loads(await socket.receive_str(timeout=60))):
+                    pass
+                return frame
 
     return asyncio.run(read())
 
 
 def test_the_stream_has_reports_control_and_poses(desk, robot, cookie):
-    seen = frames(desk, cookie, 10)
-    assert seen[-1]["robots"][0]["report"] == robot.report
-    assert seen[-1]["robots"][0]["control"] == {"tokens": True, "owner": None, "id": None, "request": None}
-    (world,) = seen[-1]["worlds"]
+    seen = first_frame(desk, cookie, condition=lambda frame: frame["worlds"])
+    assert seen["robots"][0]["report"] == robot.report
+    assert seen["robots"][0]["control"] == {"tokens": True, "owner": None, "id": None, "request": None}
+    (world,) = seen["worlds"]
     assert world["robots"] == [0] and world["poses"] == POSES
 
 
 @pytest.mark.parametrize("with_login, origin", [(False, ""), (True, "https://evil.example")])
 def test_the_stream_is_for_this_page_only(desk, cookie, with_login, origin):
     with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
-        frames(desk, cookie if with_login else {}, 1, origin)
+        first_frame(desk, cookie if with_login else {}, origin)
     assert refused.value.status == (403 if origin else 401)
 
 

@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """What Desk reports of a robot's states, refusals and errors, in the words of both interfaces."""
 
+from concurrent.futures import ThreadPoolExecutor
+
 import pytest
 from desk_fixtures import desk_with_robot, fresh_desk, fresh_robot
 from desk_robot import CLOSED, OPEN, REPORT
@@ -274,12 +276,15 @@ def test_a_self_test_is_started_or_waited_for(desk, robot, control):
     assert get(desk, SAFETY)["safetyControllerStatus"] == "SelfTest"
 
     # The newer interface answers at the end.
-    robot._loop.call_soon_threadsafe(robot._loop.call_later, 0.3, robot.report["self_test"].update, OVER)
-    assert desk.send("POST", "/api/safety/self-tests:execute", **control).status == 204
+    with ThreadPoolExecutor(1) as executor:
+        answer = executor.submit(desk.send, "POST", "/api/safety/self-tests:execute", **control)
+        wait_for(lambda: robot.lines.count("self_test") == 2)
+        desk.refresh()
+        assert not answer.done()
+        robot.report["self_test"].update(running=False, due=86400.0)
+        assert answer.result(60.0).status == 204
     assert get(desk, "/api/safety/self-tests")["status"] == "OK"
 
-
-OVER = {"running": False, "due": 86400.0}
 
 # ---- end effectors ---------------------------------------------------------------------------------------
 

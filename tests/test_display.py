@@ -3,7 +3,6 @@
 """The simulation's window on a virtual screen, and its absence without one."""
 
 import math
-import time
 
 import numpy as np
 import pytest
@@ -14,6 +13,7 @@ from screen import colours, dragged, move_pointer, press, virtual_screen, window
 from waiting import wait_for
 
 WIDTH, HEIGHT = 1200, 900  # of the window [px]
+PATIENCE = 180.0  # [s] for what the window shows, on a busy machine
 BORDER, LEAST = 10, 90  # of the panel with texts: within its edge, and a width of it that shows no sky [px]
 
 
@@ -29,17 +29,18 @@ def simulation(log, *arguments: str) -> Session:
 
 def test_window_shows_the_scene(screen, tmp_path):
     with simulation(tmp_path / "launch.log") as session:
-        deadline = time.monotonic() + 180
-        while colours(tmp_path / "screen.png") < 200:
+
+        def is_drawn():
             session.check()
-            assert time.monotonic() < deadline, f"the window stayed empty:\n{session.tail()}"
-            time.sleep(0.5)
+            return colours(tmp_path / "screen.png") >= 200
+
+        wait_for(is_drawn, lambda: f"{session.tail()}\nA picture", PATIENCE, 0.5)
 
 
 def test_headless_opens_no_window(screen, tmp_path):
     with simulation(tmp_path / "launch.log", "headless:=true") as session:
         session.wait_for_master()
-        session.run("rostopic", "echo", "-n1", "/initialized", timeout=60)
+        session.run("rostopic", "echo", "-n1", "/initialized", timeout=PATIENCE)
         assert colours(tmp_path / "screen.png") < 20
 
 
@@ -47,7 +48,7 @@ def test_without_a_display_the_simulation_warns_and_runs(monkeypatch, tmp_path):
     monkeypatch.delenv("DISPLAY", raising=False)
     with simulation(tmp_path / "launch.log") as session:
         session.wait_for_master()
-        session.run("rostopic", "echo", "-n1", "/initialized", timeout=60)
+        session.run("rostopic", "echo", "-n1", "/initialized", timeout=PATIENCE)
     # A node flushes its output to a file at its exit at the latest.
     assert "There is no display" in (tmp_path / "launch.log").read_text()
 
@@ -62,7 +63,7 @@ class Viewer:
 
     def __init__(self, picture):
         self._picture = picture
-        wait_for(lambda: window_of("franka_sim") and colours(picture) > 200, "a picture", 60.0)
+        wait_for(lambda: window_of("franka_sim") and colours(picture) > 200, "a picture", PATIENCE)
         move_pointer(WIDTH // 2, HEIGHT // 2)  # keys go to the window below the pointer
 
     def corner(self, left, top, right, bottom):
@@ -110,18 +111,18 @@ def test_the_viewer_shows_texts_and_pushes_by_mouse(screen, franka_sim, tmp_path
     assert texts > 100  # time, mode
     assert viewer.black() > 500  # about 930; 220 without meshes
     press("h")
-    wait_for(lambda: viewer.corner(*help_corner) > without_help + 1000, "the help", 60.0)
+    wait_for(lambda: viewer.corner(*help_corner) > without_help + 1000, "the help", PATIENCE)
     press("h")
-    wait_for(lambda: viewer.corner(*help_corner) < without_help + 300, "no help", 60.0)
+    wait_for(lambda: viewer.corner(*help_corner) < without_help + 300, "no help", PATIENCE)
     remote.user_stop(True)
-    wait_for(lambda: viewer.corner(0, 0, 500, 80) > texts + 50, "a longer text about the mode", 60.0)
+    wait_for(lambda: viewer.corner(0, 0, 500, 80) > texts + 50, "a longer text about the mode", PATIENCE)
     stone = np.array(remote.where("stone")[:3])
     x, y = viewer.pixel(stone)
     assert viewer.corner(WIDTH - 300, 0, WIDTH, 40) < 50
     with dragged(x, y, x + 250, y - 300, hold="Control_L"):
-        wait_for(lambda: np.linalg.norm(remote.where("stone")[:3] - stone) > 0.05, "a push", 60.0)
-        wait_for(lambda: viewer.corner(WIDTH - 300, 0, WIDTH, 40) > 50, "the force", 60.0)
-    wait_for(lambda: viewer.corner(WIDTH - 300, 0, WIDTH, 40) < 50, "no force", 60.0)
+        wait_for(lambda: np.linalg.norm(remote.where("stone")[:3] - stone) > 0.05, "a push", PATIENCE)
+        wait_for(lambda: viewer.corner(WIDTH - 300, 0, WIDTH, 40) > 50, "the force", PATIENCE)
+    wait_for(lambda: viewer.corner(WIDTH - 300, 0, WIDTH, 40) < 50, "no force", PATIENCE)
     assert not sim.stopped
 
 
@@ -144,11 +145,11 @@ def test_the_viewer_names_the_errors(screen, tmp_path):
     robots = (SimRobot("panda", base=(-0.5, 0, 0)), other)
     with FrankaSim(*robots, pace="realtime", arguments=["--viewer"]) as sim:
         viewer, remote = Viewer(tmp_path / "window.png"), sim.robots[0].remote
-        wait_for(lambda: len(viewer.lines()) >= 3, "the lines of both robots", 60.0)
+        wait_for(lambda: len(viewer.lines()) >= 3, "the lines of both robots", PATIENCE)
         text = viewer.lines()[2]
         first = np.flatnonzero(text.any(axis=0))[0]
         name = text[:, first : first + NAME]
         assert not stands_in(name, viewer.lines()[1])
         remote.push("panda_link4", (0, 400, 0), 50)
         assert "joint_reflex" in remote.wait(lambda now: now.mode == "Reflex").errors
-        wait_for(lambda: stands_in(name, viewer.lines()[1]), "the error's name", 60.0)
+        wait_for(lambda: stands_in(name, viewer.lines()[1]), "the error's name", PATIENCE)

@@ -27,7 +27,7 @@ CONTROLLERS = {
     "cartesian_impedance": None,
 }
 RADIUS, CIRCLE = 0.05, 4.0  # [m] python_controllers.yaml, [s]
-WAIT = 90.0  # [s] of wall time, for a few seconds of the robot
+WAIT = 300.0  # [s] of wall time, for a few seconds of the robot
 
 pytestmark = pytest.mark.own_process("robot")
 
@@ -67,15 +67,20 @@ def arm(node):
 
 
 @pytest.mark.parametrize("name", CONTROLLERS)
-def test_runs_and_stops_without_warnings(node, arm, name):
+def test_runs_and_stops(node, arm, name):
     controller = name + "_example_controller"
     node.controllers.load(controller)
     arm.aborts.clear()
-    node.controllers.start(controller)
-    count = arm.states
-    wait_for(lambda: arm.states > count, "A state after the start")
     begin = arm.state
-    wait_for(lambda: arm.state.time > begin.time + RUNS, f"{RUNS} s of the robot")
+    node.controllers.start(controller)
+    end_time, farthest = arm.state.time + RUNS, 0.0
+
+    def has_run():
+        nonlocal farthest
+        farthest = max(farthest, *(abs(a - b) for a, b in zip(begin.q, arm.state.q)))
+        return arm.state.time > end_time and farthest >= (CONTROLLERS[name] or 0.0)
+
+    wait_for(has_run, f"{RUNS} s of the robot, and its motion,", WAIT)
     end = arm.state
     node.controllers.stop(controller)
     wait_for(lambda: arm.is_in("idle"), "Rest")
@@ -84,14 +89,12 @@ def test_runs_and_stops_without_warnings(node, arm, name):
     assert end.robot_mode == MODES["idle" if name == "model" else "moving"]
     if CONTROLLERS[name] is None:
         assert abs(begin.O_T_EE[14] - end.O_T_EE[14]) < 0.005
-    else:
-        assert max(abs(a - b) for a, b in zip(begin.q, end.q)) > CONTROLLERS[name]
 
 
 @pytest.mark.own_process
 def test_the_launch_file_of_a_python_example_moves_the_robot(tmp_path):
     launch = ["franka_example_controllers", "python_cartesian_circle_example_controller.launch", "sim:=true"]
-    launch += ["robot_ip:=127.0.7.3", "rviz:=false", "max_update_time:=1.0", "max_starting_time:=10.0"]
+    launch += ["robot_ip:=127.0.7.3", "rviz:=false", "max_update_time:=30.0", "max_starting_time:=60.0"]
     states = []
 
     def moving():

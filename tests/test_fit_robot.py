@@ -5,7 +5,6 @@
 import os
 import subprocess
 import sys
-import time
 from importlib.machinery import SourceFileLoader
 from importlib.util import module_from_spec, spec_from_loader
 
@@ -15,6 +14,7 @@ import pyfranka.sim
 import pytest
 import yaml
 from fci_session import simulated
+from waiting import wait_for
 
 HIDDEN = {
     "friction": {
@@ -30,7 +30,7 @@ HIDDEN = {
 
 
 def call(*command):
-    return subprocess.run(list(map(str, command)), text=True, capture_output=True, timeout=120)
+    return subprocess.run(list(map(str, command)), text=True, capture_output=True, timeout=600)
 
 
 def fit(recording, robot):
@@ -135,10 +135,9 @@ def test_a_recording_that_the_user_stop_ends_is_kept(tmp_path):
     with simulated("panda", "patient") as sim:
         command = ["franka_info", "record", sim.address, str(recording), "30", "--move"]
         process = subprocess.Popen(command, text=True, stderr=subprocess.PIPE)
-        deadline = time.monotonic() + 60
-        while sim.remote.state().mode != "Move":
-            assert time.monotonic() < deadline and process.poll() is None
-        time.sleep(0.5)
+        wait_for(lambda: sim.remote.state().mode == "Move" or process.poll() is not None, "The motion")
+        end = sim.remote.time() + 0.5
+        wait_for(lambda: sim.remote.time() > end, "Half a second of it")
         sim.remote.user_stop(True)
         _, printed = process.communicate(timeout=60)
     assert process.returncode != 0 and str(recording) in printed and "User" in printed

@@ -178,10 +178,6 @@ def test_reflexes_are_an_argument_of_the_simulation(name, reflexes):
     assert config.params["/reflexes"].value is reflexes
 
 
-def test_all_launch_files_are_tested():
-    assert len(FILES) >= 27 and "franka_control/franka_control.launch" in FILES
-
-
 @pytest.mark.parametrize("name", ["franka_control.launch", "franka_combined_control.launch"])
 def test_a_simulated_robot_gets_patience_and_wait_if_they_are_given(name):
     def options(*given: str) -> str:

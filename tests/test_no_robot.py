@@ -53,7 +53,7 @@ def launched(name: str) -> tuple[int | None, str]:
         stderr=subprocess.STDOUT,
     )
     try:
-        output, _ = process.communicate(timeout=120)
+        output, _ = process.communicate(timeout=300)
     except subprocess.TimeoutExpired:
         process.send_signal(signal.SIGINT)  # it ends its nodes
         output, _ = process.communicate(timeout=60)

@@ -6,15 +6,16 @@ import os
 import re
 import signal
 import subprocess
-import time
 from pathlib import Path
 
 import pytest
 from overlay import Overlay
+from waiting import wait_for
 
 TOP = Path(__file__).resolve().parent.parent
 PACKAGES = TOP / "tests" / "out_of_tree"
 AWAY = 0.1  # [rad], as in the launch file
+LONG = 300.0  # [s] on a busy machine
 BEGIN = -2.356194490192345  # of the fourth joint [rad]
 
 
@@ -28,20 +29,19 @@ def end(process: subprocess.Popen) -> None:
         process.wait()
 
 
-def where(overlay: Overlay, launch: subprocess.Popen, log: Path) -> tuple[str, int, float]:
-    """Answer of the node's own service once the arm has arrived, or after two minutes."""
-    deadline = time.monotonic() + 120
-    answer = None
-    while time.monotonic() < deadline:
+def where(overlay: Overlay, launch: subprocess.Popen, log: Path) -> tuple[str, int]:
+    """Answer of the node's own service once the arm has arrived."""
+    found = None
+
+    def answer():
+        nonlocal found
         assert launch.poll() is None, log.read_text()
-        result = overlay.shell("rosservice call /my_arm/where", overlay.folder / "devel", 60)
-        match = re.search(r'message: "(\w+) (\d+) (\S+)"', result.stdout)
-        if match:
-            answer = match[1], int(match[2]), float(match[3])
-            if abs(answer[2] - (BEGIN + AWAY)) < 0.01:
-                return answer
-        time.sleep(0.3)
-    raise AssertionError(f"{answer}\n{log.read_text()[-4000:]}")
+        result = overlay.shell("rosservice call /my_arm/where", overlay.folder / "devel", LONG)
+        found = re.search(r'message: "(\w+) (\d+) (\S+)"', result.stdout)
+        return found and abs(float(found[3]) - (BEGIN + AWAY)) < 0.01
+
+    wait_for(answer, lambda: f"{log.read_text()[-4000:]}\n{found}, but the end", LONG, 0.3)
+    return found[1], int(found[2])
 
 
 @pytest.mark.parametrize("space", ["devel", "install"])
@@ -54,16 +54,16 @@ def test_package_builds_and_runs(space, tmp_path, request):
     log = tmp_path / "launch.log"
     robot = overlay.start(f"{simulator} --pace lockstep --control-port 0", tmp_path / "robot.log")
     try:
-        deadline = time.monotonic() + 60
-        joints = ""
-        while time.monotonic() < deadline and len(joints.split()) != 7:
-            result = overlay.shell(f"rosrun my_arm where_is_it {address}", tmp_path / "devel", 60)
-            joints = result.stdout if result.returncode == 0 else ""
-        assert float(joints.split()[3]) == pytest.approx(BEGIN, abs=0.01), result
+
+        def joints():
+            result = overlay.shell(f"rosrun my_arm where_is_it {address}", tmp_path / "devel", LONG)
+            return result.stdout.split() if result.returncode == 0 else []
+
+        assert float(wait_for(joints, "The robot's joints", LONG)[3]) == pytest.approx(BEGIN, abs=0.01)
         master = overlay.environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
         launch = overlay.start(f"roslaunch -p {master} my_arm my_arm.launch robot_ip:={address}", log)
         try:
-            arm_id, commands, _ = where(overlay, launch, log)
+            arm_id, commands = where(overlay, launch, log)
         finally:
             end(launch)
         assert arm_id == "panda"

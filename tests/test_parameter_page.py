@@ -30,9 +30,13 @@ SECTIONS = {
         "franka_hw/src/reconnection.cpp",
         "franka_hw/src/abort_reporter.cpp",
     ],
-    "franka_control_node": ["franka_control/src/control_node.cpp"],
+    "franka_control_node": [
+        "franka_control/src/control_node.cpp",
+        "franka_control/src/end_in_time.cpp",
+    ],
     "franka_combined_control_node": [
         "franka_control/src/franka_combined_control_node.cpp",
+        "franka_control/src/end_in_time.cpp",
         "ros_control/combined_robot_hw/src/load_members.cpp",
     ],
     "franka_gripper_node": ["franka_gripper/src/franka_gripper/gripper_node.py"],

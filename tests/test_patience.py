@@ -24,7 +24,6 @@ from waiting import wait_for
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 STOP, PAUSE = (35.0, 31.0) if LONG else (3.0, 0.7)  # [s]
 FOREVER = ["--patience", "forever"]
-MAX_REACTION_TIME = 20.0  # [s] for reactions
 
 
 @pytest.mark.parametrize(
@@ -69,7 +68,7 @@ def test_a_second_robot_and_the_control_ports_work_meanwhile():
         assert second.run_task("set_load")["outcome"] == "ok"
         second.give("move", seconds=0.2, amplitude=0.0)
         wait_for(lambda: other.remote.state().mode == "Move")
-        time.sleep(2.0)  # a client gives up after a second without a state
+        time.sleep(2.0)  # longer than a client waits for a state: the fault itself
         os.kill(client.process.pid, signal.SIGCONT)
         assert client.result()["outcome"] == "ok"
         assert second.result()["outcome"] == "ok"
@@ -106,7 +105,7 @@ def test_the_simulation_ends_while_it_waits(end):
                 sim.remote.quit()
             else:
                 process.send_signal(end)
-            assert process.wait(MAX_REACTION_TIME) == 0
+            assert process.wait(60) == 0
         assert "NetworkException" in client.result()["outcome"]
 
 

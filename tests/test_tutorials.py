@@ -117,7 +117,7 @@ def test_programs_in_cpp_compile(name, tmp_path):
             sources.append(file)
     assert sources
     command = ["g++", "-std=c++17", "-fsyntax-only", "-Wall", "-Wextra", "-Werror", *options, *sources]
-    done = subprocess.run(command, capture_output=True, text=True, timeout=200)
+    done = subprocess.run(command, capture_output=True, text=True, timeout=800)
     assert done.returncode == 0, done.stderr[-4000:]
 
 

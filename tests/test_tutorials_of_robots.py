@@ -134,7 +134,7 @@ def test_the_ported_package_builds_and_runs(tmp_path):
             "until timeout 20 rostopic echo -n 1 /from_noetic_controller/height 2> /dev/null; do true; done;"
             "rosservice call /gazebo/get_body_pose 'body: block'"
         )
-        printed = overlay.run(command, timeout=240)
+        printed = overlay.run(command, timeout=600)
     finally:
         launch.terminate()
         launch.wait(60)

@@ -46,7 +46,7 @@ class Arms:
     def _take(self, state, name):
         self.last[name] = state
         states = [self.last.get(name) for name in self.names]
-        if all(states) and abs((states[0].header.stamp - states[1].header.stamp).to_sec()) < 0.0015:
+        if all(states) and states[0].header.stamp == states[1].header.stamp:
             self.pairs.append(states)
 
     def moving(self):
@@ -115,11 +115,8 @@ def test_two_arms_hold_their_relative_pose_while_the_marker_is_dragged(robot, tm
 
 @pytest.mark.own_process
 def test_the_follower_follows_a_pushed_leader(robot, tmp_path):
-    """The follower's stiff law tolerates no stalls: its torques stay constant while the loop stalls.
-
-    On slow robots a stall of the machine lasts fewer ticks.
-    """
-    addresses = [f"leader_ip:={LEADER}", "follower_ip:=127.0.7.14", "pace:=0.25"]
+    """Patient robots wait for the loop, because the follower's stiff law tolerates no constant torques."""
+    addresses = [f"leader_ip:={LEADER}", "follower_ip:=127.0.7.14"]
     launch = "teleop_joint_pd_example_controller.launch"
     with launched_pair(launch, robot, *addresses, log=tmp_path / "launch.log"):
         arms = Arms(f"/{robot}_teleop", ["leader", "follower"])
@@ -136,11 +133,7 @@ def test_the_follower_follows_a_pushed_leader(robot, tmp_path):
             return [np.abs(np.array(arms.last[name].q) - q).max() for name, q in zip(arms.names, begin)]
 
         Remote(LEADER).push("leader_link7", (0, 12, 0), 300)
-        wait_for(lambda: moved()[0] > 0.05, "A motion of the pushed leader", LIMIT)
-        arms.wait(0.5)
+        wait_for(lambda: moved()[0] > 0.05, "A motion of the pushed leader", LIMIT)  # [rad]
         wait_for(lambda: moved()[1] > 0.05, "A motion of the follower", LIMIT)
         wait_for(lambda: error() < 1e-3 and arms.speed() < 0.05, "The follower's arrival", LIMIT)
-        leader, follower = moved()
-        assert leader > 0.05 and follower > 0.05  # [rad]
-        assert error() < 2e-3  # [rad]
         assert arms.moving()

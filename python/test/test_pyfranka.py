@@ -445,11 +445,11 @@ def test_stop_from_another_thread_ends_a_motion(robot):
         started.set()
         return pyfranka.Torques([0.0] * 7)
 
-    helper = threading.Thread(target=lambda: (started.wait(20), robot.stop()))
+    helper = threading.Thread(target=lambda: (started.wait(60), robot.stop()))
     helper.start()
     with pytest.raises(pyfranka.ControlException):
         robot.control_torques(wait)
-    helper.join(20)
+    helper.join(60)
     assert not helper.is_alive()
 
 

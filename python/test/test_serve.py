@@ -153,7 +153,7 @@ def test_a_client_stays_connected_while_the_program_does_other_work(sim, name):
     assert sim[name].state.m_load == pytest.approx(0.1) and sim.ticks == 0
     moving, errors = begin_motion(sim, name, client, way=0.2, seconds=1.0)
     sim.step(50)
-    time.sleep(2.5)  # longer than a client waits for a state
+    time.sleep(2.5)  # longer than a client waits for a state: the fault itself
     while moving.is_alive():
         sim.step()
     assert not errors
@@ -163,14 +163,15 @@ def test_ctrl_c_ends_the_wait_for_a_client_that_may_think_for_ever(name):
     with Simulation(robots=[KINDS[name]()]) as sim:
         sim.serve(ADDRESSES[name], patience="forever")
         client, silent, go_on, errors = connect(name), threading.Event(), threading.Event(), []
-        passed = 0.0
+        passed = longest = 0.0
 
         def hold(state, period):
-            nonlocal passed
+            nonlocal passed, longest
             passed += period
+            longest = max(longest, period)
             if 0.1 < passed < 0.2:
                 silent.set()
-                go_on.wait(60)
+                go_on.wait(600)
             torques = pyfranka.Torques([0.0] * 7)
             return pyfranka.motion_finished(torques) if passed > 0.3 else torques
 
@@ -182,7 +183,7 @@ def test_ctrl_c_ends_the_wait_for_a_client_that_may_think_for_ever(name):
 
         def interrupt():
             silent.wait(60)
-            time.sleep(0.3)
+            time.sleep(0.3)  # until the program waits: the fault itself
             os.kill(os.getpid(), signal.SIGINT)
 
         threads = [threading.Thread(target=target) for target in (move, interrupt)]
@@ -190,13 +191,12 @@ def test_ctrl_c_ends_the_wait_for_a_client_that_may_think_for_ever(name):
             thread.start()
         with pytest.raises(KeyboardInterrupt):
             sim.step(100000)
-        ticks = sim.ticks
         go_on.set()
         while threads[0].is_alive():
             sim.step()
         threads[1].join()
         assert not errors and passed > 0.3, errors
-        assert 0 < sim.ticks - ticks < 1000
+        assert longest < 0.01, "all other ticks have waited for the client"
 
 
 def test_reason_of_a_refused_client_is_reported(sim, name, caplog):

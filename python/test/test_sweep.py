@@ -10,7 +10,6 @@ import pickle
 import signal
 import subprocess
 import sys
-import time
 from collections import Counter
 from pathlib import Path
 from types import SimpleNamespace
@@ -22,6 +21,7 @@ import pyarrow.parquet
 import pyfranka
 import pyfranka.sim
 import pytest
+import waiting
 from genuine_clients import client_python
 from PIL import Image
 from pyfranka import _sweep_run, sweeps
@@ -30,7 +30,8 @@ from waiting import wait_for
 TOP = Path(__file__).resolve().parents[2]
 DEADLINE = 120.0  # [s] of a busy machine
 MODULE = [sys.executable, "-m", "pyfranka.sweeps"]
-cloudpickle.register_pickle_by_value(sys.modules[__name__])  # workers cannot import the tests
+for module in (sys.modules[__name__], waiting):  # workers cannot import the tests
+    cloudpickle.register_pickle_by_value(module)
 ENVIRONMENT = {
     **os.environ,
     "DASK_DISTRIBUTED__SCHEDULER__ALLOWED_FAILURES": "1",
@@ -53,8 +54,11 @@ def cluster(tmp_path_factory):
             processes.append(subprocess.Popen([*dask, "scheduler", "--port", "0", *where], **options))
             workers = [*dask, "worker", "--nworkers", "2", "--nthreads", "1", *where]
             processes.append(subprocess.Popen(workers, **options))
-            wait_for(file.exists, "the scheduler", DEADLINE)
-            yield json.loads(file.read_text())["address"]
+            wait_for(lambda: file.exists() and file.read_text().endswith("}"), "the scheduler", DEADLINE)
+            address = json.loads(file.read_text())["address"]
+            with distributed.Client(address, timeout=DEADLINE, set_as_default=False) as client:
+                client.wait_for_workers(2, timeout=DEADLINE)
+            yield address
         finally:
             for process in reversed(processes):  # workers first: without a scheduler they wait some seconds
                 process.terminate()
@@ -85,7 +89,8 @@ def log(tmp_path):
 
 def test_results_come_in_order_and_each_case_runs_once(cluster, log):
     def unequal(case, seed):
-        time.sleep(0.05 * (case["number"] % 3 == 0))
+        if case["number"] == 0:  # ends behind others
+            wait_for(log.notes, "Another case")
         log.note(case["number"])
         return case["number"] ** 2, seed
 
@@ -124,7 +129,6 @@ def test_killed_worker_loses_and_duplicates_no_case(cluster, log, tmp_path):
         log.note(case)
         if case == 4 or (case == 9 and log.notes().count("9") == 1):
             os.kill(os.getpid(), signal.SIGKILL)
-        time.sleep(0.02)
         return {"seed": seed}
 
     done = pyfranka.sweep(deadly, 20, cluster, output=tmp_path / "done.parquet")
@@ -149,7 +153,7 @@ def test_the_number_of_cases_in_flight_is_bounded(cluster, monkeypatch):
         monkeypatch.setattr(client, "map", counted)
         assert pyfranka.sweep(lambda case, seed: case, 100, client).results == list(range(100))
         assert client.status == "running", "a client of the caller stays open"
-    assert 3 <= max(most) <= 2 * _sweep_run.PER_THREAD, "of two workers"
+    assert max(most) <= 2 * _sweep_run.PER_THREAD, "of two workers"
 
 
 def test_workers_without_pyfranka_are_reported(monkeypatch):
@@ -284,7 +288,9 @@ from beside import note
 
 def slow(case, seed):
     note(f"{case} {os.getpid()}")
-    time.sleep(0.1)
+    time.sleep(0.1)  # rows are written each second; a longer sleep changes nothing: the fault itself
+    while case >= 50 and not Path("again").exists():
+        time.sleep(0.01)  # between two looks
     return {"double": 2 * case}
 
 done = pyfranka.sweep(slow, 60, workers=2, output="out.NAME")
@@ -328,6 +334,7 @@ def test_interrupted_sweep_continues_where_it_stopped(tmp_path, how, name):
         with (tmp_path / "out.csv").open(newline="") as file:
             written = {int(row["index"]) for row in csv.DictReader(file)}
     assert written
+    (tmp_path / "again").touch()
     second = subprocess.run([sys.executable, "script.py"], timeout=DEADLINE, **options)
     assert second.stdout == "60 True\n", second.stderr
     runs = Counter(int(line.split()[0]) for line in log.read_text().splitlines())

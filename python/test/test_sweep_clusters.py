@@ -8,14 +8,14 @@ import shutil
 import socket
 import subprocess
 import sys
-import time
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 
 import cloudpickle
 import numpy
 import pyfranka
 import pytest
 from pyfranka.sim import KINDS, Simulation
+from waiting import wait_for
 
 cloudpickle.register_pickle_by_value(sys.modules[__name__])  # workers cannot import the tests
 SSHD = shutil.which("sshd", path=f"{os.environ['PATH']}:/usr/sbin")
@@ -37,6 +37,7 @@ def motion(case, seed):
 
 def check(cluster):
     """A sweep there gives what each case gives here, once and in order, in other processes."""
+    cluster.wait_for_workers(2, timeout=STARTS)
     cases = ["panda", "fr3"] * 6
     done = pyfranka.sweep(motion, cases, cluster)
     assert not done.failed, done.failed[0].error
@@ -70,15 +71,15 @@ def ssh_server(folder):
         os.makedirs("/run/sshd", exist_ok=True)  # its package makes it at the start of the system
     with (folder / "log").open("w") as log:
         server = subprocess.Popen([SSHD, "-D", "-e", "-f", configuration], stderr=log)
+
+        def accepts():
+            assert server.poll() is None, (folder / "log").read_text()
+            with suppress(OSError):
+                socket.create_connection(("127.0.0.1", port), timeout=STARTS).close()
+                return True
+
         try:
-            deadline = time.monotonic() + STARTS
-            while True:
-                try:
-                    socket.create_connection(("127.0.0.1", port), timeout=1.0).close()
-                    break
-                except OSError:
-                    assert server.poll() is None and time.monotonic() < deadline, (folder / "log").read_text()
-                    time.sleep(0.05)
+            wait_for(accepts, "The server", STARTS)
             yield port, folder / "client"
         finally:
             server.terminate()
@@ -118,5 +119,4 @@ def test_by_the_scripts_of_a_job_queue(tmp_path):
     ) as cluster:
         assert "distributed.cli.dask_worker tcp://127.0.0.1:" in cluster.job_script(), cluster.job_script()
         cluster.scale(2)
-        cluster.wait_for_workers(2, timeout=STARTS)
         check(cluster)

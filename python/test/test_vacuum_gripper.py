@@ -29,7 +29,7 @@ class FakeGripper:
     def close(self):
         self._listener.shutdown(socket.SHUT_RDWR)
         self._listener.close()
-        self._thread.join(10)
+        self._thread.join(60)
 
     def _serve(self):
         while True:
@@ -44,7 +44,7 @@ class FakeGripper:
 
     def _talk(self, client, peer, ended):
         stream = client.makefile("rb")
-        client.settimeout(30)
+        client.settimeout(60)
         pending = []
         while True:
             head = stream.read(HEADER.size)
@@ -126,9 +126,9 @@ def test_stop_from_another_thread(fake):
     """The fake runs in this process: a wait with the interpreter's lock held would never end."""
     gripper = pyfranka.VacuumGripper(ADDRESS)
     fake.waits = True
-    stopper = threading.Thread(target=lambda: (fake.waiting.wait(20), gripper.stop()))
+    stopper = threading.Thread(target=lambda: (fake.waiting.wait(60), gripper.stop()))
     stopper.start()
     with pytest.raises(pyfranka.CommandException, match="aborted"):
         gripper.vacuum(100, timedelta(seconds=60))
-    stopper.join(20)
+    stopper.join(60)
     assert not stopper.is_alive()

@@ -39,7 +39,6 @@ class ClientSession:
             text=True,
         )
         self._lines = Lines(self.process.stdout)
-        self.seconds = 0.0  # that the last task took in the client
 
     def begin(self, statements: str) -> None:
         """Begins to execute statements; `end` waits for their end."""
@@ -50,7 +49,6 @@ class ClientSession:
         line = self._lines.next(timeout)
         assert line is not None, f"The client has ended, or has not answered for {timeout:g} s."
         answer = json.loads(line)
-        self.seconds = answer["seconds"]
         if "error" in answer:
             raise ClientError(answer["error"], answer["text"])
         return answer["value"]

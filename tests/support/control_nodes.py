@@ -8,6 +8,7 @@ from pathlib import Path
 import rospy
 import yaml
 from actionlib_msgs.msg import GoalStatus
+from diagnostic_msgs.msg import DiagnosticArray
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
 from geometry_msgs.msg import PoseStamped
 from pyfranka.remote import Remote
@@ -16,6 +17,7 @@ from ros_nodes import CONTROL_CONFIG
 from std_msgs.msg import Bool, String
 from waiting import wait_for
 
+OK, ERROR = 0, 2  # levels of diagnostics
 ONE, COMBINED = "/franka_control", "/combined_panda"
 PUSH = (0, 0, -220), 60  # far beyond the thresholds [N, ms]
 SUCCEEDED = (GoalStatus.SUCCEEDED, "")
@@ -190,6 +192,31 @@ class ControlNode:
         self.recover()
         self.wait_until_all_are("moving")
         self.wait_for(lambda arm: not arm.has_error, "The end of the errors")
+
+
+class Diagnosis:
+    """The latest diagnostics of a node."""
+
+    def __init__(self, node: str):
+        self.node, self.latest = node, {}
+        rospy.Subscriber("/diagnostics", DiagnosticArray, self._store)
+
+    def _store(self, message: DiagnosticArray) -> None:
+        self.latest.update({status.name: status for status in message.status})
+
+    def shows(self, what: str, text: str, **values: str):
+        """One status, once it has that text and these values: level, hardware, all values."""
+        return self.status_when(what, lambda now, given: now == text and given.items() >= values.items())
+
+    def status_when(self, what: str, condition):
+        """The same, once a condition on its text and its values holds."""
+
+        def matching():
+            status = self.latest.get(f"{self.node}: {what}")
+            values = {each.key: each.value for each in status.values} if status else {}
+            return status and condition(status.message, values) and (status.level, status.hardware_id, values)
+
+        return wait_for(matching, lambda: f"A status of {what}, out of {self.latest},")
 
 
 def go_to_height(arm: Arm, publisher: rospy.Publisher, height: float) -> None:

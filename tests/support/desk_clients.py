@@ -16,27 +16,19 @@ PANDA = f"""
     desk = Desk(HOST, {LOGIN})
 """
 
-FRANKY = f"""
+
+def franky(kind: str) -> str:
+    return f"""
     import franky
-    desk = franky.{{}}(HOST, {LOGIN}{{}})
+    desk = franky.{kind}(HOST, {LOGIN})
     desk.open()
 """
 
 
-def franky(kind: str, more: str = "") -> str:
-    return FRANKY.format(kind, more)
-
-
 FRANKA_DESK = f"""
     import franka_desk
-    desk = franka_desk.FrankaDeskClient(f"https://{{HOST}}", {LOGIN}{{}})
+    desk = franka_desk.FrankaDeskClient("https://" + HOST, {LOGIN})
 """
-
-
-def franka_desk(more: str = "") -> str:
-    return FRANKA_DESK.replace("{HOST}", "@").format(more).replace("@", "{HOST}")
-
-
 DESKAPI = f"""
     import json
     from deskapi import FrankDeskApi
@@ -57,26 +49,18 @@ def rcs(name: str) -> str:
 
 AIOFRANKA = f"""
     import aiofranka, numpy
-    from aiofranka.server import _DeskClient, _DeskClientV2
     names = dict(username={USER!r}, password={PASSWORD!r})
 """
 
 
 @contextmanager
-def client_of(name: str, desk, home: Path, **environment: str):
-    """A genuine client that knows `HOST` and trusts the certificate of Desk."""
-    environment["SSL_CERT_FILE"] = str(desk.certificate)
-    with client_session(client_python(name), home, **environment) as session:
-        session.run(f"HOST = {desk.host!r}")
-        yield session
-
-
-@contextmanager
 def desk_and_client(folder: Path, name: str, profile: str, **settings):
-    """A robot with its Desk and one genuine client. settings: of robot_with_desk."""
-    client_python(name)  # before the robot
+    """A robot with its Desk, and one genuine client that knows `HOST` and trusts the certificate of Desk.
+    settings: of robot_with_desk."""
+    python = client_python(name)  # before the robot
     with robot_with_desk(folder, profile, **settings) as desk:
-        with client_of(name, desk, folder / "client") as client:
+        with client_session(python, folder / "client", SSL_CERT_FILE=str(desk.certificate)) as client:
+            client.run(f"HOST = {desk.host!r}")
             yield desk, client
 
 

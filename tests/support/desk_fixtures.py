@@ -25,6 +25,7 @@ def fresh_robot(place, **report):
     robot, _ = place
     robot.report.update(copy.deepcopy(REPORT), **report)
     robot.answers.clear()
+    robot.raw_report = None
     return robot
 
 

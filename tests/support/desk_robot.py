@@ -103,6 +103,10 @@ class ScriptedRobot:
         self._loop.call_soon_threadsafe(self._loop.stop)
         self._thread.join(10)
 
+    def call(self, work, *arguments):
+        """Calls a function in the thread of the robot."""
+        self._loop.call_soon_threadsafe(work, *arguments)
+
     async def _end(self):
         self._server.close()
         for writer in list(self._writers):

@@ -117,7 +117,7 @@ class Sequence:
     headers: Callable[[Step, dict], HeaderLines]
     start: list[Step | Stream]
     end: list[Step | Stream]
-    options: tuple[str, ...] = ()
+    options: tuple[str, ...] = ()  # of Desk that are on
     held: bool = False  # whether another user has control at first
     unbroken: bool = False  # whether the password's digest has no line breaks
     closed: bool = False  # whether the brakes stay closed at the end
@@ -185,21 +185,6 @@ SEQUENCES = [
         [Step("POST", CLOSE), LOGOUT],
         unbroken=True,
         closed=True,
-    ),
-    Sequence(
-        "franka_lock_unlock",
-        ("fer-spoc",),
-        by_requests,
-        [
-            login(),
-            TOKEN_STATE,
-            request_control(),
-            Step("GET", "/admin/api/control-token", until=is_active),
-            open_brakes("true"),
-            HOMING,
-            ACTIVATE,
-        ],
-        [RELEASE, LOGOUT, Step("POST", OPEN, *multipart("true"), status=401)],
     ),
     Sequence(
         "franka_lock_unlock with a physical request",
@@ -278,7 +263,7 @@ SEQUENCES = [
             Stream("/admin/api/safety/status", all_are("Unlocked")),
         ],
         [open_brakes("True", path=LOCK, with_token=False), RELEASE, LOGOUT],
-        options=("fci-before-unlock=on",),
+        options=("fci_before_unlock",),
         closed=True,
     ),
     Sequence(
@@ -291,24 +276,6 @@ SEQUENCES = [
             Step("DELETE", "/admin/api/control-token/fci", *WITH_TOKEN),
             RELEASE,
             Step("DELETE", "/admin/api/control-token", *WITH_TOKEN, status=404, text="ControlTokenUnknown"),
-        ],
-        closed=True,
-    ),
-    Sequence(
-        "rcs_panda",
-        ("fer-spoc",),
-        by_requests,
-        [
-            login(),
-            TOKEN_STATE,
-            request_control("?force"),
-            open_brakes("True"),
-            Step("POST", "/admin/api/control-token/fci", with_token=True),
-        ],
-        [
-            Step("DELETE", "/admin/api/control-token/fci", *WITH_TOKEN, with_token=True),
-            open_brakes("True", path=CLOSE, with_token=False),
-            Step("DELETE", "/admin/api/control-token", *WITH_TOKEN, with_token=True),
         ],
         closed=True,
     ),

@@ -6,11 +6,11 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import contextlib
 import http.client
 import json
 import ssl
 import threading
-import time
 import typing
 from dataclasses import dataclass, field
 
@@ -18,11 +18,13 @@ from pyfranka.desk import Limits, Options, Robot, Settings
 from pyfranka.desk.certificate import tls_context
 from pyfranka.desk.server import Site, app_of, make_desks
 from pyfranka.desk.sessions import digest_of
+from waiting import wait_for
 
 USER, PASSWORD = "franka", "open-sesame"
 # Tests send wrong passwords and many requests.
 LIMITS = Limits(rate=20000.0, wrong_logins=100000)
 START_LIMIT = 60.0  # [s] for one call, on a busy machine
+STEP = 1.0  # [s] by which the clock is put forward at once: less than a report of the robot may take
 
 
 @dataclass
@@ -52,6 +54,23 @@ def basic(user: str = USER, password: str = PASSWORD) -> dict[str, str]:
     return {"Authorization": "Basic " + base64.b64encode(f"{user}:{password}".encode()).decode()}
 
 
+class SteppedLoop(asyncio.SelectorEventLoop):
+    """An event loop whose clock can be stopped and put forward; all time limits of Desk follow it."""
+
+    ahead = 0.0  # [s]
+    stopped_at: float | None = None
+
+    def time(self) -> float:
+        return self.ahead + (super().time() if self.stopped_at is None else self.stopped_at)
+
+    def stop_clock(self) -> None:
+        self.stopped_at = super().time()
+
+    def start_clock(self) -> None:
+        self.ahead -= super().time() - self.stopped_at
+        self.stopped_at = None
+
+
 @dataclass
 class DeskServer:
     """A running Desk of one robot. profile: empty: by the robot. lines: those that it has sent."""
@@ -64,7 +83,7 @@ class DeskServer:
     limits: Limits = LIMITS
 
     def __enter__(self) -> DeskServer:
-        self.loop = asyncio.new_event_loop()
+        self.loop = SteppedLoop()
         self._thread = threading.Thread(target=self.loop.run_forever, daemon=True)
         self._thread.start()
         self.call(self._start())
@@ -106,12 +125,34 @@ class DeskServer:
 
     def prepare(self, lines: typing.Iterable[str]) -> None:
         """Sends lines to the robot when its self-test, if there is one, has ended."""
-        deadline = time.monotonic() + START_LIMIT
-        while self.call(self.desk.robot.refresh()).self_test.running:
-            assert time.monotonic() < deadline, "The self-test has not ended."
-            time.sleep(0.01)
+        wait_for(lambda: not self.call(self.desk.robot.refresh()).self_test.running, "The self-test's end")
         for line in lines:
             self.call(self.desk.robot.send(line))
+
+    @contextlib.contextmanager
+    def stopped_clock(self):
+        """Within it, Desk's clock moves by advance() only, and reports come by it and by refresh() only."""
+
+        async def call(change: typing.Callable[[], None]) -> None:
+            change()
+
+        self.call(call(self.loop.stop_clock))
+        try:
+            yield
+        finally:
+            self.call(call(self.loop.start_clock))
+
+    def advance(self, seconds: float) -> None:
+        """Puts Desk's clock forward. The robot answers after each step, so none of its reports is late."""
+
+        async def step() -> None:
+            end = self.loop.ahead + seconds
+            while self.loop.ahead < end:
+                self.loop.ahead = min(self.loop.ahead + STEP, end)
+                await self.desk.robot.refresh()
+
+        self.close_connection()  # which Desk ends after a while without requests
+        self.call(step())
 
     async def _stop(self) -> None:
         await self.site.cleanup()

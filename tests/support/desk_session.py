@@ -8,8 +8,6 @@ import shutil
 import ssl
 import subprocess
 import sys
-import threading
-import time
 import urllib.error
 import urllib.request
 from concurrent.futures import ThreadPoolExecutor
@@ -18,11 +16,12 @@ from pathlib import Path
 
 from fci_session import simulated
 from lines import Lines
+from waiting import wait_for
 
 USER, PASSWORD = "operator", "a long random word"
 PORT = 443
 TO_START = 60.0  # [s] on a busy machine
-LIMIT = 30.0  # [s] to wait for a state of the robot
+LIMIT = 60.0  # [s] to wait for a state of the robot
 PAUSE = 0.02  # [s] between two looks
 
 
@@ -61,11 +60,13 @@ class Desk:
 
     def wait(self, condition, limit: float = LIMIT) -> dict:
         """The first report that fulfils the condition, after Desk has seen it too."""
-        deadline = time.monotonic() + limit
-        while not condition(report := self.report()):
-            assert time.monotonic() < deadline, f"Not within {limit:g} s; the last report: {report}"
-            time.sleep(PAUSE)
-        self._wait_for_desk(deadline)
+        report = wait_for(
+            lambda: condition(report := self.report()) and report,
+            lambda: f"The state after {self.report()}",
+            limit,
+            PAUSE,
+        )
+        self._wait_for_desk(limit)
         return report
 
     def get(self, path: str):
@@ -77,56 +78,37 @@ class Desk:
 
     def wait_for_page(self, limit: float = LIMIT) -> None:
         """Waits until Desk answers again."""
-        deadline = time.monotonic() + limit
-        while True:
-            with suppress(urllib.error.URLError, ConnectionError):
-                if self.get("/admin/api/startup-phase") == {"tag": "Started"}:
-                    return
-            assert time.monotonic() < deadline, f"Desk has not answered within {limit:g} s."
-            time.sleep(PAUSE)
 
-    def _wait_for_desk(self, deadline: float) -> None:
+        def has_started() -> bool:
+            with suppress(urllib.error.URLError, ConnectionError):
+                return self.get("/admin/api/startup-phase") == {"tag": "Started"}
+            return False
+
+        wait_for(has_started, "Desk's answer", limit, PAUSE)
+
+    def _wait_for_desk(self, limit: float) -> None:
         if not self.robot.kind == "fr3":
             return  # no page without a login says how old Desk's report is
         with suppress(urllib.error.URLError, ConnectionError):  # the robot is off
-            first = self.get("/admin/api/safety/status")["sequenceNumber"]
-            while self.get("/admin/api/safety/status")["sequenceNumber"] < first + 2:
-                assert time.monotonic() < deadline, "Desk has no new report."
-                time.sleep(PAUSE)
+            first = self._number()
+            wait_for(lambda: self._number() >= first + 2, "Desk's next report", limit, PAUSE)
+
+    def _number(self) -> int:
+        """Of Desk's newest report."""
+        return self.get("/admin/api/safety/status")["sequenceNumber"]
 
     def send(self, line: str) -> str:
         """Sends a line to the robot's control interface."""
         return self.robot.remote.send(line)
 
     @contextmanager
-    def pressing(self, button: str, *, when_asked: bool = False):
-        """Presses a button of the Pilot again and again until the end of the block. when_asked:
-        begins when a client requests control; a press that began before that would confirm nothing."""
-        ended = threading.Event()
-
-        def press():
-            while when_asked and not ended.wait(PAUSE):
-                if self.get("/admin/api/control-token")["tokenRequest"]:
-                    break
-            while not ended.is_set():
-                for state in ("on", "off"):
-                    self.send(f"button {button} {state}")
-                    ended.wait(0.3)
-
-        with beside(press):
-            try:
-                yield
-            finally:
-                ended.set()
-
-    @contextmanager
-    def held(self, name: str, press: str = "on", release: str = "off"):
-        """An input that is pressed until the end of the block."""
-        self.send(f"{name} {press}")
+    def held(self, name: str):
+        """An input or a button of the Pilot that is pressed until the end of the block."""
+        self.send(f"{name} on")
         try:
             yield
         finally:
-            self.send(f"{name} {release}")
+            self.send(f"{name} off")
 
 
 @contextmanager
@@ -151,14 +133,14 @@ def program(name: str, words: list[str], environment: dict[str, str]):
     try:
         yield next_line
     except BaseException:
-        while next_line(0.1) is not None:
+        while next_line(0.1) is not None:  # what it has written already
             pass
         print(f"{name} has written:", *written, sep="\n")
         raise
     finally:
         process.terminate()
         try:
-            process.wait(10.0)
+            process.wait(LIMIT)
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
@@ -177,21 +159,18 @@ def desk_of(robot, folder: Path, profile: str = "", options=(), port: int = PORT
 
 def wait_for_place(next_line) -> str:
     """ADDRESS:PORT of the first Desk that the program reports."""
-    deadline = time.monotonic() + TO_START
-    while (line := next_line(max(0.0, deadline - time.monotonic()))) is not None:
+    while (line := next_line(TO_START)) is not None:
         if "https://" in line:
             return line.rpartition("https://")[2].strip("/")
     raise AssertionError("franka_desk has not printed its address.")
 
 
 @contextmanager
-def robot_with_desk(
-    folder: Path, profile: str, *, pace: str = "patient", options=(), port: int = PORT, brakes: float = 0.4
-):
-    """A locked robot of the profile's type, and its Desk. brakes: time that they need [s]."""
+def robot_with_desk(folder: Path, profile: str, *, options=(), port: int = PORT):
+    """A locked robot of the profile's type, and its Desk."""
     kind = "fr3" if profile.startswith("fr3") else "panda"
-    with simulated(kind, pace, "--start", "locked") as robot:
-        robot.remote.send(f"timing brakes {brakes}")
+    with simulated(kind, "patient", "--start", "locked") as robot:
+        robot.remote.send("timing brakes 0.4")
         with desk_of(robot, folder, profile, options, port) as desk:
             yield desk
 

@@ -8,13 +8,12 @@ import json
 import os
 import ssl
 import struct
-import time
 from contextlib import nullcontext
 
 from desk_sequences import HeaderLines, Sequence, Step, Stream, digest_of
+from waiting import wait_for
 
-LIMIT = 30.0  # [s] to wait for an answer, or for a state
-PAUSE = 0.05  # [s] between two requests that wait for a state
+LIMIT = 60.0  # [s] to wait for an answer
 
 
 class Wire:
@@ -82,18 +81,13 @@ class Player:
 
     def play(self, steps) -> None:
         for step in steps:
-            pressing = self.desk.pressing(step.press) if step.press else nullcontext()
-            with pressing:
+            with self.desk.held(f"button {step.press}") if step.press else nullcontext():
                 self._stream(step) if isinstance(step, Stream) else self._step(step)
 
     def _step(self, step: Step) -> None:
-        deadline = time.monotonic() + LIMIT
-        while True:
-            text = self._send(step)
-            if step.until is None or step.until(json.loads(text), self.kept):
-                break
-            assert time.monotonic() < deadline, (step, text)
-            time.sleep(PAUSE)
+        text = self._send(step)
+        if step.until is not None:
+            wait_for(lambda: step.until(json.loads(self._send(step)), self.kept), step.path)
         assert step.text in text, (step, text)
         for name in step.keep:
             self.kept[name] = text if name == "login" else json.loads(text)[name]

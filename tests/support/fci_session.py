@@ -49,14 +49,13 @@ def go_with_all(pid: int = 0) -> None:
 
 
 class ClientProcess:
-    """A genuine or own client in its own process; `tell` sends it one task and returns the result."""
+    """A genuine or own client in its own process; `run_task` sends it one task and returns the result."""
 
     def __init__(self, library: str, python: str):
         script = HERE / "genuine" / "network_client.py"
         self.process = subprocess.Popen(
             [python, str(script), library], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True
         )
-        go_first(self.process.pid)
         self._lines = Lines(self.process.stdout)
         self._due = False  # a result
 
@@ -69,6 +68,11 @@ class ClientProcess:
             self.result()
         self._due = True
         self.process.stdin.write(json.dumps({"do": do, **task}) + "\n")
+        self.process.stdin.flush()
+
+    def go_on(self) -> None:
+        """Ends the wait of a motion that is held."""
+        self.process.stdin.write("\n")
         self.process.stdin.flush()
 
     def line(self, timeout: float = 60.0) -> str:

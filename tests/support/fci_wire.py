@@ -13,6 +13,7 @@ from dataclasses import dataclass
 
 HEADER = struct.Struct("<III")  # command, id, size of the whole message
 PORT = 1337
+LIMIT = 60.0  # [s] of each wait
 IDLE, MOVE, REFLEX = 1, 2, 4  # robot_mode
 CONNECT, START, STOP = 0, 1, 2  # requests whose numbers are the same in both versions
 JOINT_POSITION, NO_GENERATOR, JOINT_IMPEDANCE, EXTERNAL = 0, 4, 0, 2
@@ -118,7 +119,7 @@ class Client:
         self.version, self.next_id, self.robot = version, 0, None
         self.udp = socket.socket(socket.AF_INET, socket.SOCK_DGRAM)
         self.udp.bind(("", 0))
-        self.tcp = socket.create_connection((address, port), timeout=20)
+        self.tcp = socket.create_connection((address, port), timeout=LIMIT)
         self.tcp.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
 
     def __enter__(self):
@@ -153,7 +154,7 @@ class Client:
         _, reply = self.reply()
         return reply[0], struct.unpack_from("<H", reply, 1)[0]
 
-    def reply(self, timeout: float = 20.0) -> tuple[int, bytes]:
+    def reply(self, timeout: float = LIMIT) -> tuple[int, bytes]:
         """@returns the next reply's id and its payload. Raises EOFError if there is none."""
         self.tcp.settimeout(timeout)
         _, identity, size = HEADER.unpack(self._exactly(HEADER.size))
@@ -168,7 +169,7 @@ class Client:
             data += part
         return data
 
-    def ended(self, timeout: float = 10.0) -> bool:
+    def ended(self, timeout: float = LIMIT) -> bool:
         """Whether the robot closes the connection within that time."""
         self.tcp.settimeout(timeout)
         try:
@@ -178,7 +179,7 @@ class Client:
         except TimeoutError:
             return False
 
-    def state(self, timeout: float = 20.0) -> State:
+    def state(self, timeout: float = LIMIT) -> State:
         """The oldest unread state."""
         if not select.select([self.udp], [], [], timeout)[0]:
             raise TimeoutError(f"The robot has sent no state for {timeout} s.")

@@ -13,14 +13,18 @@ The tests of one process share their module's fixtures.
 
 import json
 import os
+import signal
 import subprocess
 import sys
 import tempfile
+import uuid
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
 
 REPORTS = "FRANKA_TEST_REPORTS"  # set in a child: the descriptor to which it writes its reports
+GROUP = "FRANKA_TEST_GROUP"  # set in a child and in all that it starts: a text of this group only
 LAST_LINES = 60  # of a log, with each failure
 
 logs: list[Path] = []  # whose last lines are shown with each failure
@@ -42,6 +46,15 @@ def group_of(item):
     return None
 
 
+def kill_processes_with(variable: str, value: str) -> None:
+    """Kills the processes that have inherited this variable of the environment."""
+    mark = f"{variable}={value}".encode()
+    for entry in Path("/proc").iterdir():
+        with suppress(OSError):
+            if entry.name.isdigit() and mark in (entry / "environ").read_bytes().split(b"\0"):
+                os.kill(int(entry.name), signal.SIGKILL)
+
+
 class Group:
     """A child process that runs the items of a group."""
 
@@ -52,12 +65,14 @@ class Group:
         command += [f"--rootdir={config.rootpath}"]
         command += [f"--capture={config.option.capture}", f"--timeout={config.getoption('timeout') or 0}"]
         command += ["--long"] * config.getoption("long") + [item.nodeid for item in items]
+        self.last = items[-1]
         read, write = os.pipe()
+        self._mark = uuid.uuid4().hex
         self._output = tempfile.TemporaryFile()
         self._process = subprocess.Popen(
             command,
             cwd=config.rootpath,
-            env={**os.environ, REPORTS: str(write)},
+            env={**os.environ, REPORTS: str(write), GROUP: self._mark},
             pass_fds=[write],
             stdout=None if config.option.capture == "no" else self._output,
             stderr=None if config.option.capture == "no" else subprocess.STDOUT,
@@ -82,8 +97,10 @@ class Group:
         yield pytest.TestReport(item.nodeid, item.location, {}, "failed", text, "call")
 
     def end(self):
+        """A child that has died, as Xlib or a signal may end it, has left what it started."""
         self._reports.close()
         self._process.wait()
+        kill_processes_with(GROUP, self._mark)
 
 
 class Parent:
@@ -97,7 +114,7 @@ class Parent:
         return None if item.get_closest_marker("skip") else group_of(item)
 
     @pytest.hookimpl(tryfirst=True)
-    def pytest_runtest_protocol(self, item, nextitem):
+    def pytest_runtest_protocol(self, item):
         key = self._key(item)
         if key is None:
             return None
@@ -107,9 +124,14 @@ class Parent:
         for report in self._groups[key].reports_of(item):
             item.ihook.pytest_runtest_logreport(report=report)
         item.ihook.pytest_runtest_logfinish(nodeid=item.nodeid, location=item.location)
-        if nextitem is None or self._key(nextitem) != key:
-            self._groups[key].end()
+        # Between two items of a group others may stand, such as a skipped one.
+        if item is self._groups[key].last:
+            self._groups.pop(key).end()
         return True
+
+    def pytest_sessionfinish(self):
+        for group in self._groups.values():
+            group.end()
 
     @pytest.hookimpl(tryfirst=True)
     def pytest_timeout_set_timer(self, item, settings):

@@ -78,11 +78,11 @@ def run_registered(build: Path, tests: list[Registered], workers: int) -> dict[R
     return {test: test.cases(test.name in well) for test in tests}
 
 
-def run_pytest(path: Path, results: Path, long: bool, node_ids: list[str] | None = None) -> list[Case]:
+def run_pytest(path: Path, results: Path, node_ids: list[str] | None = None) -> list[Case]:
     """Runs a file, or some of its cases. Prints the output if one failed, otherwise the number of tests."""
     results.unlink(missing_ok=True)
     command = [sys.executable, "-m", "pytest", "-q", f"--timeout={PYTEST_LIMIT}", f"--junitxml={results}"]
-    command += (["--long"] if long else []) + (node_ids or [str(path)])
+    command += node_ids or [str(path)]
     if "hypothesis" not in path.read_text(encoding="utf-8"):
         command += ["-p", "no:hypothesispytest"]  # it takes seconds to import
     result = subprocess.run(command, cwd=TOP, text=True, errors="replace", stdout=PIPE, stderr=STDOUT)

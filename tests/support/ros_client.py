@@ -102,12 +102,12 @@ class Action:
         """The handle of a goal. @param callbacks of actionlib's send_goal"""
         return self._client.send_goal(goal, **callbacks)
 
-    def run(self, goal, patience: float = 30.0) -> tuple[int | None, str]:
+    def run(self, goal, patience: float = PATIENCE) -> tuple[int | None, str]:
         """Status and text of a goal."""
         return outcome(self.send(goal), patience)
 
 
-def outcome(handle, patience: float = 30.0) -> tuple[int | None, str]:
+def outcome(handle, patience: float = PATIENCE) -> tuple[int | None, str]:
     """Status and text of a goal that was sent."""
     if not holds(lambda: handle.get_comm_state() == actionlib.CommState.DONE, patience):
         return None, "no result"
@@ -138,7 +138,7 @@ class Controllers:
             start_controllers=list(start),
             stop_controllers=list(stop),
             strictness=strictness,
-            timeout=15.0,
+            timeout=PATIENCE,
         )
         return answer.ok
 

@@ -5,12 +5,13 @@
 import os
 import signal
 import subprocess
-import time
 import xmlrpc.client
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
+import yaml
 from franka_sim_mujoco.session import free_port
+from waiting import PATIENCE, holds, wait_for
 
 CONTROL_CONFIG = Path(__file__).resolve().parents[2] / "catkin_ws/src/franka_control/config"
 
@@ -35,6 +36,14 @@ def robot_description(robot: str, **arguments: str) -> str:
     return subprocess.run(command, text=True, capture_output=True, check=True).stdout
 
 
+def parameters(file: str, **arguments: str):
+    """Those of franka_control's nodes and controllers, as their launch file loads them."""
+    text = (CONTROL_CONFIG / file).read_text()
+    for name, value in arguments.items():
+        text = text.replace(f"$(arg {name})", value)
+    return yaml.safe_load(text)
+
+
 class Node:
     """A running node."""
 
@@ -45,28 +54,20 @@ class Node:
     def output(self) -> str:
         return self.log.read_text(errors="replace")
 
-    def prints(self, text: str, timeout: float = 30.0) -> bool:
+    def must_print(self, *texts: str) -> None:
         """Waits for this output, at most until the node exits."""
-        deadline = time.monotonic() + timeout
-        while time.monotonic() < deadline:
-            lives = self.process.poll() is None
-            if text in self.output:
-                return True
-            if not lives:
-                return False
-            time.sleep(0.01)
-        return False
+        for text in texts:
+            holds(lambda text=text: self.process.poll() is not None or text in self.output)
+            assert text in self.output, self.output
 
-    def ends(self, timeout: float = 30.0) -> int:
+    def ends(self) -> int:
         """Waits for its exit; returns its status."""
-        return self.process.wait(timeout)
+        return self.process.wait(PATIENCE)
 
-    def interrupt(self, timeout: float = 30.0) -> float:
-        """Interrupts it as Ctrl-C does; returns the time until its exit [s]."""
-        begin = time.monotonic()
+    def interrupt(self) -> int:
+        """Interrupts it as Ctrl-C does; returns its status."""
         self.process.send_signal(signal.SIGINT)
-        self.process.wait(timeout)
-        return time.monotonic() - begin
+        return self.ends()
 
 
 class Master:
@@ -88,14 +89,12 @@ class Master:
         self.process = subprocess.Popen(
             command, env=self.environment, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
         )
-        deadline = time.monotonic() + 60.0
-        while True:
-            try:
-                self.server.getPid("/test")
-                return
-            except OSError:
-                assert time.monotonic() < deadline, "The ROS master did not come up."
-                time.sleep(0.02)
+
+        def answers():
+            with suppress(OSError):
+                return self.server.getPid("/test")
+
+        wait_for(answers, "The ROS master")
 
     def stop(self) -> None:
         self.process.kill()

@@ -7,7 +7,7 @@ import os
 import re
 import subprocess
 from collections.abc import Callable
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -34,7 +34,7 @@ def virtual_screen(size: str = "1280x960x24"):
             yield
     finally:
         server.terminate()
-        server.wait(10)
+        server.wait(60)
 
 
 def with_rviz(use: Callable[[], Any], log: Path) -> Any:
@@ -55,14 +55,14 @@ def with_rviz(use: Callable[[], Any], log: Path) -> Any:
 
 def colours(path: Path, window: int | None = None) -> int:
     """Takes a picture of a window, or of all of the screen, and counts its colours."""
-    subprocess.run(["import", "-window", str(window or "root"), str(path)], check=True, timeout=30)
+    subprocess.run(["import", "-window", str(window or "root"), str(path)], check=True, timeout=60)
     with Image.open(path) as picture:
         return len(picture.convert("RGB").getcolors(maxcolors=1 << 20))
 
 
 def window_of(title: str) -> int | None:
     """The number of the first window whose title contains a text."""
-    tree = subprocess.run(["xwininfo", "-root", "-tree"], text=True, capture_output=True, timeout=30).stdout
+    tree = subprocess.run(["xwininfo", "-root", "-tree"], text=True, capture_output=True, timeout=60).stdout
     found = re.search(rf'^\s*(0x[0-9a-f]+) "[^"]*{re.escape(title)}[^"]*"', tree, re.M)
     return int(found.group(1), 16) if found else None
 
@@ -70,22 +70,53 @@ def window_of(title: str) -> int | None:
 def children_of(window: int) -> list[tuple[int, int, int, int]]:
     """Left, top, width and height on the screen of all windows in a window, the topmost first."""
     command = ["xwininfo", "-id", str(window), "-tree"]
-    tree = subprocess.run(command, text=True, capture_output=True, timeout=30).stdout
+    tree = subprocess.run(command, text=True, capture_output=True, timeout=60).stdout
     places = re.findall(r"^ +0x.* (\d+)x(\d+)\+\S+ +\+(\d+)\+(\d+)$", tree, re.M)
     found = [(int(x), int(y), int(width), int(height)) for width, height, x, y in places]
     return sorted(found, key=lambda place: place[1])
+
+
+def picture_of(title: str, path: Path, x: int = 0, y: int = 0, size: tuple[int, int] | None = None) -> int:
+    """Moves a window, takes a picture of it, and counts its colours: 0 if there is no such window.
+
+    A window that has just opened may be replaced by another one.
+    """
+    window = window_of(title)
+    with suppress(WindowIsGone, subprocess.CalledProcessError):
+        if window:
+            move_window(window, x, y, size)
+            return colours(path, window)
+    return 0
+
+
+class WindowIsGone(LookupError):
+    """X knows no window of that number any more."""
+
+
+_errors = []
+
+
+@ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p, ctypes.c_void_p)
+def _store_error(_display, _event):
+    """Instead of Xlib's own handler, which ends the process with status 1."""
+    _errors.append(True)
+    return 0
 
 
 @contextmanager
 def _display():
     """Xlib and a connection."""
     x11 = ctypes.CDLL("libX11.so.6")
+    x11.XSetErrorHandler(_store_error)
     x11.XOpenDisplay.restype = ctypes.c_void_p
     display = ctypes.c_void_p(x11.XOpenDisplay(None))
     assert display, "There is no display."
+    _errors.clear()
     yield x11, display
     x11.XSync(display, 0)
     x11.XCloseDisplay(display)
+    if _errors:
+        raise WindowIsGone
 
 
 def move_window(window: int, x: int, y: int, size: tuple[int, int] | None = None) -> None:

@@ -43,8 +43,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from franka_sim_mujoco.session import free_port
+from own_process import kill_processes_with
 from PIL import Image, ImageChops, ImageStat
-from screen import colours, drag, move_window, window_of
+from screen import drag, move_window, picture_of, window_of
+from waiting import holds
 
 TOP = Path(__file__).resolve().parents[2]
 PAGES = sorted((TOP / "docs").glob("get_started/*.md")) + sorted((TOP / "docs").glob("tutorials/*.md"))
@@ -221,44 +223,27 @@ class Terminal:
             env=environment,
         )
         os.close(theirs)
-        self._file, self._output, self._changed = ours, "", threading.Condition()
+        self._file, self.raw = ours, ""  # what it has shown so far; written by one thread
         self._begin = 0  # of what the last block has printed
         self.busy, self._started = False, 0  # whether a program keeps running, and since which output
         self._shell = b""  # the command line of the shell that has started it
         threading.Thread(target=self._read, daemon=True).start()
-        self._prompt(0, 30.0)
+        self._prompt(0, LIMIT)
 
     def _read(self) -> None:
         decoder = codecs.getincrementaldecoder("utf-8")("replace")
         with suppress(OSError):
             while data := os.read(self._file, 65536):
-                with self._changed:
-                    self._output += decoder.decode(data)
-                    self._changed.notify_all()
-
-    @property
-    def raw(self) -> str:
-        with self._changed:
-            return self._output
+                self.raw += decoder.decode(data)
 
     @property
     def printed(self) -> str:
         """What the last block has printed so far."""
         return PROMPT.sub("", ESCAPES.sub("", self.raw[self._begin :]))
 
-    def _wait(self, condition, limit: float) -> bool:
-        end = time.monotonic() + limit
-        with self._changed:
-            while not condition():
-                left = end - time.monotonic()
-                if left <= 0:
-                    return False
-                self._changed.wait(min(left, 0.1))  # not every condition is a change of the output
-        return True
-
     def _prompt(self, begin: int, limit: float) -> str | None:
         """Waits for the next prompt; returns the status, or "more" for an unfinished command."""
-        self._wait(lambda: PROMPT.search(self._output, begin), limit)
+        holds(lambda: PROMPT.search(self.raw, begin), limit)
         found = PROMPT.search(self.raw, begin)
         return found and found[1]
 
@@ -290,7 +275,7 @@ class Terminal:
     def prints(self, check, limit: float) -> bool:
         """Waits until what the last block has printed passes a check."""
         if self.busy:
-            self._wait(lambda: check(self.printed) or PROMPT.search(self._output, self._started), limit)
+            holds(lambda: check(self.printed) or PROMPT.search(self.raw, self._started), limit)
         return check(self.printed)
 
     def _foreground(self) -> bytes:
@@ -305,7 +290,7 @@ class Terminal:
 
     def interrupt(self) -> None:
         """Presses Ctrl-C once the program runs, and waits for the prompt."""
-        if not self._wait(lambda: PROMPT.search(self._output, self._started) or self._program_runs(), LIMIT):
+        if not holds(lambda: PROMPT.search(self.raw, self._started) or self._program_runs(), LIMIT):
             raise PageError(f"the shell has not started the program:\n{self.tail()}")
         if not PROMPT.search(self.raw, self._started):  # at the prompt, Ctrl-C would print a second one
             os.write(self._file, b"\x03")
@@ -375,20 +360,9 @@ class Reader:
                 with suppress(AssertionError, OSError):
                     terminal.interrupt()
         self.log.write_text("\n".join(terminal.raw for terminal in self._terminals.values()))
-        for pid in self._leftovers():
-            with suppress(ProcessLookupError):
-                os.kill(pid, signal.SIGKILL)
+        kill_processes_with("TUTORIAL_READER", self._mark)
         for terminal in self._terminals.values():
             terminal.close()
-
-    def _leftovers(self) -> list[int]:
-        """Processes that the commands have left."""
-        mark, found = f"TUTORIAL_READER={self._mark}".encode(), []
-        for entry in Path("/proc").iterdir():
-            with suppress(OSError):
-                if entry.name.isdigit() and mark in (entry / "environ").read_bytes().split(b"\0"):
-                    found.append(int(entry.name))
-        return found
 
     def follow(self, page: Page) -> None:
         """Fails at the first step that does not do what the page says."""
@@ -449,21 +423,15 @@ class Reader:
 
     def _do_await(self, step: Step) -> None:
         command, _, text = step.text.partition(" == ")
-        end = time.monotonic() + LIMIT
-        while True:
-            done = subprocess.run(
-                [TOP / "franka", "shell", "bash", "-c", command],
-                env=self._environment,
-                capture_output=True,
-                text=True,
-                stdin=subprocess.DEVNULL,
-                timeout=LIMIT,
-            )
-            if text in done.stdout:
-                return
-            if time.monotonic() > end:
-                printed = f"{done.stdout}{done.stderr}\n{self._terminal.tail()}"
-                raise PageError(f"`{command}` still does not print `{text}`, but {printed}")
+        typed, options = [TOP / "franka", "shell", "bash", "-c", command], {"env": self._environment}
+        options |= {"text": True, "stdin": subprocess.DEVNULL, "stderr": subprocess.STDOUT}
+
+        def printed() -> str:
+            return subprocess.run(typed, stdout=subprocess.PIPE, timeout=LIMIT, **options).stdout
+
+        if not holds(lambda: text in printed(), LIMIT):
+            others = f"{printed()}\n{self._terminal.tail()}"
+            raise PageError(f"`{command}` still does not print `{text}`, but {others}")
 
     def _do_picture(self, step: Step) -> None:
         made, name = step.text.split(" is ")
@@ -474,21 +442,17 @@ class Reader:
     def _do_window(self, step: Step) -> None:
         title, name = step.text.split(" is ")
         path = self.home / name
-        end = time.monotonic() + LIMIT
-        while not self._drawn(title, path):
-            if time.monotonic() > end:
-                raise PageError(f"the window {title} stays empty")
+        if not holds(lambda: self._is_drawn(title, path), LIMIT, 0.5):
+            raise PageError(f"there is no window {title}, or it stays empty")
         check_picture(path)
         self.pictures[name] = path
 
-    def _drawn(self, title: str, path: Path) -> bool:
-        """Takes two pictures of a window; whether it shows a scene, and the same one in both."""
+    def _is_drawn(self, title: str, path: Path) -> bool:
+        """Takes a picture of a window; whether it shows a scene, and the same one as the picture before."""
         before = path.with_name(f"before_{path.name}")
-        try:
-            colours(before, self._place(title))
-            time.sleep(0.5)
-            colours(path, self._place(title))
-        except subprocess.CalledProcessError:  # a window that just opens may be replaced by another one
+        if path.exists():
+            path.rename(before)
+        if not picture_of(title, path, WINDOWS_AT, 0, WINDOW_SIZE) or not before.exists():
             return False
         scenes = []
         for picture in (before, path):
@@ -503,20 +467,12 @@ class Reader:
 
     def _do_drag(self, step: Step) -> None:
         found = re.fullmatch(r"(.*) (\d+),(\d+) to (\d+),(\d+)", step.text)
-        self._place(found[1])
+        if not holds(lambda: window_of(found[1]), LIMIT):
+            raise PageError(f"there is no window {found[1]}")
+        # Nothing covers it there; there is no window manager.
+        move_window(window_of(found[1]), WINDOWS_AT, 0, WINDOW_SIZE)
         x, y, to_x, to_y = map(int, found.groups()[1:])
         drag(WINDOWS_AT + x, y, WINDOWS_AT + to_x, to_y)
-
-    @staticmethod
-    def _place(title: str) -> int:
-        """Waits for a window and puts it where nothing covers it; there is no window manager."""
-        end = time.monotonic() + LIMIT
-        while (window := window_of(title)) is None:
-            if time.monotonic() > end:
-                raise PageError(f"there is no window {title}")
-            time.sleep(0.2)
-        move_window(window, WINDOWS_AT, 0, WINDOW_SIZE)
-        return window
 
     def _path(self, written: str) -> Path:
         return Path(written.replace("~", str(self.home), 1)) if written[0] == "~" else TOP / written

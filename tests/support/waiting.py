@@ -4,7 +4,7 @@
 
 import time
 
-PATIENCE = 20.0  # limit for immediate reactions, on a busy machine [s]
+PATIENCE = 60.0  # limit for immediate reactions, on a busy machine [s]
 PAUSE = 0.005  # [s] between two looks
 
 
@@ -14,14 +14,14 @@ def holds(condition, patience: float = PATIENCE, pause: float = PAUSE) -> bool:
     while not (result := condition()):
         if time.monotonic() > deadline:
             return False
-        time.sleep(pause)
+        time.sleep(pause)  # between two looks
     return bool(result)
 
 
-def wait_for(condition, what: str = "It", patience: float = PATIENCE, pause: float = PAUSE):
+def wait_for(condition, what="It", patience: float = PATIENCE, pause: float = PAUSE):
     """The value of a condition that comes true; fails if it does not in time.
 
-    `what` completes: "... did not come".
+    `what` completes: "... did not come"; a function is called for it in the end.
     """
     found = None
 
@@ -30,5 +30,6 @@ def wait_for(condition, what: str = "It", patience: float = PATIENCE, pause: flo
         found = condition()
         return found
 
-    assert holds(look, patience, pause), f"{what} did not come within {patience:g} s."
+    in_time = holds(look, patience, pause)
+    assert in_time, f"{what() if callable(what) else what} did not come within {patience:g} s."
     return found

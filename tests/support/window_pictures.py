@@ -8,9 +8,7 @@
 NAME is a function below, such as viewer; without names all pictures are made.
 """
 
-import subprocess
 import sys
-import time
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
@@ -20,7 +18,7 @@ import pyfranka.plot
 from franka_sim_mujoco.session import Session
 from PIL import Image
 from pyfranka.franka_sim import FrankaSim, SimRobot
-from screen import colours, dragged, move_pointer, move_window, press, virtual_screen, window_of
+from screen import colours, dragged, move_pointer, picture_of, press, virtual_screen, window_of
 from waiting import wait_for
 
 PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
@@ -115,12 +113,13 @@ def sliders() -> None:
         picture = Path(folder) / "window.png"
         with Session(*launch, log=Path(folder) / "launch.log") as session:
             session.wait_for_master()
-            wait_for(lambda: window_of("Parameters") and colours(picture) > 20, "The panel", 180)
             wait_for(lambda: "Started controllers: cartesian" in session.tail(100), "A controller", 180)
-            time.sleep(3.0)  # for the sliders' values
-            window = window_of("Parameters")
-            move_window(window, 0, 0)
-            subprocess.run(["import", "-window", str(window), str(picture)], check=True, timeout=30)
+            from test_parameter_sliders import STIFFEST, Panel
+
+            panel = Panel(Path(folder))
+            wait_for(lambda: len(panel.scales()) == 3, "Three sliders", 180)
+            wait_for(lambda: abs(panel.shows(0, STIFFEST) - 200.0) < 2.0, "Their values", 180)
+            picture_of("Parameters", picture)
             save(Image.open(picture), "sliders.png")
 
 

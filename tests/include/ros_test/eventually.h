@@ -9,7 +9,7 @@
 
 namespace ros_test {
 
-constexpr std::chrono::seconds kDeadline{20};  ///< for immediate reactions, on a busy machine
+constexpr std::chrono::seconds kDeadline{30};  ///< for immediate reactions, on a busy machine
 
 /// Polls a condition until it holds, and not again afterwards. A condition may also do work, such
 /// as a cycle of a controller manager.
@@ -24,7 +24,7 @@ bool eventually(Condition&& condition,
     if (std::chrono::steady_clock::now() > deadline) {
       return false;
     }
-    std::this_thread::sleep_for(pause);
+    std::this_thread::sleep_for(pause);  // between two looks
   }
   return true;
 }

@@ -5,7 +5,6 @@
 import json
 import math
 import sys
-import time
 
 from panda_py import libfranka
 
@@ -133,13 +132,11 @@ def session(address):
     }
     seen["motions"] = {}
     for name, (motion, run) in motions.items():
-        begin = time.monotonic()
         outcome = attempt(lambda run=run, motion=motion: run(motion))
         seen["motions"][name] = {
             "outcome": outcome,
             "cycles": motion.cycles,
             "robot seconds": motion.time,
-            "wall seconds": time.monotonic() - begin,
             "q": list(robot.read_once().q),
             "mode": mode(robot),
         }

@@ -4,7 +4,6 @@
 
 import json
 import sys
-import time
 
 import pylibfranka as franka
 
@@ -129,7 +128,6 @@ def session(address):
     }
     seen["motions"] = {}
     for name, (start, arguments, command, seconds) in starts.items():
-        begin = time.monotonic()
         counted = []
 
         def run(start=start, arguments=arguments, command=command, seconds=seconds, counted=counted):
@@ -141,7 +139,6 @@ def session(address):
             "outcome": outcome,
             "cycles": counted[0] if counted else 0,
             "robot seconds": counted[1] if counted else 0.0,
-            "wall seconds": time.monotonic() - begin,
             "q": list(state.q),
             "mode": state.robot_mode.name,
         }

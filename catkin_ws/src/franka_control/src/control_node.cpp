@@ -57,7 +57,7 @@ void ControlNode::run() {
     if (!connection_.connected()) {
       connection_.reconnect();
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    } else if (franka_hw_.controllerActive() && !connection_.hasError()) {
+    } else if (franka_hw_.controllerActive() && !connection_.hasError() && !ros::isShuttingDown()) {
       moveRobot();
     } else {
       watchIdleRobot();
@@ -138,7 +138,9 @@ bool ControlNode::updateMoving(const ros::Time& time, const ros::Duration& perio
   } else {
     franka_hw_.enforceLimits(period);
   }
-  return ros::ok();
+  // The motion ends at the begin of a shutdown: ros::ok() is true until every topic and service is
+  // unregistered. Meanwhile run() goes on, as a service may wait for an update of the controllers.
+  return !ros::isShuttingDown();
 }
 
 void ControlNode::updateControllers(const ros::Time& time, const ros::Duration& period,

@@ -17,8 +17,7 @@ constexpr std::chrono::milliseconds kPeriod{50};
 
 }  // namespace
 
-EndInTime::EndInTime(std::string node, std::chrono::milliseconds patience)
-    : node_(std::move(node)), patience_(patience), thread_(&EndInTime::watch, this) {}
+EndInTime::EndInTime(std::string node) : node_(std::move(node)), thread_(&EndInTime::watch, this) {}
 
 EndInTime::~EndInTime() {
   {
@@ -29,6 +28,10 @@ EndInTime::~EndInTime() {
   thread_.join();
 }
 
+void EndInTime::readTimeout(const ros::NodeHandle& nh) {
+  timeout_ = nh.param("shutdown_timeout", timeout_.load());
+}
+
 void EndInTime::watch() {
   // Not ros::ok(), which is also false before the first node handle.
   while (!ros::isShuttingDown()) {
@@ -36,14 +39,14 @@ void EndInTime::watch() {
       return;
     }
   }
-  if (!endedWithin(patience_)) {
+  if (!endedWithin(std::chrono::duration<double>(timeout_))) {
     std::fprintf(stderr, "%s: ended without the robot's answer, which did not come in time.\n",
                  node_.c_str());
     std::_Exit(EXIT_FAILURE);
   }
 }
 
-bool EndInTime::endedWithin(std::chrono::milliseconds time) {
+bool EndInTime::endedWithin(std::chrono::duration<double> time) {
   std::unique_lock<std::mutex> lock(mutex_);
   return changed_.wait_for(lock, time, [this] { return ended_; });
 }

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <ros/node_handle.h>
+
+#include <atomic>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -19,21 +22,23 @@ namespace franka_control {
 class EndInTime {
  public:
   /// @param node its name, for the message on standard error
-  /// @param patience from the shutdown of ROS to the end of the process
-  explicit EndInTime(std::string node,
-                     std::chrono::milliseconds patience = std::chrono::milliseconds(1200));
+  explicit EndInTime(std::string node);
   /// Called when the node has ended by itself.
   ~EndInTime();
   EndInTime(const EndInTime&) = delete;
   EndInTime& operator=(const EndInTime&) = delete;
 
+  /// Reads the parameter `shutdown_timeout`: the time from the shutdown of ROS to the end of the
+  /// process [s].
+  void readTimeout(const ros::NodeHandle& nh);
+
  private:
   void watch();
   /// @returns whether the node has ended within this time
-  bool endedWithin(std::chrono::milliseconds time);
+  bool endedWithin(std::chrono::duration<double> time);
 
   const std::string node_;
-  const std::chrono::milliseconds patience_;
+  std::atomic<double> timeout_{1.2};  // [s], chosen here
   std::mutex mutex_;
   std::condition_variable changed_;
   bool ended_{false};  // guarded by mutex_

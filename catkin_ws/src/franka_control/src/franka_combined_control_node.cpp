@@ -112,11 +112,12 @@ int main(int argc, char** argv) {
     return 0;
   }
   ros::init(argc, argv, "franka_combined_control_node");
-  const franka_control::EndInTime end_in_time("franka_combined_control_node");
+  franka_control::EndInTime end_in_time("franka_combined_control_node");
   ros::AsyncSpinner spinner(4);
   spinner.start();
 
   ros::NodeHandle nh("~");
+  end_in_time.readTimeout(nh);
   bool restarts_controllers = true;
   franka_hw::FrankaCombinedHW robots;
   if (!franka_control::readFlag("restart_controllers_after_recovery", nh, restarts_controllers) ||

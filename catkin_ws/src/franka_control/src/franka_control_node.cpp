@@ -23,8 +23,10 @@ int main(int argc, char** argv) {
     return 0;
   }
   ros::init(argc, argv, "franka_control_node");
-  const franka_control::EndInTime end_in_time("franka_control_node");
-  franka_control::ControlNode node{ros::NodeHandle(), ros::NodeHandle("~")};
+  franka_control::EndInTime end_in_time("franka_control_node");
+  const ros::NodeHandle nh("~");
+  end_in_time.readTimeout(nh);
+  franka_control::ControlNode node{ros::NodeHandle(), nh};
   if (!node.init()) {
     return 1;
   }

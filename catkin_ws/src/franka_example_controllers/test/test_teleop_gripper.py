@@ -26,6 +26,7 @@ from sensor_msgs.msg import JointState
 from waiting import wait_for
 
 DEADLINE = 60.0  # [s]
+LIMITS = ["_server_timeout:=50", "_homing_timeout:=50"]  # [s]
 WIDEST = 0.08  # [m] of the leader's hand
 
 pytestmark = pytest.mark.own_process
@@ -35,7 +36,7 @@ class Hands:
     """The leader's and the follower's actions; `orders` are the goals in the order they came."""
 
     def __init__(self):
-        self.width = WIDEST  # of the leader's [m]
+        self.width, self.published = WIDEST, 0  # of the leader's hand [m], and its messages
         self.orders, self.homing_error, self.grasps_forever = [], "", False
         self._servers = []
         for hand in ("leader", "follower"):
@@ -48,7 +49,7 @@ class Hands:
         def carry_out(goal):
             self.orders.append((name, goal))
             while name == "follower/grasp" and self.grasps_forever and not server.is_preempt_requested():
-                time.sleep(0.01)
+                time.sleep(0.01)  # the fault itself
             failed = name.endswith("homing") and self.homing_error
             server.set_succeeded(result(success=not failed, error=self.homing_error if failed else ""))
 
@@ -63,6 +64,7 @@ class Hands:
         fingers = rospy.Publisher("teleop_gripper_node/leader/joint_states", JointState, queue_size=1)
         while not ended.wait(0.02):
             fingers.publish(JointState(position=[self.width / 2.0] * 2))
+            self.published += 1
 
 
 class Node:
@@ -71,7 +73,7 @@ class Node:
     def __init__(self, hands, environment, arguments):
         self.hands = hands
         self.process = subprocess.Popen(
-            ["rosrun", "franka_example_controllers", "teleop_gripper_node", *arguments],
+            ["rosrun", "franka_example_controllers", "teleop_gripper_node", *LIMITS, *arguments],
             stdout=subprocess.PIPE,
             stderr=subprocess.STDOUT,
             text=True,
@@ -163,12 +165,13 @@ def test_the_follower_follows_with_hysteresis(start, hands):
     assert name == "follower/move"
     assert move.width == pytest.approx(WIDEST, abs=5e-10)
     assert move.speed == 0.1
-    # Between the two widths no order is sent: the next order must belong to the next width.
-    hands.width = 0.041
-    time.sleep(0.3)
+    # Between the two widths no order is sent: the next one has the next force.
+    hands.width, end = 0.041, hands.published + 20
+    wait_for(lambda: hands.published > end, "The leader's width", DEADLINE)
+    client.update_configuration({"grasp_force": 13.0})
     node.follow(0.0, 5, "The second grasp")
     assert hands.names()[-1] == "follower/grasp"
-    assert hands.orders[-1][1].force == 12.0
+    assert hands.orders[-1][1].force == 13.0
 
 
 def test_homed_hands_are_not_homed_again_and_an_endless_grasp_is_stopped(start, hands):

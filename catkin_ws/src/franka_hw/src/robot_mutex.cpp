@@ -44,13 +44,13 @@ std::unique_lock<std::mutex> RobotMutex::takeSoon(std::mutex& mutex,
   return lock;
 }
 
-void RobotMutex::yieldToRequests() const {
-  for (int i = 0; i < kMaxYields; i++) {
+int RobotMutex::yieldToRequests() const {
+  int yields = 0;
+  do {
     std::this_thread::sleep_for(kAttemptPeriod);
-    if (waiting_ == 0) {
-      return;
-    }
-  }
+    yields++;
+  } while (waiting_ != 0 && yields < kMaxYields);
+  return yields;
 }
 
 }  // namespace franka_hw

@@ -6,8 +6,6 @@
 #include <franka_hw/arm_connection.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <chrono>
 #include <memory>
 #include <mutex>
 #include <stdexcept>
@@ -116,7 +114,7 @@ TEST(RobotMutex, WaitIsShort) {
   const std::lock_guard<std::mutex> held(mutex);
   int attempts = 0;
   EXPECT_FALSE(RobotMutex::takeSoon(mutex, [&] { attempts++; }));
-  EXPECT_GT(attempts, 1);
+  EXPECT_GE(attempts, 1);
 }
 
 TEST(RobotMutex, ARefusalEndsTheWait) {
@@ -129,27 +127,15 @@ TEST(RobotMutex, ARefusalEndsTheWait) {
 TEST(RobotMutex, ReadingLoopYieldsToARequest) {
   const ArmStateMachine state;
   RobotMutex mutex(state);
-  const auto timeOfYielding = [&] {
-    const auto begin = std::chrono::steady_clock::now();
-    mutex.yieldToRequests();
-    return std::chrono::steady_clock::now() - begin;
-  };
   const RobotMutex::Request request(mutex);
-  EXPECT_GE(timeOfYielding(), std::chrono::milliseconds(5));
+  EXPECT_EQ(50, mutex.yieldToRequests());
 }
 
 TEST(RobotMutex, RequestForAnotherRobotIsIgnored) {
   const ArmStateMachine state;
   RobotMutex mutex(state), other(state);
   const RobotMutex::Request request(other);
-  // Repeated, because a busy machine delays some of the calls.
-  auto shortest = std::chrono::steady_clock::duration::max();
-  for (int i = 0; i < 20; i++) {
-    const auto begin = std::chrono::steady_clock::now();
-    mutex.yieldToRequests();
-    shortest = std::min(shortest, std::chrono::steady_clock::now() - begin);
-  }
-  EXPECT_LT(shortest, std::chrono::milliseconds(5));
+  EXPECT_EQ(1, mutex.yieldToRequests());
 }
 
 }  // namespace

@@ -5,7 +5,6 @@
 import socket
 import struct
 import subprocess
-import time
 from contextlib import ExitStack, contextmanager
 from pathlib import Path
 
@@ -26,14 +25,14 @@ WORLD = """<mujoco><worldbody>
 
 
 def run(*arguments):
-    return subprocess.run([find_program(), *arguments], capture_output=True, text=True, timeout=30)
+    return subprocess.run([find_program(), *arguments], capture_output=True, text=True, timeout=60)
 
 
 @contextmanager
 def served(*robots, pace="realtime", world="", arguments=()):
     """Robots, and a function that sends the first one a line as it stands and returns the answer."""
     with FrankaSim(*robots, pace=pace, world=world, arguments=arguments) as server:
-        with socket.create_connection((server.robot.address, 1340), timeout=20) as connection:
+        with socket.create_connection((server.robot.address, 1340), timeout=60) as connection:
             stream = connection.makefile("rw", newline="\n")
 
             def send(text):
@@ -188,30 +187,6 @@ def test_invalid_control_commands_are_reported():
         assert send("load 0.5 0 0 0.1") == "ok"
 
 
-def test_a_push_moves_the_held_arm_and_it_returns(tmp_path):
-    world = tmp_path / "world.xml"
-    world.write_text(WORLD)
-
-    options = [
-        "--pace=lockstep",
-        f"--world={world}",
-        "--realism=ideal",
-    ]  # friction would keep it off its pose
-    with simulated("127.0.22.5", *options) as (send, _):
-
-        def displacement():
-            return max(abs(a - b) for a, b in zip(joints(send), before))
-
-        before = joints(send)
-        assert send("place stone 0.5 -0.3 0.2") == "ok"
-        # Long enough to be seen: time runs as fast as possible.
-        assert send("push panda_hand 0 8 0 6000") == "ok"
-        wait_for(lambda: displacement() > 1e-4)
-        wait_for(lambda: displacement() < 1e-4)
-        # It was released in the air and lies on the ground.
-        wait_for(lambda: float(send("where stone").split()[3]) == pytest.approx(0.03, abs=2e-3))
-
-
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])
 def test_robots_of_one_world_have_their_own_addresses_and_names(pace):
     turned = SimRobot("panda", base=(0.5, 1, 0, 1.5708))
@@ -233,14 +208,14 @@ def test_robots_of_one_world_have_their_own_addresses_and_names(pace):
         assert third.state().mode == "Idle"
         third.reset()
         third.quit()
-        assert server.process.wait(10) == 0
+        assert server.process.wait(60) == 0
 
 
 def test_a_vacuum_gripper_replaces_the_gripper():
     with simulated("127.0.22.10", "--hand", "vacuum") as (send, _):
         for port, served in ((1337, True), (1338, False), (1339, True)):
             with socket.socket() as probe:
-                probe.settimeout(10)
+                probe.settimeout(60)
                 assert (probe.connect_ex(("127.0.22.10", port)) == 0) == served
         assert send("part on") == "ok"
         assert send("part perhaps") == "error: 'perhaps' is neither on nor off."
@@ -300,9 +275,7 @@ def test_a_diverging_world_stops_is_reported_and_can_be_reset(pace, tmp_path):
         with Client("127.0.22.14", 5) as client:
             client.connect()
             assert send("push feather 1e4 0 0 10") == "ok"
-            deadline = time.monotonic() + 20
-            while "The physics diverged" not in send("state"):
-                assert time.monotonic() < deadline
+            wait_for(lambda: "The physics diverged" in send("state"), "An error")
             stopped = send("state")
             assert stopped.startswith("ok Other"), "brakes are closed: nothing can be commanded"
             assert "of body 'feather'" in stopped and "until it is reset" in stopped
@@ -348,7 +321,7 @@ def test_eight_control_clients_are_served_and_a_ninth_one_gets_an_error():
     with simulated("127.0.22.17") as (send, _), ExitStack() as others:
 
         def client(text):
-            connection = socket.create_connection(("127.0.22.17", 1340), timeout=20)
+            connection = socket.create_connection(("127.0.22.17", 1340), timeout=60)
             return lines_of(others.enter_context(connection), text)
 
         assert send("state").startswith("ok Idle")
@@ -363,7 +336,7 @@ def test_eight_control_clients_are_served_and_a_ninth_one_gets_an_error():
 def test_a_half_closed_control_connection_is_answered():
     with FrankaSim("panda", pace="realtime") as server:
         for _ in range(3):
-            with socket.create_connection((server.robot.address, 1340), timeout=20) as connection:
+            with socket.create_connection((server.robot.address, 1340), timeout=60) as connection:
                 connection.sendall(b"user_stop on\nstate\nuser_stop off\n")
                 connection.shutdown(socket.SHUT_WR)
                 answers = connection.makefile("r").read().splitlines()
@@ -429,8 +402,8 @@ def test_the_initial_width_of_a_hand_is_the_same_at_any_pace(kind, pace):
         # Gripper protocol: Connect [u16 version, u16 port]; states are 23 bytes, the width behind the id.
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as states:
             states.bind(("", 0))
-            states.settimeout(20)
-            with socket.create_connection(("127.0.22.21", 1338), timeout=20) as hand:
+            states.settimeout(60)
+            with socket.create_connection(("127.0.22.21", 1338), timeout=60) as hand:
                 hand.sendall(struct.pack("<HIIHH", 0, 1, 14, 3, states.getsockname()[1]))
                 for _ in range(3):
                     data = states.recv(100)
@@ -452,7 +425,7 @@ def test_franka_info_ignores_lateness_of_a_robot_with_another_pace(pace):
 def test_quit_ends_the_simulation():
     with simulated("127.0.22.6") as (send, server):
         assert send("quit") == "ok"
-        assert server.process.wait(10) == 0
+        assert server.process.wait(60) == 0
 
 
 @pytest.fixture
@@ -475,15 +448,14 @@ def lingering():
 def test_exit_waits_for_clients(lingering):
     process, client = lingering(30)
     with client:
-        begin = time.monotonic()
-        while time.monotonic() - begin < 0.5:
+        for _ in range(500):
             client.state()
         assert process.poll() is None
-    assert process.wait(10) == 0
+    assert process.wait(60) == 0
 
 
 def test_exit_drops_clients_after_the_linger_time(lingering):
     process, client = lingering(0.3)
     with client:
-        assert process.wait(10) == 0
+        assert process.wait(60) == 0
         assert client.ended()

@@ -5,8 +5,8 @@
 
 import subprocess
 import sys
-import time
 import unittest
+from pathlib import Path
 
 import rospy
 import rospy_connections
@@ -25,7 +25,10 @@ from franka_sim_mujoco.srv import (
 from rosgraph_msgs.msg import Log
 from std_srvs.srv import Empty
 
-WAIT = 30
+sys.path.insert(0, str(Path(__file__).resolve().parents[4] / "tests" / "support"))
+from waiting import wait_for  # noqa: E402
+
+WAIT = 60
 WRONG = [
     # parameter, value, text that the error must contain
     ("arm_id", "left", "left_joint1"),
@@ -211,21 +214,16 @@ class ParametersTest(unittest.TestCase):
         """@returns a list that all further messages of the log are added to, and its subscriber."""
         messages = []
         log = rospy.Subscriber("/rosout", Log, messages.append)
-        end = time.monotonic() + WAIT
-        while log.get_num_connections() < len(self.publishers_of("/rosout")):
-            self.assertLess(time.monotonic(), end, "Not every node's log is heard.")
-            time.sleep(0.01)
+        wait_for(lambda: log.get_num_connections() >= len(self.publishers_of("/rosout")), "Every node's log")
         return messages, log
 
     def expect_warning(self, messages, text):
-        """The first warning of the log that contains the text. @param heard of listen_to_log"""
-        end = time.monotonic() + WAIT
-        while True:
-            found = [message.msg for message in messages if text in message.msg and message.level == Log.WARN]
-            if found:
-                return found[0]
-            self.assertLess(time.monotonic(), end, [message.msg for message in messages])
-            time.sleep(0.05)
+        """The first warning of the log that contains the text. @param messages of listen_to_log"""
+
+        def found():
+            return [message.msg for message in messages if text in message.msg and message.level == Log.WARN]
+
+        return wait_for(found, lambda: f"'{text}' in {[message.msg for message in messages]}")[0]
 
     def test_positions_of_unknown_joints_are_ignored_with_a_warning(self):
         messages, log = self.listen_to_log()

@@ -20,6 +20,8 @@ namespace {
 
 using std::chrono::milliseconds;
 
+constexpr milliseconds kDeadline{60000};
+
 TEST(RequestQueue, RunsWorkInTheServingThreadInOrder) {
   RequestQueue queue;
   std::atomic<bool> stop{false};
@@ -34,14 +36,16 @@ TEST(RequestQueue, RunsWorkInTheServingThreadInOrder) {
   });
   std::string order;
   std::thread::id worker;
-  queue.run([&] {
-    worker = std::this_thread::get_id();
-    order += "a";
-    queue.run([&] { order += "b"; });  // from the serving thread itself: at once
-  });
-  queue.run([&] { order += "c"; });
+  queue.run(
+      [&] {
+        worker = std::this_thread::get_id();
+        order += "a";
+        queue.run([&] { order += "b"; });  // from the serving thread itself: at once
+      },
+      kDeadline);
+  queue.run([&] { order += "c"; }, kDeadline);
   EXPECT_EQ("abc", order);
-  EXPECT_EQ("no", sentence([&] { queue.run([] { throw std::runtime_error("no"); }); }));
+  EXPECT_EQ("no", sentence([&] { queue.run([] { throw std::runtime_error("no"); }, kDeadline); }));
   stop = true;
   serving.join();
   EXPECT_EQ(server, worker);

@@ -16,7 +16,7 @@ from std_msgs.msg import Float64
 from waiting import wait_for
 
 HERE = Path(__file__).resolve().parent
-WAIT = 40.0  # wall seconds
+WAIT = 120.0  # wall seconds
 MOVE = 2
 ARM = [f"panda_joint{i}" for i in range(1, 8)]
 FINGERS = ["panda_finger_joint1", "panda_finger_joint2"]

@@ -33,7 +33,7 @@ HERE = Path(__file__).resolve().parent
 IDLE, MOVE, REFLEX, USER_STOPPED = 1, 2, 4, 5
 IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
 START = [0, -math.pi / 4, 0, -3 * math.pi / 4, 0, math.pi / 2, math.pi / 4]
-WAIT = 30.0  # wall seconds
+WAIT = 120.0  # wall seconds
 
 pytestmark = pytest.mark.own_process("robot")
 
@@ -87,11 +87,15 @@ class Arm:
             self.load(name)
         return self.controllers.switches(start, stop)
 
-    def run(self, name, seconds):
-        """States of a controller from its start to its stop."""
+    def run(self, name, seconds, *extremes):
+        """States of a controller from its start to its stop: after a time, and once each condition was met.
+
+        Motions are periodic, and a state may be missing.
+        """
         assert self.switch(start=[name]), name
         first = self.state()
-        self.when(lambda state: state.time - first.time >= seconds)
+        for is_met in (lambda state: state.time - first.time >= seconds, *extremes):
+            self.when(is_met, first.header.stamp)
         states = self.states[self.states.index(first) :]
         assert self.switch(stop=[name]), name
         return states
@@ -182,31 +186,43 @@ def follows(states, tolerance=1e-3):
 
 def test_position_joint_interface(arm):
     before = arm.state().q_d
-    states = arm.run("joint_position_example_controller", 10.5)
+    extreme = 2 * 0.2 * math.pi / 16  # twice the amplitude
+    states = arm.run(
+        "joint_position_example_controller", 10.5, lambda state: state.q_d[0] - before[0] > extreme - 1e-4
+    )
     follows(states)
     for state in states:
         delta = state.q_d[0] - before[0]
         for i in range(7):
             assert state.q_d[i] - before[i] == pytest.approx(-delta if i == 4 else delta, abs=1e-9)
-    # A period of 10 s: the highest point is twice the amplitude.
-    highest = max(state.q_d[0] - before[0] for state in states)
-    assert highest == pytest.approx(2 * 0.2 * math.pi / 16, abs=1e-4)
+    assert max(state.q_d[0] - before[0] for state in states) < extreme + 1e-4
 
 
 def test_velocity_joint_interface(arm):
     before = arm.state().q_d
-    states = arm.run("joint_velocity_example_controller", 9)
+    way = 0.1 / 2 * 8  # the mean velocity, 8 s long
+    states = arm.run(
+        "joint_velocity_example_controller",
+        9,
+        lambda state: state.dq_d[3] > 0.1 - 1e-4,
+        lambda state: state.q_d[3] - before[3] > way - 2e-3,
+    )
     follows(states)
-    assert max(state.dq_d[3] for state in states) == pytest.approx(0.1, abs=1e-4)
-    moved = max(state.q_d[3] for state in states) - before[3]
-    assert moved == pytest.approx(0.1 / 2 * 8, abs=2e-3)  # the mean velocity, 8 s long
+    assert max(state.dq_d[3] for state in states) < 0.1 + 1e-4
+    assert max(state.q_d[3] - before[3] for state in states) < way + 2e-3
 
 
 def test_pose_cartesian_interface(arm):
     before = matrix(arm.state().O_T_EE_d, 4)
-    states = arm.run("cartesian_pose_example_controller", 5.5)
+
+    def angle(state):
+        dx, dz = matrix(state.O_T_EE_d, 4)[[0, 2], 3] - before[[0, 2], 3]
+        return math.atan2(-dx, 0.15 - dz)
+
+    states = arm.run(
+        "cartesian_pose_example_controller", 5.5, lambda state: angle(state) > math.pi / 2 - 1e-3
+    )
     follows(states)
-    reached = 0.0
     for state in states:
         here, desired = matrix(state.O_T_EE, 4), matrix(state.O_T_EE_d, 4)
         assert np.linalg.norm(here[:3, 3] - desired[:3, 3]) < 5e-4
@@ -215,31 +231,42 @@ def test_pose_cartesian_interface(arm):
         assert math.hypot(dx, dz - 0.15) == pytest.approx(0.15, abs=2e-4)
         assert desired[1, 3] == pytest.approx(before[1, 3], abs=1e-6)
         assert np.abs(desired[:3, :3] - before[:3, :3]).max() < 1e-6
-        reached = max(reached, math.atan2(-dx, 0.15 - dz))
-    assert reached == pytest.approx(math.pi / 2, abs=1e-3)
+    assert max(map(angle, states)) < math.pi / 2 + 1e-3
 
 
 def test_velocity_cartesian_interface(arm):
     begin = matrix(arm.state().O_T_EE_d, 4)[:3, 3]
-    states = arm.run("cartesian_velocity_example_controller", 4.5)
+    desired = begin + 0.05 / 2 * 4 / math.sqrt(2) * np.array([1, 0, -1])
+
+    def way(state):
+        return np.linalg.norm(matrix(state.O_T_EE_d, 4)[:3, 3] - begin)
+
+    def speed(state):
+        return np.linalg.norm(state.O_dP_EE_c[:3])
+
+    states = arm.run(
+        "cartesian_velocity_example_controller",
+        4.5,
+        lambda state: np.linalg.norm(matrix(state.O_T_EE_d, 4)[:3, 3] - desired) < 1e-3,
+        lambda state: speed(state) > 0.05 - 1e-4,
+    )
     follows(states)
-    path = [matrix(state.O_T_EE_d, 4)[:3, 3] - begin for state in states]
-    furthest = max(path, key=np.linalg.norm)
-    desired = 0.05 / 2 * 4 / math.sqrt(2) * np.array([1, 0, -1])
-    assert np.linalg.norm(furthest - desired) < 1e-3
-    speeds = [np.linalg.norm(state.O_dP_EE_c[:3]) for state in states]
-    assert max(speeds) == pytest.approx(0.05, abs=1e-4)
+    assert max(map(way, states)) < np.linalg.norm(desired - begin) + 1e-3
+    assert max(map(speed, states)) < 0.05 + 1e-4
 
 
 def test_elbow_of_the_pose_interface(arm):
     before = arm.state()
-    states = arm.run("elbow_example_controller", 5.5)
+    states = arm.run(
+        "elbow_example_controller",
+        5.5,
+        lambda state: state.elbow_c[0] - before.elbow_d[0] > math.pi / 5 - 1e-3,
+    )
     follows(states)
     for state in states:
         assert np.abs(np.array(state.O_T_EE_d) - before.O_T_EE_d).max() < 1e-6
         assert state.elbow_d[0] == pytest.approx(state.q_d[2], abs=1e-9)
-    furthest = max(state.elbow_c[0] - before.elbow_d[0] for state in states)
-    assert furthest == pytest.approx(math.pi / 5, abs=1e-3)
+    assert max(state.elbow_c[0] - before.elbow_d[0] for state in states) < math.pi / 5 + 1e-3
 
 
 def test_model_interface_leaves_the_arm_alone(arm):

@@ -68,6 +68,7 @@ def service(name, kind):
 
 
 step = service("/gazebo/step", Step)
+set_factor = service("/gazebo/set_real_time_factor", SetRealTimeFactor)
 
 
 def state():
@@ -298,10 +299,13 @@ def test_steps_are_exact_and_repeat_after_a_reset():
     assert "pause" in refused.error
 
 
-def test_pace_follows_the_real_time_factor():
-    set_factor = service("/gazebo/set_real_time_factor", SetRealTimeFactor)
+def test_invalid_real_time_factors_are_refused():
     assert not set_factor(-1).success
     assert not set_factor(float("nan")).success
+
+
+@pytest.mark.realtime("the pace of the simulation")
+def test_pace_follows_the_real_time_factor():
     try:
         assert set_factor(0.5).success
 

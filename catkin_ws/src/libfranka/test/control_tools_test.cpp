@@ -42,7 +42,8 @@ TEST(ControlTools, ToleratesRoundingOfUnitLength) {
   EXPECT_FALSE(franka::isHomogeneousTransformation(pose));
 }
 
-TEST(ControlTools, ReportsWhyRealtimePriorityFailed) {
+// Gives its thread real-time priority where that is allowed.
+TEST(ControlToolsOnWallClock, ReportsWhyRealtimePriorityFailed) {
   std::string message;
   if (!franka::setCurrentThreadToHighestSchedulerPriority(&message)) {
     EXPECT_NE(std::string::npos, message.find("rtprio")) << message;

@@ -25,8 +25,7 @@ using franka_core::RobotMode;
 
 constexpr double kDeltaT = 1e-3;
 constexpr std::chrono::milliseconds kPace{1};
-constexpr std::chrono::milliseconds kAnswerTimeout{50};
-constexpr std::chrono::milliseconds kAnswerTimeoutAfterAbort{500};
+constexpr std::chrono::milliseconds kAnswerTimeoutAfterAbort{2000};
 
 sockaddr_in loopback(std::uint16_t port) {
   sockaddr_in address{};
@@ -127,7 +126,7 @@ int FakeRobot::connections() const {
 
 bool FakeRobot::waitUntil(const std::function<bool()>& condition) {
   std::unique_lock<std::recursive_mutex> lock(mutex_);
-  return changed_.wait_for(lock, std::chrono::seconds(5), condition);
+  return changed_.wait_for(lock, std::chrono::seconds(30), condition);
 }
 
 void FakeRobot::serve() {
@@ -443,7 +442,7 @@ bool FakeRobot::isTimeForState() const {
     return false;
   }
   const bool answered = was_answered_ && answered_id_ >= state_.message_id;
-  const auto timeout = awaits_request_ ? kAnswerTimeoutAfterAbort : kAnswerTimeout;
+  const auto timeout = awaits_request_ ? kAnswerTimeoutAfterAbort : script_.answer_timeout;
   const auto wait = awaits_request_ || (move_id_ && was_answered_) ? timeout : kPace;
   return (move_id_ && answered) || Clock::now() - last_state_at_ >= wait;
 }

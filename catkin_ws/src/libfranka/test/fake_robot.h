@@ -25,9 +25,10 @@ namespace franka_test {
 /// misbehaviour.
 ///
 /// A motion runs in lock-step: from the first answered state on, the next one is sent once the
-/// answer has arrived (or 50 ms have passed); otherwise states are sent every millisecond. Late
-/// answers count. After an abort that it replies to, the state that shows it is the last one until
-/// the client's next request (or for half a second), so that a slow client finds it. It executes
+/// answer has arrived (or Script::answer_timeout has passed); otherwise states are sent every
+/// millisecond. Late answers count. After an abort that it replies to, the state that shows it is
+/// the last one until the client's next request (or for two seconds), so that a slow client finds
+/// it. It executes
 /// commands at once and exactly: q_d, dq_d, ddq_d, O_T_EE_c, ... are the commands and their
 /// backward differences. Serves one client after another.
 class FakeRobot {
@@ -65,6 +66,7 @@ class FakeRobot {
     int skip_after{-1};               ///< loses `skip` states
     std::uint64_t skip{0};
     bool sends_states{true};
+    std::chrono::milliseconds answer_timeout{400};
     double success_rate{1.0};
     /// Datagrams sent instead of a state's datagram.
     std::function<std::vector<Datagram>(const Datagram&)> transmit;
@@ -95,7 +97,7 @@ class FakeRobot {
   std::vector<Exchange> exchanges() const;
   int connections() const;
 
-  /// Waits for a condition on this object's state. @returns false after 5 s.
+  /// Waits for a condition on this object's state. @returns false after 30 s.
   bool waitUntil(const std::function<bool()>& condition);
 
  private:

@@ -32,7 +32,7 @@ class Client {
     const sockaddr_in address = toAddress(robot.address());
     tcp_ = socket(AF_INET, SOCK_STREAM, 0);
     udp_ = socket(AF_INET, SOCK_DGRAM, 0);
-    const timeval timeout{2, 0};
+    const timeval timeout{30, 0};
     setsockopt(tcp_, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof(timeout));
     setsockopt(udp_, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof(timeout));
     EXPECT_EQ(0, connect(tcp_, reinterpret_cast<const sockaddr*>(&address), sizeof(address)));

@@ -33,7 +33,7 @@ class ScopedTimeouts {
   franka::Timeouts before_;
 };
 
-/// Timeouts for a robot that answers within a millisecond or never.
+/// Timeouts for a robot that answers at once or never. They are long enough for a busy machine.
 class ShortTimeouts : public ScopedTimeouts {
  public:
   ShortTimeouts() : ScopedTimeouts(timeouts()) {}
@@ -42,10 +42,8 @@ class ShortTimeouts : public ScopedTimeouts {
   static franka::Timeouts timeouts() {
     franka::Timeouts timeouts;
     timeouts.connect = std::chrono::milliseconds(2000);
-    timeouts.state = std::chrono::milliseconds(150);
-    timeouts.command = std::chrono::milliseconds(200);
-    timeouts.long_command = std::chrono::milliseconds(250);
-    timeouts.silence = std::chrono::milliseconds(150);
+    timeouts.state = timeouts.silence = std::chrono::milliseconds(800);
+    timeouts.command = timeouts.long_command = std::chrono::milliseconds(1500);
     return timeouts;
   }
 };

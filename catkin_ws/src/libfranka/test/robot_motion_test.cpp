@@ -309,10 +309,8 @@ TEST_P(MotionFaults, EndInANetworkException) {
     FakeRobot fake(version);
     const auto robot = connect(fake);
     fake.script(GetParam().script);
-    const auto begin = std::chrono::steady_clock::now();
     const std::string text = textOf<NetworkException>([&] { robot->control(zeroTorques(30)); });
     EXPECT_TRUE(startsWith(text, GetParam().text)) << text;
-    EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(1));
   }
 }
 
@@ -406,6 +404,7 @@ TEST_F(Datagrams, LateOnesAreDropped) {
 
 TEST_F(Datagrams, LostOnesAreNotWaitedFor) {
   fake.script([](FakeRobot::Script& s) {
+    s.answer_timeout = std::chrono::milliseconds(50);
     s.transmit = [n = 0](const Datagram& d) mutable {
       return ++n % 10 == 0 ? std::vector<Datagram>{} : std::vector<Datagram>{d};
     };
@@ -426,7 +425,7 @@ TEST_F(Datagrams, OfAnotherSizeAreAnError) {
       };
     });
     const std::string text = textOf<franka::ProtocolException>([&] {
-      for (int i = 0; i < 10; i++) {
+      while (true) {  // some earlier states may still be in transit
         client->readOnce();
       }
     });
@@ -443,8 +442,9 @@ TEST_F(Datagrams, WithUnknownModesAreAnError) {
     };
   });
   EXPECT_TRUE(startsWith(textOf<franka::ProtocolException>([&] {
-                           robot->readOnce();
-                           robot->readOnce();
+                           while (true) {  // some earlier states may still be in transit
+                             robot->readOnce();
+                           }
                          }),
                          "libfranka: "));
 }
@@ -484,7 +484,7 @@ TEST_F(Datagrams, MissingStatesAreDetected) {
   const auto reader = connect(*client);
   client->script([](FakeRobot::Script& s) { s.sends_states = false; });
   EXPECT_EQ("libfranka: UDP receive: Timeout", textOf<NetworkException>([&] {
-              for (int i = 0; i < 10; i++) {
+              while (true) {
                 reader->readOnce();
               }
             }));

@@ -5,6 +5,7 @@
 // machine, and ones that are gone.
 #include <franka/gripper.h>
 
+#include <atomic>
 #include <chrono>
 #include <thread>
 
@@ -22,7 +23,7 @@ constexpr milliseconds kStall{700};
 franka::Timeouts shorterThanTheStall() {
   franka::Timeouts timeouts;
   timeouts.state = milliseconds(200);
-  timeouts.silence = std::chrono::seconds(30);
+  timeouts.silence = std::chrono::minutes(10);
   return timeouts;
 }
 
@@ -31,12 +32,14 @@ class StalledRobot : public ::testing::TestWithParam<std::uint16_t> {
   /// The robot stands still before it sends the state after the next `after` ones.
   /// @param in_motion counted from the next Move
   void stall(int after, bool in_motion) {
+    stalled = false;
     const int moves = fake.count(Command::kMove);
     fake.script([=](FakeRobot::Script& script) {
       script.transmit = [=, left = after](const FakeRobot::Datagram& state) mutable {
         const bool counts = !in_motion || fake.count(Command::kMove) > moves;
         if (counts && left-- == 0) {
-          std::this_thread::sleep_for(kStall);
+          std::this_thread::sleep_for(kStall);  // the fault itself
+          stalled = true;
         }
         return std::vector<FakeRobot::Datagram>{state};
       };
@@ -44,17 +47,16 @@ class StalledRobot : public ::testing::TestWithParam<std::uint16_t> {
   }
 
   const ScopedTimeouts timeouts{shorterThanTheStall()};
+  std::atomic<bool> stalled{false};
   FakeRobot fake{GetParam()};
 };
 
 TEST_P(StalledRobot, IsWaitedForByReadOnce) {
   const auto robot = connect(fake);
   stall(1, false);
-  const auto begin = std::chrono::steady_clock::now();
-  for (int i = 0; i < 5; i++) {
-    EXPECT_NO_THROW(robot->readOnce());
+  while (!stalled) {
+    ASSERT_NO_THROW(robot->readOnce());
   }
-  EXPECT_GE(std::chrono::steady_clock::now() - begin, kStall);
 }
 
 TEST_P(StalledRobot, IsWaitedForAtTheStartOfAMotion) {
@@ -63,27 +65,17 @@ TEST_P(StalledRobot, IsWaitedForAtTheStartOfAMotion) {
     const auto robot = connect(fake);
     stall(after, true);
     int cycles = 0;
-    const auto begin = std::chrono::steady_clock::now();
     EXPECT_NO_THROW(robot->control([&](const franka::RobotState&, franka::Duration) {
       franka::Torques torques({0, 0, 0, 0, 0, 0, 0});
       return ++cycles == 20 ? franka::MotionFinished(torques) : torques;
     })) << after;
     EXPECT_EQ(20, cycles) << after;
-    EXPECT_GE(std::chrono::steady_clock::now() - begin, kStall) << after;
+    EXPECT_TRUE(stalled) << after;
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(NewestOfEachRobot, StalledRobot,
                          ::testing::Values(std::uint16_t{5}, std::uint16_t{10}), versionName);
-
-/// Calls a function that waits for what is gone. @returns its text
-template <typename Function>
-std::string noticedAtOnce(Function function) {
-  const auto begin = std::chrono::steady_clock::now();
-  const std::string text = textOf<franka::NetworkException>(function);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5)) << text;
-  return text;
-}
 
 constexpr const char* kClosed = "libfranka: server closed connection";
 
@@ -92,7 +84,7 @@ TEST(DeadRobot, IsNoticedAtOnceInAMotion) {
   FakeRobot fake(5);
   const auto robot = connect(fake);
   fake.script([](FakeRobot::Script& script) { script.close_after = 1; });
-  EXPECT_EQ(kClosed, noticedAtOnce([&] {
+  EXPECT_EQ(kClosed, textOf<franka::NetworkException>([&] {
               robot->control([](const franka::RobotState&, franka::Duration) {
                 return franka::Torques({0, 0, 0, 0, 0, 0, 0});
               });
@@ -105,11 +97,11 @@ TEST(DeadRobot, IsNoticedAtOnceByReadOnce) {
   const auto robot = connect(*fake);
   fake->script([](FakeRobot::Script& script) { script.sends_states = false; });
   std::thread killer([&] {
-    std::this_thread::sleep_for(kStall);
+    std::this_thread::sleep_for(kStall);  // the fault itself
     fake.reset();
   });
-  EXPECT_EQ(kClosed, noticedAtOnce([&] {
-              for (int i = 0; i < 10; i++) {  // some may still be in transit
+  EXPECT_EQ(kClosed, textOf<franka::NetworkException>([&] {
+              while (true) {  // some may still be in transit
                 robot->readOnce();
               }
             }));
@@ -129,14 +121,12 @@ TEST(StalledHand, IsWaitedFor) {
   const franka::Gripper gripper(fake.address());
   fake.sends_states = false;
   std::thread waker([&] {
-    std::this_thread::sleep_for(kStall);
+    std::this_thread::sleep_for(kStall);  // the fault itself
     fake.sends_states = true;
   });
-  const auto begin = std::chrono::steady_clock::now();
-  for (int i = 0; i < 3; i++) {  // some may still be in transit
+  do {  // some may still be in transit
     EXPECT_NO_THROW(gripper.readOnce());
-  }
-  EXPECT_GE(std::chrono::steady_clock::now() - begin, kStall);
+  } while (!fake.sends_states);
   waker.join();
 }
 
@@ -147,11 +137,11 @@ TEST(DeadHand, IsNoticedAtOnce) {
   const franka::Gripper gripper(fake->address());
   fake->sends_states = false;
   std::thread killer([&] {
-    std::this_thread::sleep_for(kStall);
+    std::this_thread::sleep_for(kStall);  // the fault itself
     fake.reset();
   });
-  EXPECT_EQ(kClosed, noticedAtOnce([&] {
-              for (int i = 0; i < 10; i++) {  // some may still be in transit
+  EXPECT_EQ(kClosed, textOf<franka::NetworkException>([&] {
+              while (true) {  // some may still be in transit
                 gripper.readOnce();
               }
             }));

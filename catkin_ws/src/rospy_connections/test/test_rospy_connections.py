@@ -4,6 +4,7 @@
 
 import socket
 import threading
+from collections import defaultdict
 
 import pytest
 import rospy
@@ -15,19 +16,20 @@ from rospy.topics import _PublisherImpl
 from std_msgs.msg import String
 
 TOPIC, PUBLISHER, OTHER = "/grasp/result", "http://hand:1", "http://hand:2"
+LAST = "/last"  # rospy reads the oldest update last
 
 
 class Handler:
-    """Replaces the node: records connections, and ends after `connections`."""
+    """Replaces the node: records connections by topic, and ends after `connections`."""
 
     def __init__(self):
-        self.connected = []
+        self.connected = defaultdict(list)
         self.done = False
         self.changed = threading.Condition()
 
     def _connect_topic(self, topic, uri):
         with self.changed:
-            self.connected.append((topic, uri))
+            self.connected[topic].append(uri)
             self.changed.notify_all()
         return 1, "connected", 0
 
@@ -36,15 +38,17 @@ def connections(*updates: list[str], expected: int) -> set:
     """Connections of a node that gets updates about all these publishers before it reads one."""
     handler = Handler()
     manager = RegManager(handler)
+    manager.publisher_update(LAST, [PUBLISHER])
     for uris in updates:
         manager.publisher_update(TOPIC, uris)
     thread = threading.Thread(target=manager.run)
     thread.start()
     with handler.changed:
-        handler.changed.wait_for(lambda: len(handler.connected) >= expected, timeout=5.0 if expected else 1.0)
+        connected = handler.connected
+        handler.changed.wait_for(lambda: connected[LAST] and len(connected[TOPIC]) >= expected, timeout=60.0)
     handler.done = True
     thread.join()
-    return {uri for _, uri in handler.connected}
+    return set(connected[TOPIC])
 
 
 @pytest.fixture
@@ -81,7 +85,7 @@ def can_publish_before_the_subscriber_is_added(monkeypatch) -> bool:
     published = []
 
     def publish():
-        if topic.publock.acquire(timeout=0.2):
+        if topic.publock.acquire(blocking=False):
             topic.publock.release()
             published.append(True)
 
@@ -99,7 +103,7 @@ def can_publish_before_the_subscriber_is_added(monkeypatch) -> bool:
     with server, client:
         assert TCPROSHandler().topic_connection_handler(server, ("127.0.0.1", 1), header) is None
         assert len(topic.connections) == 1
-        assert topic.publock.acquire(timeout=0)  # free again
+        assert topic.publock.acquire(blocking=False)  # free again
     return bool(published)
 
 

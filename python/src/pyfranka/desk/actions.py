@@ -22,9 +22,10 @@ async def unlock(desk: Desk) -> None:
 
 
 async def lock(desk: Desk) -> None:
-    """Ends motions, switches the FCI off and closes the brakes."""
-    await deactivate_fci(desk)
-    await desk.robot.send("joints lock", urgent=True)
+    """Ends motions, switches the FCI off and closes the brakes. An FCI that is always on pauses."""
+    with desk.fci.paused():
+        await deactivate_fci(desk)
+        await desk.robot.send("joints lock", urgent=True)
 
 
 async def activate_fci(desk: Desk) -> None:

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import time
 from collections.abc import Callable, Coroutine
 
 from aiohttp import WSCloseCode, web
@@ -78,11 +77,11 @@ class Desk:
     @property
     def startup(self) -> str:
         """Phase of the software's start."""
-        return "Started" if time.monotonic() >= self._restarted else "Starting"
+        return "Started" if asyncio.get_running_loop().time() >= self._restarted else "Starting"
 
     def restart(self) -> None:
         """Starts the robot's software again, as a Panda can."""
-        self._restarted = time.monotonic() + RESTART
+        self._restarted = asyncio.get_running_loop().time() + RESTART
 
     # ---- changes -----------------------------------------------------------------------------------------
 

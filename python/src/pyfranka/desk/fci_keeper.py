@@ -4,8 +4,8 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
-import time
 import typing
 
 from pyfranka.robot_report import Report
@@ -40,9 +40,10 @@ class FciKeeper:
             self.desired = True
         if now.fci or not self._is_desired() or not _is_possible(now):
             return
-        if not self._pauses and time.monotonic() >= self._next_attempt:
+        time = asyncio.get_running_loop().time()
+        if not self._pauses and time >= self._next_attempt:
             self.desired = False
-            self._next_attempt = time.monotonic() + ATTEMPT
+            self._next_attempt = time + ATTEMPT
             self._desk.begin(self._desk.robot.send("fci on"))
 
     # A robot without tokens has an FCI that is always on.

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import time
 from collections import Counter, OrderedDict
 from dataclasses import dataclass
 
@@ -58,7 +57,7 @@ class Throttle:
             bucket.waiting -= 1
 
     def _bucket(self, address: str) -> _Bucket:
-        now = time.monotonic()
+        now = asyncio.get_running_loop().time()
         bucket = self._buckets.setdefault(address, _Bucket(self._burst, now))
         bucket.tokens = min(self._burst, bucket.tokens + (now - bucket.time) * self._rate)
         bucket.time = now

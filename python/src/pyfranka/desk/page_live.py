@@ -9,7 +9,6 @@ import base64
 import contextlib
 import json
 import struct
-import time
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -195,9 +194,10 @@ class Live:
                 page.sending = asyncio.get_running_loop().create_task(_send_to(page, frame))
 
     async def _check_logins(self) -> None:
-        if time.monotonic() < self._checked + CHECK_PERIOD:
+        time = asyncio.get_running_loop().time()
+        if time < self._checked + CHECK_PERIOD:
             return
-        self._checked = time.monotonic()
+        self._checked = time
         for page in list(self._pages):
             if page.desk.sessions.name(page.token) is None:
                 await page.socket.close(code=LOGIN_ENDED)

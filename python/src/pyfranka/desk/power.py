@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import asyncio
 import logging
-import time
 import typing
 
 from pyfranka.desk.answers import unavailable
@@ -54,11 +53,12 @@ class Power:
 
     async def _reboot(self) -> None:
         await asyncio.sleep(LAST_ANSWERS)
-        begin = time.monotonic()
+        loop = asyncio.get_running_loop()
+        begin = loop.time()
         await self._take_down()
         await self._send("power off")
         duration = self._desk.options.boot_time or self._desk.profile.boot
-        await asyncio.sleep(max(0.0, begin + duration - time.monotonic()))
+        await asyncio.sleep(max(0.0, begin + duration - loop.time()))
         await self._send("power on")
         await self._bring_up()
 

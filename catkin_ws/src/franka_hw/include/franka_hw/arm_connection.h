@@ -11,6 +11,7 @@
 #include <ros/node_handle.h>
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -127,7 +128,11 @@ class ArmConnection {
   /// As readAtRest(), for the holder of the mutex. Waits three seconds for a silent robot, or
   /// longer if libfranka does (as for simulated robots on this computer).
   /// @throws franka::NetworkException if the connection is lost
-  static franka::RobotState readPatiently(franka::Robot& robot);
+  /// @param read reads a state @param now the clock; tests have their own
+  static franka::RobotState readPatiently(
+      const std::function<franka::RobotState()>& read,
+      const std::function<std::chrono::steady_clock::time_point()>& now =
+          std::chrono::steady_clock::now);
   /// Connects to a robot that was lost, if the parameter `reconnect` is true and the next attempt
   /// is due.
   void reconnect();

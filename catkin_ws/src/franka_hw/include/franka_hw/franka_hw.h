@@ -109,7 +109,9 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
       const std::function<bool(const ros::Time&, const ros::Duration&)>& ros_callback);
 
   /// ArmConnection::readPatiently() of this robot.
-  franka::RobotState readPatiently() { return ArmConnection::readPatiently(robot()); }
+  franka::RobotState readPatiently() {
+    return ArmConnection::readPatiently([this] { return robot().readOnce(); });
+  }
 
   /// Takes over a robot state that was read outside of control().
   virtual void update(const franka::RobotState& robot_state);

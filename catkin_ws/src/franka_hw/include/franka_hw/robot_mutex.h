@@ -47,8 +47,8 @@ class RobotMutex : public std::mutex {
                                                const std::function<void()>& busy);
 
   /// The reading loop calls this, unlocked, between two reads: sleeps for 0.1 ms, and longer while
-  /// there is a request, at most 5 ms, so that reading continues.
-  void yieldToRequests() const;
+  /// there is a request, at most 5 ms, so that reading continues. @returns how often it slept
+  int yieldToRequests() const;
 
   /// Whether a motion holds the robot, so that waiting for it is useless. Real-time safe.
   bool inMotion() const noexcept { return isInMotion(state_.state()); }

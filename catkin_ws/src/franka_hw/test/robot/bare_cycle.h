@@ -20,13 +20,13 @@ class BareCycle : public franka_hw::FrankaHW {
     // The switch finishes only while cycles run.
     std::atomic_bool done{false};
     std::thread requests([&] {
-      manager_.switchController({name}, {}, 2, false, 10.0);
+      manager_.switchController({name}, {}, 2, false, 60.0);
       done = true;
     });
-    while (!done) {
+    waitUntil([&] {
       manager_.update(time_, ros::Duration(0.001));
-      std::this_thread::sleep_for(std::chrono::microseconds(100));
-    }
+      return done.load();
+    });
     requests.join();
     working_ = [this](const franka::RobotState&, franka::Duration step) {
       time_ += ros::Duration(step.toSec());

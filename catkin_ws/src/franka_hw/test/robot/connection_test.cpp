@@ -65,31 +65,31 @@ TEST_F(Connection, LossEndsTheMotionWithAMessage) {
   EXPECT_TRUE(loop.switchTo({}, {"JT"}));
 }
 
-TEST_F(Connection, OutlivesASilenceOfARestingRobot) {
-  const franka::Timeouts usual = franka::timeouts();
-  franka::Timeouts timeouts = usual;
-  timeouts.state = std::chrono::seconds(1);
-  franka::setTimeouts(timeouts);
-  robot_.disconnect();
-  robot_.connect();
-  franka::setTimeouts(usual);
-  const auto begin = std::chrono::steady_clock::now();  // of the silence
-  arm_.robot.script([](auto& script) { script.sends_states = false; });
-  std::thread wakes([&] {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1500));
-    arm_.robot.script([](auto& script) { script.sends_states = true; });
-  });
-  EXPECT_NO_THROW(robot_.readPatiently());
-  EXPECT_GT(std::chrono::steady_clock::now() - begin, timeouts.state);
-  wakes.join();
-
-  arm_.robot.script([](auto& script) { script.sends_states = false; });
-  EXPECT_THROW(
-      {
-        robot_.readPatiently();  // states that were sent before
-        robot_.readPatiently();
-      },
-      franka::NetworkException);
+TEST(ReadPatiently, GivesUpARestingRobotAfterThreeAttemptsOrSeconds) {
+  std::chrono::steady_clock::time_point now;
+  int attempts = 0;
+  /// Whether a robot is read whose first attempts end in this timeout.
+  const auto isRead = [&](int silent, std::chrono::milliseconds timeout) {
+    attempts = 0;
+    const auto read = [&] {
+      if (++attempts <= silent) {
+        now += timeout;
+        throw franka::NetworkException("silence");
+      }
+      return franka::RobotState();
+    };
+    try {
+      franka_hw::ArmConnection::readPatiently(read, [&] { return now; });
+      return true;
+    } catch (const franka::NetworkException&) {
+      return false;
+    }
+  };
+  EXPECT_TRUE(isRead(2, std::chrono::milliseconds(1000)));
+  EXPECT_FALSE(isRead(3, std::chrono::milliseconds(100)));
+  EXPECT_EQ(3, attempts);
+  EXPECT_FALSE(isRead(1, std::chrono::milliseconds(5000)));
+  EXPECT_EQ(1, attempts);
 }
 
 TEST_F(Connection, RunsTheServicesOfARestingRobot) {
@@ -130,7 +130,7 @@ TEST_F(Connection, ReadOnlyLoopDoesNotBlockSwitches) {
   }
 }
 
-TEST_F(Connection, SettersOfAMovingRobotAnswerAtOnce) {
+TEST_F(Connection, SettersOfAMovingRobotAreRefused) {
   franka_hw::ServiceContainer services;
   franka_hw::setupServices(robot_.robot(), robot_.armConnection().mutex(), arm_.robot_nh, services);
   Loop loop(robot_, arm_);
@@ -138,11 +138,7 @@ TEST_F(Connection, SettersOfAMovingRobotAnswerAtOnce) {
   ASSERT_TRUE(waitUntil([&] { return loop.controller("JP").updates_since_start > 10; }));
   franka_msgs::SetJointImpedance impedance;
   impedance.request.joint_stiffness.fill(1000.0);
-  const auto begin = std::chrono::steady_clock::now();
   ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_joint_impedance"), impedance));
-  // The call itself takes almost no time; the bound allows for a machine that is busy with other
-  // work.
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(2));
   EXPECT_FALSE(impedance.response.success);
   EXPECT_NE(std::string::npos, impedance.response.error.find("Stop that controller"));
   EXPECT_EQ(0, arm_.robot.count(Command::kSetJointImpedance));

@@ -166,12 +166,17 @@ TEST(Parameters, ARobotThatRefusesItsThresholdsIsNotConnected) {
 
 TEST(Parameters, ARobotThatIsStillStartingIsWaitedFor) {
   FakeArm arm;
-  arm.robot_nh.setParam("robot_ip", "127.0.0.1:9");
+  arm.robot.script([](auto& script) { script.fatal = {Command::kConnect}; });
   arm.robot_nh.setParam("connect_timeout", 0.5);
-  FrankaHW robot;
-  const auto begin = std::chrono::steady_clock::now();
-  EXPECT_FALSE(robot.init(arm.nh, arm.robot_nh));
-  EXPECT_GE(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(500));
+  EXPECT_FALSE(FrankaHW().init(arm.nh, arm.robot_nh)) << "for a limited time";
+  arm.robot_nh.setParam("connect_timeout", 60.0);
+  const int before = arm.robot.connections();
+  std::thread start([&] {
+    EXPECT_TRUE(waitUntil([&] { return arm.robot.connections() > before; }));
+    arm.robot.script([](auto& script) { script.fatal.clear(); });
+  });
+  EXPECT_TRUE(FrankaHW().init(arm.nh, arm.robot_nh));
+  start.join();
 }
 
 }  // namespace

@@ -74,7 +74,10 @@ TEST_F(Refusals, JointsNamedAfterAnotherArmAreNotCommanded) {
   expectWords(log.text(ros::console::levels::Error), {"arm_id is 'other'", "fr3_joint1"});
 }
 
-TEST_F(Refusals, ControllersAreStartedWhereLibfrankaWouldMoveTheRobot) {
+// The robot's thread gets real-time priority where the kernel has real-time support.
+using RefusalsOnWallClock = Refusals;
+
+TEST_F(RefusalsOnWallClock, ControllersAreStartedWhereLibfrankaWouldMoveTheRobot) {
   arm_.robot_nh.setParam("realtime_config", "enforce");
   const LogCatcher log;
   ASSERT_TRUE(robot_.init(arm_.nh, arm_.robot_nh));

@@ -146,7 +146,7 @@ void TestController::update(const ros::Time& /*time*/, const ros::Duration& peri
     throw std::runtime_error("this controller has had enough");
   }
   if (what == Fault::kSleep) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
+    std::this_thread::sleep_for(std::chrono::milliseconds(2));  // the fault itself
   }
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double error = what == Fault::kNan ? nan : 0.0;
@@ -209,7 +209,7 @@ Loop::~Loop() {
       all.push_back(nameOf(claims));
     }
   }
-  manager_.switchController({}, all, 1, false, 5.0);
+  manager_.switchController({}, all, 1, false, 60.0);
   ending_ = true;
   thread_.join();
 }
@@ -251,7 +251,7 @@ bool Loop::switchTo(const std::vector<std::string>& start, const std::vector<std
     }
     return all;
   };
-  return manager_.switchController(names(start), names(stop), 2, false, 10.0);
+  return manager_.switchController(names(start), names(stop), 2, false, 60.0);
 }
 
 hardware_interface::ControllerInfo Loop::info(const std::string& claims) const {
@@ -309,7 +309,7 @@ void Loop::cycle() {
   }
   manager_.update(ros::Time::now(), ros::Duration(0.001));
   if (considerate_) {
-    std::this_thread::sleep_for(std::chrono::microseconds(100));
+    robot_.armConnection().mutex().yieldToRequests();
   }
 }
 

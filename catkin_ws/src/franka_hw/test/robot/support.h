@@ -30,10 +30,9 @@ namespace franka_hw_test {
 using franka_core::fci::Command;
 using ros_test::LogCatcher;
 
-/// Waits for a condition. @returns false after the time limit [s]
-inline bool waitUntil(const std::function<bool()>& condition, double limit = 10.0) {
-  return ros_test::eventually(condition, std::chrono::microseconds(200),
-                              std::chrono::duration<double>(limit));
+/// Waits for a condition. @returns false after a deadline
+inline bool waitUntil(const std::function<bool()>& condition) {
+  return ros_test::eventually(condition, std::chrono::microseconds(200));
 }
 
 /// The name under which Loop loads the controller with these claims.
@@ -99,7 +98,7 @@ class TestController : public controller_interface::ControllerBase {
 class Loop {
  public:
   /// The robot must be initialised. Errors of motions are stored and end only the motion.
-  /// @param considerate whether the loop pauses between two states, so that others can lock the
+  /// @param considerate whether the loop yields between two states, so that others can lock the
   /// robot
   Loop(franka_hw::FrankaHW& robot, const FakeArm& arm, bool considerate = true);
   ~Loop();

@@ -74,8 +74,14 @@ class ModeGuard {
 
 }  // namespace
 
-Host::Host(std::function<void()> step, const Pace& pace, std::function<void()> prepare)
-    : step_(std::move(step)), prepare_(std::move(prepare)) {
+bool HostClock::poll(std::vector<pollfd>& fds, Clock::duration limit) {
+  const timespec timeout = toTimespec(limit);
+  return ppoll(fds.data(), fds.size(), &timeout, nullptr) > 0;
+}
+
+Host::Host(std::function<void()> step, const Pace& pace, std::function<void()> prepare,
+           HostClock clock)
+    : step_(std::move(step)), prepare_(std::move(prepare)), clock_(std::move(clock)) {
   setPace(pace);
   // By default the system groups wake-ups within 50 us.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
@@ -170,7 +176,7 @@ void Host::standStill() {
 }
 
 void Host::publishAll(bool same_moment) {
-  published_at_ = Clock::now();
+  published_at_ = clock_.now();
   for (Entry& entry : entries_) {
     publish(entry, same_moment, published_at_);
   }
@@ -188,13 +194,13 @@ void Host::publish(Entry& entry, bool same_moment, Clock::time_point now) {
 // System calls take longer than a control unit's tick, so sockets are read only when a poll reports
 // data.
 void Host::serveIfDue() {
-  if (requests_ready_ || requests_left_ || Clock::now() - served_at_ >= kMaxServeInterval) {
+  if (requests_ready_ || requests_left_ || clock_.now() - served_at_ >= kMaxServeInterval) {
     serveAll();
   }
 }
 
 void Host::serveAll() {
-  served_at_ = Clock::now();
+  served_at_ = clock_.now();
   const bool reported = std::exchange(requests_ready_, false);
   const bool polled = std::exchange(polled_, false);
   const bool all = reported || !polled || served_at_ - served_idle_at_ >= kMaxIdleServeInterval;
@@ -268,9 +274,7 @@ void Host::pollUntil(Clock::time_point deadline) {
   for (const Service* service : services_) {
     service->addDescriptors(fds_);
   }
-  const auto left = std::max(deadline - Clock::now(), Clock::duration::zero());
-  const timespec timeout = toTimespec(left);
-  if (ppoll(fds_.data(), fds_.size(), &timeout, nullptr) > 0) {
+  if (clock_.wait(fds_, std::max(deadline - clock_.now(), Clock::duration::zero()))) {
     for (std::size_t i = commands; i < fds_.size(); i++) {
       requests_ready_ = requests_ready_ || fds_[i].revents != 0;
     }
@@ -280,7 +284,7 @@ void Host::pollUntil(Clock::time_point deadline) {
 
 Host::Clock::time_point Host::nextDeadline() {
   deadline_ += period_;
-  const Clock::time_point now = Clock::now();
+  const Clock::time_point now = clock_.now();
   if (now - deadline_ > kMaxCatchUp) {
     deadline_ = now;
   }
@@ -294,7 +298,7 @@ void Host::waitInRealTime() {
     return;
   }
   if (clientsAreDue()) {
-    end = std::max(end, Clock::now() + std::min<Clock::duration>(kMinTimeToAnswer, period_));
+    end = std::max(end, clock_.now() + std::min<Clock::duration>(kMinTimeToAnswer, period_));
   }
   listenUntil(end);
   slept_until_ = end;
@@ -311,7 +315,7 @@ void Host::waitIdle(Clock::time_point end) {
   if (end - slept_until_ < idle_interval_ && slept_until_ < end) {
     return;
   }
-  while (Clock::now() < end && isIdle()) {
+  while (clock_.now() < end && isIdle()) {
     pollUntil(end);
     serveIfDue();
   }
@@ -326,7 +330,7 @@ void Host::listenUntil(Clock::time_point end) {
     pollUntil(end);
     receiveAll();
     serveIfDue();
-  } while (Clock::now() < end);
+  } while (clock_.now() < end);
 }
 
 bool Host::clientsAreDue() const {
@@ -376,7 +380,7 @@ void Host::waitInLockStep() {
   const bool news = std::any_of(entries_.begin(), entries_.end(),
                                 [](const Entry& entry) { return entry.robot->hasNews(); });
   const bool due = clientsAreDue();
-  if (due || news || followsClock() || Clock::now() - published_at_ >= kTick) {
+  if (due || news || followsClock() || clock_.now() - published_at_ >= kTick) {
     publishAll();
   }
   beginWait();
@@ -384,7 +388,7 @@ void Host::waitInLockStep() {
   prepare_();
   // An answer takes a while; if none is expected, one look at the sockets is enough.
   if (due) {
-    spin_rule_.spin([this] { return receiveAll(); });
+    spin_rule_.spin([this] { return receiveAll(); }, [this] { return clock_.now(); });
   }
   if (!due || !receiveAll()) {
     pollUntil(due ? begin + kTick : begin);
@@ -410,7 +414,7 @@ void Host::waitInLockStep() {
       return;
     }
     held_back_ = 0;
-    if (Clock::now() - published_at_ >= kTick) {
+    if (clock_.now() - published_at_ >= kTick) {
       publishAll(true);
     }
     pollUntil(published_at_ + kTick);
@@ -418,7 +422,7 @@ void Host::waitInLockStep() {
 }
 
 void Host::beginWait() {
-  waited_until_ = keep_waiting_called_at_ = Clock::now();
+  waited_until_ = keep_waiting_called_at_ = clock_.now();
   waited_ = {};
   for (Entry& entry : entries_) {
     entry.starts_shown = entry.isDue() ? 1 : 0;
@@ -429,7 +433,7 @@ void Host::beginWait() {
 bool Host::waitForClients() {
   // Time in which this process did not run must not count as the clients' silence.
   constexpr Clock::duration kMaxCountedTime = 2 * kTick;
-  const Clock::time_point now = Clock::now();
+  const Clock::time_point now = clock_.now();
   waited_ += std::min<Clock::duration>(now - waited_until_, kMaxCountedTime);
   waited_until_ = now;
   if (!answersAreMissing() && (receiveAll() || waited_ >= kTick)) {

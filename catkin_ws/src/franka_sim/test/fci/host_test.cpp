@@ -1,11 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The whole simulated robot over real sockets, stepped in lock-step and by the clock.
+// The whole simulated robot over real sockets, in lock-step.
 #include <franka_sim/fci/host.h>
 #include <franka_sim/fci/sim_robot.h>
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
+#include <ros_test/eventually.h>
 
 #include <atomic>
 #include <chrono>
@@ -185,7 +186,8 @@ std::uint64_t hashOfARun(unsigned delays) {
       client, codec::MoveRequest{}, 1500,
       [&](int cycle, const franka_core::RobotState& first, franka_core::RobotCommand& command) {
         if (delays != 0 && engine() % 50 == 0) {
-          std::this_thread::sleep_for(std::chrono::microseconds(engine() % 3000));
+          const std::chrono::microseconds pause(engine() % 3000);
+          std::this_thread::sleep_for(pause);  // the fault itself
         }
         swing(cycle, first, command);
       });
@@ -227,9 +229,7 @@ TEST(LockStep, TreatsASilentClientAsLost) {
   Fixture fixture(pace);
   TestClient client(fixture.port());
   connect(client);
-  const auto begin = std::chrono::steady_clock::now();
-  const codec::MoveRequest request;
-  client.request(request);
+  client.request(codec::MoveRequest{});
   ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
   auto state = client.state();
   while (state->robot_mode != RobotMode::kMove) {
@@ -246,7 +246,6 @@ TEST(LockStep, TreatsASilentClientAsLost) {
   const auto end = client.answer(Command::kMove);
   ASSERT_TRUE(end);
   EXPECT_EQ(end->reply.status, Status::kReflexAborted);
-  EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(5));
   while (state && state->robot_mode != RobotMode::kReflex) {
     state = client.state();
   }
@@ -254,14 +253,16 @@ TEST(LockStep, TreatsASilentClientAsLost) {
   EXPECT_TRUE(state->errors[25]);  // communication_constraints_violation
 }
 
-/// The first state in that mode; empty if there is none within 20 s.
+/// The first state in that mode; empty if there is none in time.
 std::optional<franka_core::RobotState> stateIn(TestClient& client, RobotMode mode) {
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  auto state = client.state();
-  while (state && state->robot_mode != mode && std::chrono::steady_clock::now() < deadline) {
-    state = client.state();
-  }
-  return state && state->robot_mode == mode ? state : std::nullopt;
+  std::optional<franka_core::RobotState> state;
+  const bool found = ros_test::eventually(
+      [&] {
+        state = client.state();
+        return !state || state->robot_mode == mode;
+      },
+      std::chrono::microseconds(0));
+  return found ? state : std::nullopt;
 }
 
 TEST(LockStep, AClientThatDiesBeforeItsFirstCommandEndsItsMotion) {
@@ -294,7 +295,7 @@ TEST(LockStep, AnArmThatCoastsInGuidingDoesNotDeferRequests) {
   });
   for (int i = 0; i < 3; i++) {
     client.request(codec::SetLoadRequest{});
-    const auto answer = client.answer(Command::kSetLoad, 20000);
+    const auto answer = client.answer(Command::kSetLoad);
     ASSERT_TRUE(answer);
     EXPECT_EQ(answer->reply.status, Status::kSuccess);
   }
@@ -325,15 +326,9 @@ TEST(LockStep, AHandFinishesItsCommandAfterItsClientDies) {
     ASSERT_TRUE(client.sendBytes(message.data, message.size));
     hand::encodeRequest(1, hand::MoveRequest{0.06, 0.02}, message);
     ASSERT_TRUE(client.sendBytes(message.data, message.size));
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-    while (fixture.width() < 0.005 && std::chrono::steady_clock::now() < deadline) {
-    }
+    EXPECT_TRUE(ros_test::eventually([&] { return fixture.width() > 0.005; }));
   }
-  const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(20);
-  while (std::abs(fixture.width() - 0.06) > 1e-3 && std::chrono::steady_clock::now() < deadline) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
-  EXPECT_NEAR(fixture.width(), 0.06, 1e-3);
+  EXPECT_TRUE(ros_test::eventually([&] { return std::abs(fixture.width() - 0.06) < 1e-3; }));
 }
 
 TEST(LockStep, StopsAMotionOnDemand) {
@@ -357,42 +352,6 @@ TEST(LockStep, StopsAMotionOnDemand) {
   // In every mode: also without a motion to stop.
   client.request(codec::StopMoveRequest{});
   EXPECT_TRUE(client.answer(Command::kStopMove));
-}
-
-TEST(RealTime, FollowsTheClock) {
-  Fixture fixture(Pace{});
-  TestClient client(fixture.port());
-  connect(client);
-  const auto first = client.state();
-  const auto begin = std::chrono::steady_clock::now();
-  auto last = first;
-  for (int i = 0; i < 300; i++) {
-    last = client.state();
-    ASSERT_TRUE(last);
-  }
-  const std::chrono::duration<double> passed = std::chrono::steady_clock::now() - begin;
-  EXPECT_EQ(last->message_id - first->message_id, 300U);
-  EXPECT_GT(passed.count(), 0.25);
-  EXPECT_LT(passed.count(), 2.0);  // for a busy machine
-}
-
-// For a machine that may pause longer than a robot does without commands.
-TEST(RealTime, PatientMotionFollowsTheClock) {
-  Pace pace;
-  pace.mode = PaceMode::kPatient;
-  pace.factor = 0.2;
-  Fixture fixture(pace);
-  TestClient client(fixture.port());
-  connect(client);
-  const auto begin = std::chrono::steady_clock::now();
-  const Status end = drive(
-      client, codec::MoveRequest{}, 300,
-      [](int cycle, const franka_core::RobotState& first, franka_core::RobotCommand& command) {
-        command.q_c = first.q_d;
-        command.q_c[3] += 0.02 * std::pow(std::sin(M_PI * std::min(cycle, 300) / 300.0), 4);
-      });
-  EXPECT_EQ(end, Status::kSuccess);
-  EXPECT_GT(std::chrono::steady_clock::now() - begin, std::chrono::milliseconds(1400));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ class SimulatedRobots {
   explicit SimulatedRobots(const std::vector<Place>& places, bool by_clock = false)
       : host_(
             [this] {
-              std::this_thread::sleep_for(std::chrono::milliseconds(hold_up_.exchange(0)));
+              std::this_thread::sleep_for(hold_up_.exchange({}));  // the fault itself
               world_.step();
             },
             pace(by_clock)) {
@@ -73,7 +73,7 @@ class SimulatedRobots {
   }
 
   /// Nothing runs for this time, as on a busy machine.
-  void holdUp(int milliseconds) { hold_up_ = milliseconds; }
+  void holdUp(std::chrono::milliseconds time) { hold_up_ = time; }
   std::string gripperAddress(std::size_t robot = 0) const {
     return "127.0.0.1:" + std::to_string(robots_[robot]->gripperPort());
   }
@@ -123,7 +123,7 @@ class SimulatedRobots {
   std::vector<std::unique_ptr<SimRobot>> robots_;
   Host host_;
   std::atomic<bool> stop_{false};
-  std::atomic<int> hold_up_{0};
+  std::atomic<std::chrono::milliseconds> hold_up_{std::chrono::milliseconds(0)};
   std::thread thread_;
 };
 
@@ -380,7 +380,7 @@ TEST_P(TwoArms, MoveSimultaneouslyForOneClientEach) {
 
 INSTANTIATE_TEST_SUITE_P(Pace, TwoArms, ::testing::Bool());
 
-constexpr int kLonger = 1300;  // than the client's timeout for states [ms]
+constexpr std::chrono::milliseconds kLonger{1300};  // than the client's timeout for states
 
 TEST(StarvedMachine, ClientAndRobotWaitForEachOther) {
   SimulatedRobots simulated(std::vector<Place>{{5}});
@@ -388,7 +388,7 @@ TEST(StarvedMachine, ClientAndRobotWaitForEachOther) {
   swing(robot, kAngle, [&](int cycle) {
     // From here on the client can detect that the robot's time is not the wall's.
     if (cycle == 500) {
-      std::this_thread::sleep_for(std::chrono::seconds(1));
+      std::this_thread::sleep_for(std::chrono::seconds(1));  // the fault itself
     } else if (cycle == 600) {
       simulated.holdUp(kLonger);
     }
@@ -410,7 +410,7 @@ TEST(StarvedMachine, ClientsWaitWhileAnotherClientIsAwaited) {
   auto other = std::async(std::launch::async, [&fr3] { swing(fr3, -kAngle); });
   swing(panda, kAngle, [](int cycle) {
     if (cycle == 300) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(kLonger));
+      std::this_thread::sleep_for(kLonger);  // the fault itself
     }
   });
   EXPECT_NO_THROW(other.get());

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <franka_sim/fci/robot_server.h>
+#include <ros_test/eventually.h>
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -94,16 +94,12 @@ class RobotServerTest : public ::testing::Test {
     return result;
   }
 
-  /// Serves until a condition holds; at most 5 s.
+  /// Serves until a condition holds, or a deadline has passed.
   bool until(const std::function<bool()>& condition) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
-    while (!condition()) {
-      if (std::chrono::steady_clock::now() > deadline) {
-        return false;
-      }
+    return ros_test::eventually([&] {
       server_.serve();
-    }
-    return true;
+      return condition();
+    });
   }
   /// Loopback delivers within the sender's call; a few calls let the server receive everything.
   void serve(bool stops_only = false) {
@@ -111,16 +107,18 @@ class RobotServerTest : public ::testing::Test {
       server_.serve(stops_only);
     }
   }
-  /// Serves until the answer arrives; at most 5 s. Connections beyond the server's limit per
-  /// millisecond have to wait.
+  /// Serves until the answer arrives, or a deadline has passed. Connections beyond the server's
+  /// limit per millisecond have to wait.
   static std::optional<TestClient::Answer> answerOf(RobotServer& server, TestClient& client,
                                                     Command command) {
-    const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(5);
     std::optional<TestClient::Answer> answer;
-    while (!answer && std::chrono::steady_clock::now() < deadline) {
-      server.serve();
-      answer = client.answer(command, 1);
-    }
+    ros_test::eventually(
+        [&] {
+          server.serve();
+          answer = client.answer(command, 1);
+          return answer.has_value();
+        },
+        std::chrono::microseconds(0));
     return answer;
   }
   void connect(TestClient& client, std::uint16_t version) {
@@ -134,7 +132,7 @@ class RobotServerTest : public ::testing::Test {
     client.request(request);
     serve();
     server_.publish();
-    return client.answer(codec::commandOf(request), 1000);
+    return client.answer(codec::commandOf(request));
   }
 
   FakeRequestHandler handler_;

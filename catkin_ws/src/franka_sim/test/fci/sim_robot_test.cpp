@@ -284,7 +284,7 @@ TEST_F(SimRobotTest, AResetAnswersRequestsThatWaitForRest) {
   tick();
   std::vector<Status> statuses;
   for (int i = 0; i < 3; i++) {
-    const auto answer = client.answer(Command::kMove, 1000);
+    const auto answer = client.answer(Command::kMove);
     ASSERT_TRUE(answer) << i;
     statuses.push_back(answer->reply.status);
   }

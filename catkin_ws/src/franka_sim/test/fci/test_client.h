@@ -21,7 +21,9 @@ namespace franka_test {
 
 namespace codec = franka_core::fci;
 
-/// A client in single steps: every step of the protocol is one call. Blocks at most 5 s.
+constexpr int kDeadline = 30000;  // [ms]
+
+/// A client in single steps: every step of the protocol is one call. Blocks at most 30 s.
 class TestClient {
  public:
   explicit TestClient(std::uint16_t port, const char* address = "127.0.0.1")
@@ -78,7 +80,7 @@ class TestClient {
   };
   /// The next reply, read as one to `command`; empty if the connection has ended or no reply
   /// arrives within `timeout_ms`.
-  std::optional<Answer> answer(codec::Command command, int timeout_ms = 5000) {
+  std::optional<Answer> answer(codec::Command command, int timeout_ms = kDeadline) {
     std::vector<std::uint8_t> bytes;
     if (!read(bytes, codec::kHeaderSize, timeout_ms)) {
       return std::nullopt;
@@ -97,13 +99,13 @@ class TestClient {
     return answer;
   }
   /// Whether the server has ended the connection.
-  bool ended(int timeout_ms = 5000) {
+  bool ended(int timeout_ms = kDeadline) {
     std::vector<std::uint8_t> bytes;
     return !read(bytes, 1, timeout_ms) && ended_;
   }
 
   /// The next state; empty if none arrives.
-  std::optional<franka_core::RobotState> state(int timeout_ms = 5000) {
+  std::optional<franka_core::RobotState> state(int timeout_ms = kDeadline) {
     pollfd waiting{udp_, POLLIN, 0};
     if (::poll(&waiting, 1, timeout_ms) != 1) {
       return std::nullopt;

@@ -6,6 +6,8 @@
 #include <franka/vacuum_gripper.h>
 #include <franka_sim/fci/vacuum_server.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <ros_test/eventually.h>
 
 #include <atomic>
 #include <chrono>
@@ -15,6 +17,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 namespace franka_sim {
 namespace {
@@ -168,30 +171,28 @@ class VacuumGripperOnTheNetwork : public ::testing::Test {
     const std::lock_guard<std::mutex> lock(mutex_);
     change(unit_);
   }
-  /// Waits up to 5 s for a state that fulfils the condition.
+  /// Waits for a state that fulfils the condition.
   template <typename Condition>
   static bool becomes(const franka::VacuumGripper& gripper, Condition&& condition) {
-    const auto end = std::chrono::steady_clock::now() + 5s;
-    while (std::chrono::steady_clock::now() < end) {
-      if (condition(gripper.readOnce())) {
-        return true;
-      }
-    }
-    return false;
+    return ros_test::eventually([&] { return condition(gripper.readOnce()); });
   }
 
  private:
   void serve() {
     while (!stop_) {
+      std::vector<pollfd> fds;
       {
         const std::lock_guard<std::mutex> lock(mutex_);
         server_.serve();
-        unit_.step(kTick);
-        server_.publish(1);
+        run(unit_, kTicksPerMillisecond);
+        server_.publish(kTicksPerMillisecond);
+        server_.addDescriptors(fds);
       }
-      std::this_thread::sleep_for(200us);
+      ::poll(fds.data(), fds.size(), 1);
     }
   }
+
+  static constexpr int kTicksPerMillisecond = 5;
 
   VacuumGripperUnit unit_;
   fci::VacuumServer server_;
@@ -233,7 +234,7 @@ TEST_F(VacuumGripperOnTheNetwork, ReportsFailures) {
 
 TEST_F(VacuumGripperOnTheNetwork, StopInterruptsACommandOfAnotherThread) {
   const franka::VacuumGripper gripper = client();
-  auto waiting = std::async(std::launch::async, [&] { return gripper.vacuum(50, 60s); });
+  auto waiting = std::async(std::launch::async, [&] { return gripper.vacuum(50, 1h); });
   ASSERT_TRUE(becomes(
       gripper, [](const franka::VacuumGripperState& state) { return state.actual_power == 100; }));
   EXPECT_TRUE(gripper.stop());

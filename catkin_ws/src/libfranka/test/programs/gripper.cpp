@@ -5,11 +5,9 @@
 #include <franka/exception.h>
 #include <franka/gripper.h>
 
-#include <chrono>
 #include <iostream>
 #include <sstream>
 #include <string>
-#include <thread>
 
 int main(int argc, char** argv) {
   if (argc != 4) {
@@ -35,7 +33,6 @@ int main(int argc, char** argv) {
       std::cout << "Failed to grasp object." << std::endl;
       return 1;
     }
-    std::this_thread::sleep_for(std::chrono::milliseconds(100));
     gripper_state = gripper.readOnce();
     if (!gripper_state.is_grasped) {
       std::cout << "Object lost." << std::endl;

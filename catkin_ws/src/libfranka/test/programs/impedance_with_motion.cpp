@@ -34,7 +34,7 @@ int main(int argc, char** argv) {
           std::cout << torque;
         }
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      std::this_thread::sleep_for(std::chrono::milliseconds(10));  // between two looks
     }
   });
   int result = 0;

@@ -87,7 +87,7 @@ class Managed : public testing::Test {
   template <class During>
   bool switched(const Names& start, const Names& stop, During during) {
     auto answer = std::async(std::launch::async, [&] {
-      return manager_.switchController(start, stop, kStrict, false, 5.0);
+      return manager_.switchController(start, stop, kStrict, false, 60.0);
     });
     while (answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
       during();

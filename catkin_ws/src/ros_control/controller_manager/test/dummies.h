@@ -81,7 +81,7 @@ class SlowController : public DummyController {
     nh.setParam("loading", true);
     const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(60.0);
     while (nh.param("loading", false) && ros::WallTime::now() < end) {
-      ros::WallDuration(0.01).sleep();
+      ros::WallDuration(0.01).sleep();  // between two looks
     }
     return DummyController::init(hw, nh);
   }

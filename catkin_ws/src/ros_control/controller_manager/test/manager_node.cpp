@@ -12,10 +12,23 @@
 
 #include "dummies.h"
 
+namespace {
+
+/// Counts switches in the parameter `prepared_switches`, for tests that wait for one.
+class CountingRobot : public dummies::DummyRobot {
+  bool prepareSwitch(const Infos& start, const Infos& stop) override {
+    const bool feasible = DummyRobot::prepareSwitch(start, stop);
+    ros::param::set("prepared_switches", prepares_.load());
+    return feasible;
+  }
+};
+
+}  // namespace
+
 int main(int argc, char** argv) {
   ros::init(argc, argv, "manager_node");
   ros::NodeHandle nh;
-  dummies::DummyRobot robot;
+  CountingRobot robot;
   controller_manager::ControllerManager manager(&robot, nh);
   manager.registerControllerLoader(std::make_shared<dummies::DummyLoader>());
 
@@ -39,7 +52,7 @@ int main(int argc, char** argv) {
         time += period;
         manager.update(time, period);
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // between two looks
     }
   });
   ros::spin();

@@ -18,14 +18,14 @@ from controller_manager_msgs.srv import (
 )
 from std_srvs.srv import SetBool
 
-DEADLINE = 30.0  # [s]
+DEADLINE = 60.0  # [s]
 
 
 def wait_until(condition, message):
     end = time.monotonic() + DEADLINE
     while not condition():
         assert time.monotonic() < end, message
-        time.sleep(0.02)
+        time.sleep(0.02)  # between two looks
 
 
 class Manager:
@@ -42,6 +42,12 @@ class Manager:
         self.unload = proxy("controller_manager/unload_controller", UnloadController)
         self.switch = proxy("controller_manager/switch_controller", SwitchController)
         self.run_loop = proxy("run_loop", SetBool)
+
+    def halt_loop(self):
+        """Returns a condition: a switch that has come since waits for the loop."""
+        before = rospy.get_param("prepared_switches", 0)
+        self.run_loop(False)
+        return lambda: rospy.get_param("prepared_switches", 0) > before
 
     def states(self):
         return {controller.name: controller.state for controller in self.list().controller}

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The six services, with the loop running and with the loop halted."""
 
+import os
 import sys
 import threading
 import time
@@ -15,7 +16,7 @@ from controller_manager_msgs.srv import (
     ReloadControllerLibraries,
     SwitchControllerRequest,
 )
-from scripts_common import Manager, wait_until
+from scripts_common import DEADLINE, Manager, wait_until
 
 STRICT = SwitchControllerRequest.STRICT
 
@@ -61,6 +62,7 @@ class ServicesTest(unittest.TestCase):
         self.assertTrue(self.manager.unload("a").ok)
         self.assertEqual({}, self.manager.states())
 
+    @unittest.skipUnless(os.environ.get("FRANKA_TEST_REALTIME"), "real time: ./franka test --realtime")
     def test_a_switch_is_answered_in_a_few_milliseconds(self):
         self.assertTrue(self.manager.load("a").ok)
         times = []
@@ -69,25 +71,23 @@ class ServicesTest(unittest.TestCase):
             self.assertTrue(self.manager.switch(start_controllers=["a"], strictness=STRICT).ok)
             times.append(time.monotonic() - begin)
             self.assertTrue(self.manager.switch(stop_controllers=["a"], strictness=STRICT).ok)
-        print(f"switch service: median {1000 * sorted(times)[5]:.1f} ms")
         self.assertLess(sorted(times)[5], 0.1)
 
     def test_the_others_are_answered_while_a_switch_waits_for_the_loop(self):
         self.assertTrue(self.manager.load("a").ok)
-        self.manager.run_loop(False)
         answers = []
         switch = threading.Thread(
             target=lambda: answers.append(self.manager.switch(start_controllers=["a"], strictness=STRICT))
         )
+        switch_waits = self.manager.halt_loop()
         switch.start()
-        # Long enough that the switch waits afterwards.
-        for _ in range(20):
-            self.assertTrue(self.manager.load("c").ok)
-            self.assertTrue(self.manager.unload("c").ok)
+        wait_until(switch_waits, "no switch")
+        self.assertTrue(self.manager.load("c").ok)
+        self.assertTrue(self.manager.unload("c").ok)
         self.assertEqual({"a": "initialized"}, self.manager.states())
         self.assertEqual([], answers)
         self.manager.run_loop(True)
-        switch.join(10.0)
+        switch.join(DEADLINE)
         self.assertTrue(answers[0].ok)
         self.assertEqual({"a": "running"}, self.manager.states())
 
@@ -100,7 +100,7 @@ class ServicesTest(unittest.TestCase):
         self.assertEqual({"a": "initialized"}, self.manager.states())
         self.assertEqual([], answers)
         rospy.set_param("slow/loading", False)
-        load.join(30.0)
+        load.join(DEADLINE)
         self.assertTrue(answers[0].ok)
         self.assertEqual({"a": "initialized", "slow": "initialized"}, self.manager.states())
 
@@ -109,10 +109,8 @@ class ServicesTest(unittest.TestCase):
         self.manager.run_loop(False)
         begin = time.monotonic()
         answer = self.manager.switch(start_controllers=["a"], strictness=STRICT, timeout=0.3)
-        elapsed = time.monotonic() - begin
         self.assertFalse(answer.ok)
-        self.assertGreaterEqual(elapsed, 0.3)
-        self.assertLess(elapsed, 5.0)
+        self.assertGreaterEqual(time.monotonic() - begin, 0.3)
 
 
 if __name__ == "__main__":

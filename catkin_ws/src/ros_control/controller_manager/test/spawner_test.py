@@ -115,11 +115,10 @@ class SpawnerTest(unittest.TestCase):
     def test_waits_for_a_topic(self):
         publisher = rospy.Publisher("initialized", Bool, queue_size=1, latch=True)
         publisher.publish(False)
-        for timeout in (["--no-timeout"], ["--timeout", "20"]):
+        for timeout in (["--no-timeout"], ["--timeout", "60"]):
             publisher.publish(False)
             with Running("spawner", *timeout, "--wait-for", "initialized", "a") as spawner:
                 wait_until(lambda: publisher.get_num_connections() > 0, "no subscriber")
-                time.sleep(0.5)  # at least: it must not start anything meanwhile
                 self.assertEqual({}, self.manager.states())
                 publisher.publish(True)
                 self.expect({"a": "running"})
@@ -127,43 +126,32 @@ class SpawnerTest(unittest.TestCase):
             self.expect({})
 
     def test_finds_a_publisher_whose_announcement_was_lost(self):
-        deaf = mock.patch.object(RegManager, "publisher_update")
-        with deaf, mock.patch.object(spawner, "RESUBSCRIBE_TIME", 0.5):
-            listener = spawner.Listener("overheard")
-            publisher = rospy.Publisher("overheard", Bool, queue_size=1, latch=True)
-            publisher.publish(True)
-            time.sleep(0.3)
-            self.assertFalse(listener.has_message())
-        with contextlib.closing(listener):
-            wait_until(listener.has_message, "never heard")
-
-    def test_waits_for_a_topic_without_limit_and_reports_it(self):
-        publisher = rospy.Publisher("late", Bool, queue_size=1, latch=True)
-        with Running("spawner", "--timeout", "0.5", "--wait-for", "late", "a") as running:
-            wait_until(lambda: publisher.get_num_connections() > 0, "no subscriber")
-            time.sleep(1.0)  # at least twice its timeout for the controller manager
-            self.assertTrue(running.is_running())
-            publisher.publish(True)
-            self.expect({"a": "running"})
-            running.interrupt()
-        self.expect({})
+        clock = mock.Mock()
+        clock.monotonic.return_value = 0.0
+        with mock.patch.object(spawner, "time", clock):
+            with mock.patch.object(RegManager, "publisher_update") as update:
+                listener = spawner.Listener("overheard")
+                publisher = rospy.Publisher("overheard", Bool, queue_size=1, latch=True)
+                publisher.publish(True)
+                wait_until(lambda: any(call.args[1] for call in update.call_args_list), "not announced")
+                self.assertFalse(listener.has_message())
+            clock.monotonic = time.monotonic
+            with contextlib.closing(listener):
+                wait_until(listener.has_message, "never heard")
 
     def test_reports_the_topic_that_it_waits_for(self):
         publisher = rospy.Publisher("reported", Bool, queue_size=1, latch=True)
         reports = []
-
-        class ShortEnding:  # replaces Ending
-            def sleep(self, duration):
-                rospy.rostime.wallsleep(0.01)
+        short_ending = mock.Mock(sleep=lambda duration: time.sleep(0.01))  # between two looks
 
         def take(text, *values):
             reports.append(text % values)
             # Times of the reports, and then the awaited topic.
             publisher.publish("only sent false" in reports[-1])
 
-        short_ending = mock.patch.multiple(spawner, FIRST_REPORT=0.0, REPORT_PERIOD=0.5)
-        with short_ending, mock.patch.object(spawner.rospy, "logwarn", take):
-            spawner.wait_for_true("reported", ShortEnding())
+        often = mock.patch.multiple(spawner, FIRST_REPORT=0.0, REPORT_PERIOD=0.5)
+        with often, mock.patch.object(spawner.rospy, "logwarn", take):
+            spawner.wait_for_true("reported", short_ending)
         self.assertIn("/reported", reports[0])
         self.assertIn("has only sent false so far", reports[-1])
 
@@ -177,17 +165,27 @@ class SpawnerTest(unittest.TestCase):
         )
 
     def test_an_unstarted_clock_does_not_count_as_waiting_time(self):
+        simulated, wall = mock.Mock(), mock.Mock()
+        simulated.has_begun.return_value, wall.monotonic.return_value = False, 0.0
+        with mock.patch.object(spawner, "time", wall):
+            deadline = spawner.Deadline(30.0, simulated)
+            wall.monotonic.return_value = 100.0
+            self.assertFalse(deadline.is_over())
+            simulated.has_begun.return_value = True
+            wall.monotonic.return_value = 129.0
+            self.assertFalse(deadline.is_over())
+            wall.monotonic.return_value = 131.0
+            self.assertTrue(deadline.is_over())
+
+    def test_waits_for_an_unstarted_clock(self):
         rospy.set_param("/use_sim_time", True)
         try:
-            with Running("spawner", "--timeout", "0.5", "--namespace", "/nowhere", "a") as spawner:
-                spawner.wait_to_print("Waiting for /clock to be available...")
-                time.sleep(1.0)  # at least twice its timeout
-                self.assertTrue(spawner.is_running())
+            with Running("spawner", "--timeout", "0.5", "--namespace", "/nowhere", "a") as running:
+                running.wait_to_print("Waiting for /clock to be available...")
                 publisher = rospy.Publisher("/clock", Clock, queue_size=1, latch=True)
                 publisher.publish(Clock(rospy.Time(1)))
-                status, output = spawner.finish()
+                status, _ = running.finish()
             self.assertEqual(1, status)
-            self.assertIn("Waiting for /clock to be available...", output)
         finally:
             rospy.delete_param("/use_sim_time")
 
@@ -234,13 +232,10 @@ class SpawnerTest(unittest.TestCase):
         self.assertIn("there is no file '/no/such/file.yaml'", output)
 
     def test_can_be_interrupted_while_the_start_waits_for_the_loop(self):
-        self.manager.run_loop(False)
+        switch_waits = self.manager.halt_loop()
         with Running("spawner", "a") as spawner:
-            self.expect({"a": "initialized"})
-            time.sleep(0.5)
-            begin = time.monotonic()
+            wait_until(switch_waits, "no switch")
             status, output = spawner.interrupt()
-            self.assertLess(time.monotonic() - begin, 5.0)
         self.assertEqual(0, status, output)
         self.assertIn("Failed to unload controller: a", output)
         self.manager.run_loop(True)
@@ -290,7 +285,7 @@ class SpawnerTest(unittest.TestCase):
             self.assertEqual(0, status, output)
             self.assertIn("has ended meanwhile", output)
             self.assertNotIn("WARN", output)
-            self.assertEqual(0, manager.wait(10))
+            self.assertEqual(0, manager.wait(60))
 
     def test_a_manager_that_died_before_causes_no_error(self):
         with self.mortal_manager() as (manager, spawner):
@@ -301,13 +296,11 @@ class SpawnerTest(unittest.TestCase):
             self.assertIn("has ended already", output)
             self.assertNotIn("WARN", output)
 
-    def test_exits_in_time_if_the_loop_stands_still(self):
+    def test_exits_if_the_loop_stands_still(self):
         with Running("spawner", "a") as spawner:
             self.expect({"a": "running"})
             self.manager.run_loop(False)
-            begin = time.monotonic()
             status, output = spawner.interrupt()
-            self.assertLess(time.monotonic() - begin, 12.0)
         self.assertEqual(0, status)
         self.assertIn("Failed to stop controllers: a", output)
         self.manager.run_loop(True)

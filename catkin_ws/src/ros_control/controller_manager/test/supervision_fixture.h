@@ -60,7 +60,7 @@ class FaultyController : public DummyController {
       throw 42;
     }
     if (inUpdate() == FaultKind::kSlow) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(3));
+      std::this_thread::sleep_for(std::chrono::milliseconds(3));  // the fault itself
     }
   }
 

@@ -209,11 +209,13 @@ TEST_F(SwitchTest, TimeoutUsesTheClockOfTheLoop) {
   for (const bool asap : {false, true}) {
     robot_.after_script_ = RobotHW::SwitchState::ONGOING;
     const int waits_before = controller("a").waits_;
-    auto answer = beginSwitch({"a"}, {}, kStrict, asap, 0.0505);
+    auto answer = beginSwitch({"a"}, {}, kStrict, asap, 50.5);
     for (int i = 0; i < 50; ++i) {
+      time_ += ros::Duration(0.999);
       step();
       EXPECT_TRUE(controller("a").isWaiting());
     }
+    time_ += ros::Duration(0.999);
     step();
     EXPECT_TRUE(controller("a").isAborted());
     EXPECT_EQ(waits_before + 51, controller("a").waits_);
@@ -225,9 +227,12 @@ TEST_F(SwitchTest, TimeoutUsesTheClockOfTheLoop) {
 TEST_F(SwitchTest, TimeoutIsLoggedAndReturnsTrue) {
   robot_.after_script_ = RobotHW::SwitchState::ONGOING;
   LogCatcher log;
-  EXPECT_TRUE(doSwitch({"a"}, {}, kStrict, false, 0.5));
+  auto answer = beginSwitch({"a"}, {}, kStrict, false, 50.5);
+  time_ += ros::Duration(51.0);
+  step();
+  EXPECT_TRUE(answer.get());
   EXPECT_THAT(log.text(), HasSubstr("Controller 'a' was not started, because the robot was not "
-                                    "ready for it after 0.5 s"));
+                                    "ready for it after 50.5 s"));
 }
 
 TEST_F(SwitchTest, ResetRestartsRunningControllers) {

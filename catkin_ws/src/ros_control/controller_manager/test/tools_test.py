@@ -87,12 +87,11 @@ class ToolsTest(unittest.TestCase):
         run("controller_manager", "spawn", "a")
         with Running("unspawner", "a") as unspawner:
             wait_until(lambda: self.manager.states()["a"] == "stopped", "never stopped")
-            # The restart waits for the loop, so a shutdown that does not wait would come first.
-            self.manager.run_loop(False)
             nodes = [name for name in rosnode.get_node_names() if name.startswith("/unspawner_")]
             kill = threading.Thread(target=rosnode.kill_nodes, args=(nodes,))
+            switch_waits = self.manager.halt_loop()
             kill.start()
-            kill.join(1.0)
+            wait_until(switch_waits, "no restart")
             self.assertTrue(unspawner.is_running())
             self.manager.run_loop(True)
             status, output = unspawner.finish()

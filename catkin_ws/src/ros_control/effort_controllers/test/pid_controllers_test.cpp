@@ -178,9 +178,7 @@ TEST_F(PidControllers, PublishesTheStateEveryTenthStep) {
   ASSERT_TRUE(eventually([&] { return subscriber.getNumPublishers() > 0; }));
   start();
   controller<effort_controllers::JointPositionController>().setCommand(0.5);
-  ASSERT_TRUE(eventually([&] {
-    step();
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  ASSERT_TRUE(stepsUntil([&] {
     const std::lock_guard<std::mutex> lock(mutex);
     return states.size() >= 5;
   }));

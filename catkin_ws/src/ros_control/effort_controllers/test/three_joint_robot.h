@@ -108,10 +108,9 @@ class ControllerTest : public testing::Test {
   bool doSwitch(const Names& start, const Names& stop) {
     std::future<bool> answer =
         std::async(std::launch::async, [&] { return manager_.switchController(start, stop, 2); });
-    while (answer.wait_for(std::chrono::milliseconds(0)) != std::future_status::ready) {
-      step();
-      std::this_thread::sleep_for(std::chrono::microseconds(200));
-    }
+    EXPECT_TRUE(stepsUntil([&] {
+      return answer.wait_for(std::chrono::milliseconds(0)) == std::future_status::ready;
+    }));
     const bool succeeded = answer.get();
     step();
     return succeeded;
@@ -120,10 +119,11 @@ class ControllerTest : public testing::Test {
   /// Steps until a condition holds.
   template <class Condition>
   bool stepsUntil(Condition condition) {
-    return eventually([&] {
+    const auto after_a_step = [&] {
       step();
       return condition();
-    });
+    };
+    return eventually(after_a_step, std::chrono::microseconds(200));
   }
 
   /// A connected publisher to the controller's topic `command`.

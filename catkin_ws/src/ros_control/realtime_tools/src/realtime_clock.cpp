@@ -57,9 +57,14 @@ void RealtimeClock::follow(double realtime_time, double system_time) {
   initialized_ = true;
 }
 
+void RealtimeClock::sample() {
+  const std::lock_guard<std::mutex> lock(sampling_);
+  noted_.store(static_cast<std::int64_t>(ros::Time::now().toNSec()), std::memory_order_relaxed);
+}
+
 void RealtimeClock::loop() {
   while (running_) {
-    noted_.store(static_cast<std::int64_t>(ros::Time::now().toNSec()), std::memory_order_relaxed);
+    sample();
     std::this_thread::sleep_for(kPeriod);
   }
 }

@@ -6,21 +6,11 @@
 #include <ros/time.h>
 #include <rt_guard/rt_guard.h>
 
-#include <chrono>
 #include <cmath>
-#include <thread>
 
 using realtime_tools::RealtimeClock;
 
 namespace {
-
-/// The thread samples the clock every 1.33 ms. One long sleep may be a pause of the machine, after
-/// which both threads wake at once; many short ones give it processor time.
-void letTheThreadLook() {
-  for (int nap = 0; nap < 50; ++nap) {
-    std::this_thread::sleep_for(std::chrono::milliseconds(2));
-  }
-}
 
 /// The test sets the system's time.
 class RealtimeClockTest : public testing::Test {
@@ -35,7 +25,7 @@ class RealtimeClockTest : public testing::Test {
 
 TEST_F(RealtimeClockTest, AddsTheDifferenceOfTheClocks) {
   RealtimeClock clock;
-  letTheThreadLook();
+  clock.sample();
   EXPECT_NEAR(2000.0, clock.getSystemTime(ros::Time(100.0)).toSec(), 1e-6);
   EXPECT_NEAR(2000.5, clock.getSystemTime(ros::Time(100.5)).toSec(), 1e-6);
 }
@@ -43,17 +33,17 @@ TEST_F(RealtimeClockTest, AddsTheDifferenceOfTheClocks) {
 TEST_F(RealtimeClockTest, FirstNoteCountsFromTheMiddleOfTheCycle) {
   ros::Time::setNow(ros::Time(0.0));  // as before the first /clock: no sample yet
   RealtimeClock clock;
-  letTheThreadLook();
+  clock.sample();
   EXPECT_EQ(100.0, clock.getSystemTime(ros::Time(100.0)).toSec());
   ros::Time::setNow(ros::Time(2000.0));
-  letTheThreadLook();
+  clock.sample();
   // 2000 was sampled between 100.0 and 100.2, so 100.1 is 2000 and 100.2 is 2000.1.
   EXPECT_NEAR(2000.1, clock.getSystemTime(ros::Time(100.2)).toSec(), 1e-6);
 }
 
 TEST_F(RealtimeClockTest, FollowsALaterDifferenceByOneTenThousandthPerNote) {
   RealtimeClock clock;
-  letTheThreadLook();
+  clock.sample();
   clock.getSystemTime(ros::Time(100.0));
   double offset = 1900.0;
   double last = 100.0;
@@ -61,7 +51,7 @@ TEST_F(RealtimeClockTest, FollowsALaterDifferenceByOneTenThousandthPerNote) {
     const double realtime = 100.0 + i;
     const double system = 2000.0 + 3.0 * i;
     ros::Time::setNow(ros::Time(system));
-    letTheThreadLook();
+    clock.sample();
     offset += 1e-4 * (system + 0.5 * (realtime - last) - realtime - offset);
     last = realtime;
     EXPECT_NEAR(realtime + offset, clock.getSystemTime(ros::Time(realtime)).toSec(), 1e-6);
@@ -70,7 +60,7 @@ TEST_F(RealtimeClockTest, FollowsALaterDifferenceByOneTenThousandthPerNote) {
 
 TEST_F(RealtimeClockTest, WithoutAFreshNoteTheDifferenceStays) {
   RealtimeClock clock;
-  letTheThreadLook();
+  clock.sample();
   for (int i = 0; i < 1000; ++i) {
     const double realtime = 100.0 + 0.001 * i;
     EXPECT_NEAR(realtime + 1900.0, clock.getSystemTime(ros::Time(realtime)).toSec(), 1e-6);
@@ -80,14 +70,14 @@ TEST_F(RealtimeClockTest, WithoutAFreshNoteTheDifferenceStays) {
 TEST_F(RealtimeClockTest, NeverReturnsATimeBeforeTheEpoch) {
   ros::Time::setNow(ros::Time(1.0));
   RealtimeClock clock;
-  letTheThreadLook();
+  clock.sample();
   EXPECT_NEAR(1.0, clock.getSystemTime(ros::Time(100.0)).toSec(), 1e-6);
   EXPECT_EQ(50.0, clock.getSystemTime(ros::Time(50.0)).toSec());
 }
 
 TEST_F(RealtimeClockTest, ReadsWithoutAllocationOrLock) {
   RealtimeClock clock;
-  letTheThreadLook();
+  clock.sample();
   rt_guard::Scope scope;
   for (int i = 0; i < 1000; ++i) {
     clock.getSystemTime(ros::Time(100, 1000 * i));

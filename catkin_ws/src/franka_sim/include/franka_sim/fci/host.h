@@ -54,6 +54,16 @@ struct Pace {
   bool standsStill() const noexcept { return mode == PaceMode::kLockStep; }
 };
 
+/// How a host reads the time and waits for sockets. Tests have a clock of their own.
+struct HostClock {
+  using Clock = std::chrono::steady_clock;
+  /// Waits until one of the descriptors is ready, for `limit` at most. @returns whether one is.
+  static bool poll(std::vector<pollfd>& fds, Clock::duration limit);
+
+  std::function<Clock::time_point()> now{Clock::now};
+  std::function<bool(std::vector<pollfd>& fds, Clock::duration limit)> wait{poll};
+};
+
 /// One robot as the host drives it: a control unit on a plant, with its servers. Called by one
 /// thread.
 class HostedRobot {
@@ -119,7 +129,9 @@ class Host {
  public:
   /// @param step advances the world by one millisecond.
   /// @param prepare computes in advance what it can of the step, before the wait for answers.
-  Host(std::function<void()> step, const Pace& pace, std::function<void()> prepare = [] {});
+  Host(
+      std::function<void()> step, const Pace& pace, std::function<void()> prepare = [] {},
+      HostClock clock = {});
 
   /// Must outlive the host, or be removed.
   void add(HostedRobot& robot);
@@ -147,7 +159,7 @@ class Host {
   /// time.
   void standStill();
   /// Call after a delay that must not be recovered by faster ticks.
-  void restartClock() noexcept { deadline_ = Clock::now(); }
+  void restartClock() { deadline_ = clock_.now(); }
   /// For lock-step: lets this many ticks run without waiting for clients, so that an external
   /// change of the world (a push) can take effect.
   void runFree(std::uint64_t ticks);
@@ -171,7 +183,7 @@ class Host {
   std::uint64_t ticks() const noexcept { return ticks_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = HostClock::Clock;
 
   struct Entry {
     HostedRobot* robot;
@@ -212,6 +224,7 @@ class Host {
 
   std::function<void()> step_;
   std::function<void()> prepare_;
+  HostClock clock_;
   std::function<bool()> keep_waiting_;
   Pace pace_;
   std::vector<Entry> entries_;

@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <mutex>
 #include <thread>
 
 namespace realtime_tools {
@@ -36,6 +37,9 @@ class RealtimeClock {
   /// the first sample, or if the sum is not a valid time.
   ros::Time getSystemTime(const ros::Time& realtime_time);
 
+  /// Samples the system's time now. Thread-safe. For tests, which set that time.
+  void sample();
+
   /// The body of the thread, public as in the original; not for callers.
   void loop();
 
@@ -46,6 +50,7 @@ class RealtimeClock {
   // Written by the thread: nanoseconds since the epoch, 0 before the first sample.
   std::atomic<std::int64_t> noted_{0};
   std::atomic<bool> running_{true};
+  std::mutex sampling_;
 
   // Used by the real-time thread only.
   std::int64_t used_{0};          ///< the last used sample
