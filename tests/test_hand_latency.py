@@ -15,6 +15,7 @@ from waiting import wait_for
 START, MIN_DURATION = 0.2, 1.0  # [s], franka_description's physics.yaml
 WAIT = 120.0  # [s]
 MOVED = 2e-4  # [m]
+STEP = 20  # [ticks], shorter than the time between two widths, the second of which could be lost
 PUBLISHED = rospy.Duration(0.04)  # [s] between two widths, at most
 LAUNCHES = {
     "ideal": ["franka_gazebo", "fr3.launch", "headless:=true"],
@@ -57,9 +58,9 @@ class Hand:
         """Begins a move of the fingers [m]. @returns the goal's handle"""
         return self._action.send(MoveGoal(width=width, speed=0.1))
 
-    def width_after(self, ticks):
-        """Ticks of a paused world. @returns the width after them [m]"""
-        end = call("/gazebo/step", Step, ticks).time - PUBLISHED
+    def next_width(self):
+        """Steps a paused world. @returns the width then [m]"""
+        end = call("/gazebo/step", Step, STEP).time - PUBLISHED
         wait_for(lambda: self._widths[-1][0] > end, "The next width", WAIT)
         return self._widths[-1][1]
 
@@ -93,6 +94,7 @@ def test_an_ideal_hand_moves_at_once(tmp_path):
         hand.move(0.04)
         call("/gazebo/pause_physics", Empty)
         result = hand.begin(0.041)
-        wait_for(lambda: abs(hand.width_after(50) - 0.041) < MOVED, "The fingers' arrival", WAIT)
-        hand.width_after(200)
+        wait_for(lambda: abs(hand.next_width() - 0.041) < MOVED, "The fingers' arrival", WAIT)
+        for _ in range(10):
+            hand.next_width()
         assert outcome(result, WAIT)[0] == GoalStatus.SUCCEEDED

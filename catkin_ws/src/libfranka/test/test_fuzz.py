@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every decoder of the codec under libFuzzer, AddressSanitizer and UndefinedBehaviorSanitizer.
 
-A hundred thousand inputs each, always the same; an hour of others each with FRANKA_TEST_LONG=1 (decision
-39). Each starts with the inputs of corpus/<target>.zip. Needs clang-22 and libclang-rt-22-dev.
+A hundred thousand inputs each, always the same; an hour of others each with FRANKA_TEST_LONG=1
+(decision 39). Each starts with the inputs of corpus/<target>.zip. Needs clang-22 and libclang-rt-22-dev.
 """
 
 import os
