@@ -178,12 +178,13 @@ def test_moves_to_the_printed_end_of_its_reach(robot):
 
 
 def call_in_motion(robot, call):
-    """Calls in another thread, once joint 1 has moved."""
+    """Calls with a connection of its own, in another thread, once joint 1 has moved."""
     begin = report(robot)["q"][0]
 
     def work():
-        wait_for(lambda: report(robot)["q"][0] > begin + 0.01, "A motion")
-        call()
+        remote = Remote(robot.address)
+        wait_for(lambda: json.loads(remote.send("report"))["q"][0] > begin + 0.01, "A motion")
+        call(remote)
 
     threading.Thread(target=work).start()
 
@@ -191,7 +192,7 @@ def call_in_motion(robot, call):
 def test_stopped_motion_is_reported():
     with FrankaSim("panda", pace="realtime") as sim:
         sim.robot.remote.fci(False)
-        call_in_motion(sim.robot, lambda: Remote(sim.robot.address).move("stop"))
+        call_in_motion(sim.robot, lambda remote: remote.move("stop"))
         with pytest.raises(LineRefused, match="ended before"):
             sim.robot.remote.move([1, -0.8, 0, -2.4, 0, 1.6, 0.8], speed=0.02)
         sim.robot.remote.wait()
@@ -206,7 +207,7 @@ def test_a_reset_ends_a_motion_unfinished():
         robot.remote.fci(False)
         robot.remote.move(start, speed=1.0)
         before = report(robot)["q"]
-        call_in_motion(robot, Remote(robot.address).reset)
+        call_in_motion(robot, Remote.reset)
         with pytest.raises(LineRefused, match="ended before its target was reached"):
             robot.remote.move([1, *start[1:]], speed=0.02)
         robot.remote.wait()
