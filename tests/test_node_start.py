@@ -157,6 +157,14 @@ def test_a_node_reports_errors_and_exits(master, name, value, sentence):
         assert "could not be set up (see above)" in node.output
 
 
+@pytest.mark.parametrize("value", ["soon", -1.0])
+def test_a_wrong_shutdown_timeout_is_refused(master, value):
+    master.set(ONE + "/shutdown_timeout", value)
+    with one(master) as node:
+        assert node.ends() == 1, node.output
+        assert "'/franka_control/shutdown_timeout' is not a number" in node.output
+
+
 def test_a_robot_of_no_known_version_is_refused(master):
     answer = HEADER.pack(CONNECT, 0, HEADER.size + 3) + bytes([1, 99, 0])  # status, version
     master.set(ONE + "/robot_ip", ODD)

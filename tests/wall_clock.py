@@ -12,8 +12,9 @@ from collections.abc import Iterator
 
 DEADLINE = 30  # [s] the shortest upper bound on a wall time (chosen here)
 CLOCKS = {"monotonic", "monotonic_ns", "perf_counter", "perf_counter_ns", "time", "time_ns"}
-# What a line says that may sleep: the fault that the test is about, or the pause of a poll.
-ALLOWED = ("the fault itself", "between two looks")
+# What a line says that may sleep: the fault that the test is about, the pause of a poll, or the period of a
+# loop, on which no verdict depends.
+ALLOWED = ("the fault itself", "between two looks", "the loop's period")
 ADVICE = "wait for a state with a deadline (tests/support/waiting.py), or count ticks"
 PYTHON_SLEEP = re.compile(r"\bsleep\(")
 CPP_SLEEP = re.compile(r"\b(sleep_for|sleep_until|u?sleep|nanosleep)\(")

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "end_in_time.h"
 
+#include <ros/console.h>
 #include <ros/init.h>
 
 #include <cstdio>
@@ -14,6 +15,7 @@ namespace {
 
 // Time between two checks whether ROS shuts down.
 constexpr std::chrono::milliseconds kPeriod{50};
+constexpr double kMaxTimeout = 3600.0;  // [s], chosen here
 
 }  // namespace
 
@@ -28,8 +30,17 @@ EndInTime::~EndInTime() {
   thread_.join();
 }
 
-void EndInTime::readTimeout(const ros::NodeHandle& nh) {
-  timeout_ = nh.param("shutdown_timeout", timeout_.load());
+bool EndInTime::readTimeout(const ros::NodeHandle& nh) {
+  double timeout = timeout_;
+  if (nh.hasParam("shutdown_timeout") &&
+      (!nh.getParam("shutdown_timeout", timeout) || !(timeout >= 0.0 && timeout <= kMaxTimeout))) {
+    ROS_ERROR_STREAM("franka_control: the parameter '" << nh.resolveName("shutdown_timeout")
+                                                       << "' is not a number from 0 to "
+                                                       << kMaxTimeout << " s.");
+    return false;
+  }
+  timeout_ = timeout;
+  return true;
 }
 
 void EndInTime::watch() {

@@ -29,8 +29,8 @@ class EndInTime {
   EndInTime& operator=(const EndInTime&) = delete;
 
   /// Reads the parameter `shutdown_timeout`: the time from the shutdown of ROS to the end of the
-  /// process [s].
-  void readTimeout(const ros::NodeHandle& nh);
+  /// process [s]. @returns false, after logging the reason, if it is wrong
+  bool readTimeout(const ros::NodeHandle& nh);
 
  private:
   void watch();

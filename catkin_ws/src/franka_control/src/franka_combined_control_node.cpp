@@ -117,10 +117,10 @@ int main(int argc, char** argv) {
   spinner.start();
 
   ros::NodeHandle nh("~");
-  end_in_time.readTimeout(nh);
   bool restarts_controllers = true;
   franka_hw::FrankaCombinedHW robots;
-  if (!franka_control::readFlag("restart_controllers_after_recovery", nh, restarts_controllers) ||
+  if (!end_in_time.readTimeout(nh) ||
+      !franka_control::readFlag("restart_controllers_after_recovery", nh, restarts_controllers) ||
       !robots.init(nh, nh)) {
     ROS_ERROR("franka_combined_control_node: the robots could not be set up (see above).");
     return 1;

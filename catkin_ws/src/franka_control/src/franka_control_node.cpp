@@ -25,9 +25,8 @@ int main(int argc, char** argv) {
   ros::init(argc, argv, "franka_control_node");
   franka_control::EndInTime end_in_time("franka_control_node");
   const ros::NodeHandle nh("~");
-  end_in_time.readTimeout(nh);
   franka_control::ControlNode node{ros::NodeHandle(), nh};
-  if (!node.init()) {
+  if (!end_in_time.readTimeout(nh) || !node.init()) {
     return 1;
   }
   // Threads for services, actions and publishers; the main thread runs only the loop.

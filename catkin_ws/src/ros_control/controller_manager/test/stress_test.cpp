@@ -109,7 +109,7 @@ void runLoop(controller_manager::ControllerManager& manager, const std::atomic<b
     manager.update(time, period, cycles % 101 == 0);
     ++cycles;
     next += std::chrono::milliseconds(cycles % 250 == 0 ? 20 : 1);
-    std::this_thread::sleep_until(next);  // the loop's period, between two looks
+    std::this_thread::sleep_until(next);  // the loop's period
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 #include <ros/time.h>
+#include <ros_test/eventually.h>
 #include <rt_guard/rt_guard.h>
 
 #include <cmath>
@@ -22,6 +23,12 @@ class RealtimeClockTest : public testing::Test {
 };
 
 }  // namespace
+
+TEST_F(RealtimeClockTest, ItsThreadSamples) {
+  RealtimeClock clock;
+  EXPECT_TRUE(ros_test::eventually(
+      [&] { return std::abs(clock.getSystemTime(ros::Time(100.0)).toSec() - 2000.0) < 1e-6; }));
+}
 
 TEST_F(RealtimeClockTest, AddsTheDifferenceOfTheClocks) {
   RealtimeClock clock;
