@@ -45,6 +45,10 @@ INCLUDE_RULES = [
         "sockets stand in libfranka/src and fci/ only",
     ),
 ]
+BY_LOCALE = re.compile(
+    r"\b(strto(d|f|ld)|sto(d|f|ld)|atof|sscanf|Query(Double|Float)\w*|(Double|Float)(Text|Attribute|Value))\("
+    r"|\bsn?printf\(.*%[-+ #0-9.*]*[aefgAEFG]"
+)
 MARKERS = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
 # A word between two lines of a comment or of a documentation text.
 GAP = r"(?:[ -]|\s*\n\s*(?:///?|#|\*)?\s*)"
@@ -162,6 +166,13 @@ def word_findings(name: str, text: str) -> Iterator[str]:
             yield f"{name}:{line}: '{match[0]}': write {replacement} (docs/glossary.md)"
 
 
+def locale_findings(name: str, lines: list[str]) -> Iterator[str]:
+    """Calls that read or write a number with a decimal comma after setlocale()."""
+    for number, line in enumerate(lines, 1):
+        if match := BY_LOCALE.search(line):
+            yield f"{name}:{number}: '{match[0].strip()}' goes by the locale: use franka_core/numbers.h"
+
+
 def text_findings(path: Path) -> Iterator[str]:
     name = str(path.relative_to(TOP))
     try:
@@ -173,6 +184,8 @@ def text_findings(path: Path) -> Iterator[str]:
         yield f"{name}:1: the licence header is missing"
     if path.suffix in {".cpp", ".h"}:
         yield from include_findings(name, lines)
+        if not {"test", "tests", "bench"} & set(path.parts):
+            yield from locale_findings(name, lines)
         if path.suffix == ".h" and "#pragma once" not in lines:
             yield f"{name}:1: #pragma once is missing"
     if path.suffix in {".cpp", ".h", ".hpp", ".py"} and name not in {"tests/style.py", "tests/test_style.py"}:

@@ -72,6 +72,12 @@ def run(*arguments: str, monkeypatch) -> int:
             LICENCE + "/// Steps. Real-time safe.\n",
             LICENCE + "/// Steps. Real-time safe: no lock.\n",
         ),
+        (
+            "text",
+            "a.cpp",
+            LICENCE + "const auto number = readNumber(text);\n",
+            LICENCE + "const double number = std::stod(text);\n",
+        ),
         ("ruff", "a.py", "import os\n\nprint(os.name)\n", "import os\n"),
         ("ruff", "program", "#!/usr/bin/env python3\nprint(1)\n", "#!/usr/bin/env python3\nprint( 1 )\n"),
         ("clang-format", "a.cpp", "int a = 1;\n", "int a=1;\n"),

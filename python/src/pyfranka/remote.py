@@ -271,10 +271,10 @@ class Remote:
         F_T_NE: ArrayLike,
         timeout: float | None = None,
     ) -> None:
-        """The end effector as it is set in Desk: m_ee [kg], F_x_Cee 3 [m], I_ee 9 [kg m^2], F_T_NE 16,
-        column by column."""
+        """The end effector as it is set in Desk: m_ee [kg], F_x_Cee 3 [m], I_ee 9 [kg m^2], F_T_NE 4x4,
+        or its 16 numbers column by column."""
         words = [_numbers(center, 3, "The centre of mass"), _numbers(inertia, 9, "The inertia")]
-        self.send(_line("end_effector", [mass], *words, _numbers(F_T_NE, 16, "The transform")), timeout)
+        self.send(_line("end_effector", [mass], *words, _transform(F_T_NE)), timeout)
 
     def end_effector_power(self, on: bool, timeout: float | None = None) -> None:
         """Off: the hand is not reachable."""
@@ -612,6 +612,14 @@ def _numbers(values: ArrayLike, count: int, what: str) -> Array:
     if array.size != count:
         raise ValueError(f"{what} has {count} numbers, not {array.size}.")
     return array.ravel()
+
+
+def _transform(values: ArrayLike) -> Array:
+    """The 16 numbers, column by column, of a matrix or of such a list."""
+    numbers, shape = _numbers(values, 16, "The transform"), numpy.shape(values)
+    if shape not in ((16,), (4, 4)):
+        raise ValueError(f"The transform is 4x4, or 16 numbers column by column, not {shape}.")
+    return numbers.reshape(4, 4).T.ravel() if shape == (4, 4) else numbers
 
 
 def _line(name: str, *numbers: ArrayLike) -> str:

@@ -36,7 +36,9 @@ std::string AbortReporter::save(const std::string& what, const std::vector<frank
                                 unsigned version) const {
   const std::time_t now = std::time(nullptr);
   char stamp[32];
-  std::strftime(stamp, sizeof(stamp), "%Y-%m-%d_%H-%M-%S", std::localtime(&now));
+  std::tm local{};
+  ::localtime_r(&now, &local);
+  std::strftime(stamp, sizeof(stamp), "%Y-%m-%d_%H-%M-%S", &local);
   // The robot's own time distinguishes two aborts in the same second.
   const std::string path = directory_ + "/franka_abort_" + arm_id_ + "_" + stamp + "_" +
                            std::to_string(log.back().state.time.toMSec());

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/world.h>
 #include <franka_sim/robot/parameter_checks.h>
@@ -10,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 namespace franka_sim_mujoco {
@@ -93,11 +93,9 @@ std::string pairRemark(const std::array<double, N>& lower, const std::array<doub
                        const std::string& what) {
   for (std::size_t i = 0; i < N; ++i) {
     if (lower[i] > upper[i]) {
-      char numbers[80];
-      std::snprintf(numbers, sizeof(numbers), "(%g) is above the upper one (%g)", lower[i],
-                    upper[i]);
-      return "The lower " + what + " threshold " + std::to_string(i + 1) + " " + numbers +
-             ": collisions begin before contacts.";
+      return "The lower " + what + " threshold " + std::to_string(i + 1) + " (" +
+             franka_core::numberText(lower[i]) + ") is above the upper one (" +
+             franka_core::numberText(upper[i]) + "): collisions begin before contacts.";
     }
   }
   return "";

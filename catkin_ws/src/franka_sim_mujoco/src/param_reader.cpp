@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim_mujoco/param_reader.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
@@ -51,17 +52,11 @@ bool stringToNumbers(const std::string& text, std::vector<double>& numbers) {
   std::istringstream words(text);
   std::string word;
   while (words >> word) {
-    std::size_t used = 0;
-    double number;
-    try {
-      number = std::stod(word, &used);
-    } catch (const std::exception&) {
+    const std::optional<double> number = franka_core::readNumber(word);
+    if (!number) {
       return false;
     }
-    if (used != word.size() || !std::isfinite(number)) {
-      return false;
-    }
-    numbers.push_back(number);
+    numbers.push_back(*number);
   }
   return true;
 }

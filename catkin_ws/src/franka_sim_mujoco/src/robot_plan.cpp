@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/robot/realism.h>
 #include <franka_sim_mujoco/arm_parameters.h>
@@ -58,13 +59,13 @@ PluginElement readPluginElement(const std::string& urdf) {
         continue;
       }
       result.robot_namespace = childText(*plugin, "robotNamespace");
-      const auto* period = plugin->FirstChildElement("controlPeriod");
-      if (period != nullptr &&
-          (period->QueryDoubleText(&result.control_period) != tinyxml2::XML_SUCCESS ||
-           !(result.control_period > 0.0 && result.control_period <= 1.0))) {
-        throw std::runtime_error("The controlPeriod of the robot description is '" +
-                                 childText(*plugin, "controlPeriod") +
-                                 "'; it must be a time in seconds, above 0 and up to 1.");
+      if (plugin->FirstChildElement("controlPeriod") != nullptr) {
+        const std::string period = childText(*plugin, "controlPeriod");
+        result.control_period = franka_core::readNumber(period).value_or(0.0);
+        if (!(result.control_period > 0.0 && result.control_period <= 1.0)) {
+          throw std::runtime_error("The controlPeriod of the robot description is '" + period +
+                                   "'; it must be a time in seconds, above 0 and up to 1.");
+        }
       }
       return result;
     }

@@ -3,28 +3,30 @@
 #include "options.h"
 
 #include <franka_core/fci/protocol.h>
+#include <franka_core/numbers.h>
 #include <franka_core/spin_rule.h>
 #include <franka_sim/fci/sockets.h>
 #include <franka_sim/physics/sizes.h>
 #include <franka_sim/robot/realism.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <map>
 #include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+#include <vector>
 
 namespace franka_sim {
 
 namespace {
 
 bool isWithin(double least, double most, const std::string& text, double& number) {
-  std::istringstream words(text);
-  return words >> number && words.eof() && number >= least && number <= most;
+  number = franka_core::readNumber(text).value_or(std::nan(""));
+  return number >= least && number <= most;
 }
 
 // CLI::Range would accept NaN as a number in its range.
@@ -38,7 +40,9 @@ CLI::Validator within(double least, double most, const std::string& advice) {
 }
 
 std::string wholeNumberFault(const std::string& text) {
-  return std::fmod(std::stod(text), 1.0) == 0.0 ? "" : text + " is not a whole number.";
+  return std::fmod(franka_core::readNumber(text).value_or(0.5), 1.0) == 0.0
+             ? ""
+             : text + " is not a whole number.";
 }
 
 std::string addressFault(const std::string& text) {
@@ -60,7 +64,7 @@ std::string realismFault(const std::string& text) {
 std::string portFault(const std::string& text) {
   using namespace franka_core::fci;
   for (const std::uint16_t port : {kRobotPort, kGripperPort, kVacuumGripperPort}) {
-    if (std::stod(text) == port) {
+    if (franka_core::readNumber(text) == static_cast<double>(port)) {
       return "the ports 1337 to 1339 are those of robot, gripper and vacuum gripper; give another "
              "one, or 0 for none.";
     }
@@ -69,15 +73,21 @@ std::string portFault(const std::string& text) {
 }
 
 void readBase(ArmOptions& arm, const std::string& text) {
-  auto& [x, y, z] = arm.base;
-  int end = 0;
-  arm.yaw = 0.0;
-  const int count =
-      std::sscanf(text.c_str(), "%lf,%lf,%lf%n,%lf%n", &x, &y, &z, &end, &arm.yaw, &end);
-  if (count < 3 || text[end] != '\0' || !std::isfinite(arm.yaw)) {
+  std::vector<double> numbers;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    numbers.push_back(
+        franka_core::readNumber(text.substr(begin, end - begin)).value_or(std::nan("")));
+    begin = end + 1;
+  }
+  const bool known = std::none_of(numbers.begin(), numbers.end(),
+                                  [](double number) { return std::isnan(number); });
+  if (!known || (numbers.size() != 3 && numbers.size() != 4)) {
     throw CLI::ValidationError(
         "--base", "give three numbers such as -0.5,0,0, or four with the angle, not " + text + ".");
   }
+  std::copy_n(numbers.begin(), 3, arm.base.begin());
+  arm.yaw = numbers.size() == 4 ? numbers[3] : 0.0;
   for (const double coordinate : arm.base) {
     if (!(std::abs(coordinate) <= sizes::kMaxPosition)) {
       throw CLI::ValidationError("--base", "give metres, 1000 at most, not " + text + ".");
@@ -215,7 +225,7 @@ void addOptionsOfRobots(CLI::App& app, std::vector<ArmOptions>& arms, bool& robo
   };
   const auto number = [](std::uint16_t ArmOptions::* member) {
     return [member](ArmOptions& arm, const std::string& value) {
-      arm.*member = static_cast<std::uint16_t>(std::stod(value));
+      arm.*member = static_cast<std::uint16_t>(franka_core::readNumber(value).value());
     };
   };
   add("--robot", "panda|fr3",

@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/fci/line_server.h>
 #include <sys/socket.h>
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
-#include <cstdlib>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
@@ -26,9 +26,9 @@ constexpr int kAcceptedAtOnce = 16;
 /// need most of each millisecond).
 constexpr std::chrono::microseconds kMaxBusyTime{200};
 
-LineServer::Words split(const std::string& line) {
+std::vector<std::string> split(const std::string& line) {
   std::istringstream stream(line);
-  LineServer::Words words;
+  std::vector<std::string> words;
   for (std::string word; stream >> word;) {
     words.push_back(word);
   }
@@ -36,7 +36,7 @@ LineServer::Words split(const std::string& line) {
 }
 
 std::string nameIn(const std::string& line) {
-  const LineServer::Words words = split(line);
+  const std::vector<std::string> words = split(line);
   return words.empty() ? "" : words.front();
 }
 
@@ -59,7 +59,7 @@ std::string LineServer::help() const {
 }
 
 Reply LineServer::execute(const std::string& line) const {
-  Words words = split(line);
+  std::vector<std::string> words = split(line);
   if (words.empty() || words.front() == "help") {
     return help();
   }
@@ -69,11 +69,13 @@ Reply LineServer::execute(const std::string& line) const {
   }
   words.erase(words.begin());
   try {
-    return entry->second.handler(words);
-  } catch (const std::out_of_range&) {
+    return entry->second.handler(Words(std::move(words)));
+  } catch (const MissingWord&) {
     return error("Words are missing: " + entry->second.usage + ".");
   } catch (const std::exception& failure) {
     return error(failure.what());
+  } catch (...) {
+    return error("The command failed for a reason that has no sentence.");
   }
 }
 
@@ -213,12 +215,10 @@ void LineServer::addDescriptors(std::vector<pollfd>& fds) const {
 }
 
 double toNumber(const std::string& word) {
-  char* end = nullptr;
-  const double value = std::strtod(word.c_str(), &end);
-  if (word.empty() || *end != '\0' || !std::isfinite(value)) {
-    throw std::invalid_argument("'" + word + "' is not a finite number.");
+  if (const std::optional<double> value = franka_core::readNumber(word)) {
+    return *value;
   }
-  return value;
+  throw std::invalid_argument("'" + word + "' is not a finite number.");
 }
 
 std::uint64_t toSeed(const std::string& word) {

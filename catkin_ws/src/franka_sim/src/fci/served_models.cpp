@@ -1,11 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/limits.h>
+#include <franka_core/numbers.h>
 #include <franka_sim/fci/served_models.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <stdexcept>
 
@@ -34,11 +34,7 @@ using franka_core::ArmLimits;
 using franka_core::ArmModel;
 using franka_core::PositionVelocityLimits;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.17g", value);
-  return text;
-}
+std::string number(double value) { return franka_core::numberText(value, 17); }
 
 std::string triple(double x, double y, double z) {
   return number(x) + " " + number(y) + " " + number(z);

@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/fci/texts.h>
+#include <franka_core/numbers.h>
 #include <franka_core/robot_error.h>
 #include <franka_sim/fci/served_models.h>
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/robot/parameter_checks.h>
 
-#include <cstdio>
 #include <stdexcept>
 
 namespace franka_sim::fci {
@@ -18,9 +18,7 @@ namespace {
 std::string toText(const std::array<double, 7>& values) {
   std::string text;
   for (const double value : values) {
-    char number[32];
-    std::snprintf(number, sizeof(number), " %.9g", value);
-    text += number;
+    text += " " + franka_core::numberText(value, 9);
   }
   return text;
 }

@@ -1,5 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
+
 #include <filesystem>
 #include <fstream>
 #include <sstream>
@@ -123,7 +125,7 @@ class Expander {
     if (config.LoadFile((folder / "model.config").c_str()) == tinyxml2::XML_SUCCESS) {
       for (auto* sdf = config.RootElement()->FirstChildElement("sdf"); sdf != nullptr;
            sdf = sdf->NextSiblingElement("sdf")) {
-        const double version = sdf->DoubleAttribute("version");
+        const double version = franka_core::readNumber(optional(*sdf, "version")).value_or(0.0);
         if (version >= newest && sdf->GetText() != nullptr) {
           newest = version;
           file = sdf->GetText();

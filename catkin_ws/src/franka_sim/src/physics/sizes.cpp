@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/sizes.h>
 
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 namespace franka_sim::sizes {
@@ -20,10 +20,9 @@ void check(double value, double largest, const char* unit, const std::string& wh
     throw std::runtime_error(what + " is not finite; give numbers in " + unit + ".");
   }
   if (std::abs(value) > largest) {
-    char text[96];
-    std::snprintf(text, sizeof(text), " is %g %s; at most %g %s are simulated.", value, unit,
-                  largest, unit);
-    throw std::runtime_error(what + text);
+    throw std::runtime_error(what + " is " + franka_core::numberText(value) + " " + unit +
+                             "; at most " + franka_core::numberText(largest) + " " + unit +
+                             " are simulated.");
   }
 }
 

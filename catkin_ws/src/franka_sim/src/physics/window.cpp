@@ -1,11 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/window.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <stdexcept>
 
 #include "physics/engine_errors.h"
@@ -38,12 +38,6 @@ constexpr const char* kHelpTexts =
 
 void toggle(mjtByte& flag) { flag = flag != 0 ? 0 : 1; }
 
-std::string formatted(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
-}
-
 }  // namespace
 
 /// The world's time over the clock's.
@@ -59,7 +53,7 @@ class PaceMeter {
       return text_;
     } else {
       const double pace = (time - time_) / passed;
-      text_ = pace > 0 ? formatted("%.2f x real time", pace) : "time stands still";
+      text_ = pace > 0 ? franka_core::fixedText(pace, 2) + " x real time" : "time stands still";
     }
     started_ = true;
     begin_ = now;
@@ -215,7 +209,7 @@ struct Window::Impl {
 
   void drawTexts(const mjrRect& area, const Scene& drawn_scene,
                  const std::vector<std::string>& lines) {
-    std::string left = formatted("%.3f s", drawn_scene.time);
+    std::string left = franka_core::fixedText(drawn_scene.time, 3) + " s";
     const std::string at_pace = pace.text(drawn_scene.time);
     left += at_pace.empty() ? "" : "   " + at_pace;
     for (const std::string& line : lines) {
@@ -231,8 +225,8 @@ struct Window::Impl {
       overlay(mjGRID_BOTTOMLEFT, area, "H", "help");
     }
     if (const std::optional<BodyPush> by_mouse = push.push()) {
-      const std::string text =
-          by_mouse->body + ": " + formatted("%.1f N", mju_norm3(by_mouse->force.data()));
+      const std::string text = by_mouse->body + ": " +
+                               franka_core::fixedText(mju_norm3(by_mouse->force.data()), 1) + " N";
       overlay(mjGRID_TOPRIGHT, area, text.c_str(), nullptr);
     }
   }

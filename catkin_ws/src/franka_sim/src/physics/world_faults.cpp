@@ -4,8 +4,9 @@
 /// @file
 /// World: checks for errors.
 
+#include <franka_core/numbers.h>
+
 #include <algorithm>
-#include <cstdio>
 #include <stdexcept>
 
 #include "physics/world_impl.h"
@@ -43,11 +44,9 @@ std::string sentence(const mjModel& model, const StepFault& fault, double time) 
   const char* const quantity = fault.where == StepFault::Where::kPosition   ? "position"
                                : fault.where == StepFault::Where::kVelocity ? "velocity"
                                                                             : "acceleration";
-  char text[160];
-  std::snprintf(text, sizeof text,
-                " reached %g in SI units at %.3f s. The world stands still until it is reset.",
-                fault.value, time);
-  return std::string("The physics diverged: the ") + quantity + " of " + owner + text;
+  return std::string("The physics diverged: the ") + quantity + " of " + owner + " reached " +
+         franka_core::numberText(fault.value) + " in SI units at " +
+         franka_core::fixedText(time, 3) + " s. The world stands still until it is reset.";
 }
 
 }  // namespace
@@ -143,10 +142,9 @@ std::vector<Overlap> World::overlaps(const std::string& robot) const {
 std::string World::describeOverlaps(const std::string& robot) const {
   std::string list;
   for (const Overlap& overlap : overlaps(robot)) {
-    char depth[48];
-    std::snprintf(depth, sizeof depth, " by %.0f mm", 1e3 * overlap.depth);
     list += (list.empty() ? "" : ", ") + overlap.link + " and " +
-            (overlap.body.empty() ? "the ground or another fixed shape" : overlap.body) + depth;
+            (overlap.body.empty() ? "the ground or another fixed shape" : overlap.body) + " by " +
+            franka_core::fixedText(1e3 * overlap.depth, 0) + " mm";
   }
   return list.empty() ? list
                       : "The robot '" + robot +

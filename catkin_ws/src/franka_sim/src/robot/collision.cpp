@@ -1,19 +1,20 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/robot/collision.h>
 
 #include <cmath>
-#include <cstdio>
+#include <string>
 
 namespace franka_sim {
 
 namespace {
 
 std::string against(const Collision& collision, const char* quantity, const char* unit) {
-  char text[120];
-  std::snprintf(text, sizeof(text), "external %s %.4g %s, upper threshold %.4g %s", quantity,
-                collision.value, unit, collision.threshold, unit);
-  return text;
+  const std::string value = franka_core::numberText(collision.value, 4);
+  const std::string threshold = franka_core::numberText(collision.threshold, 4);
+  return std::string("external ") + quantity + " " + value + " " + unit + ", upper threshold " +
+         threshold + " " + unit;
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/finite.h>
 #include <franka_core/limits.h>
+#include <franka_core/numbers.h>
 #include <franka_core/transform.h>
 #include <franka_sim/robot/parameter_checks.h>
 #include <franka_sim/robot/transforms.h>
@@ -11,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <stdexcept>
 #include <string>
 
@@ -89,27 +89,27 @@ bool isPayload(const franka_core::Payload& payload) noexcept {
 }
 
 std::string payloadFault(const franka_core::Payload& payload) {
-  char text[160] = "";
   if (!std::isfinite(payload.mass) || !franka_core::allFinite(payload.com) ||
       !franka_core::allFinite(payload.inertia)) {
     return "Mass [kg], centre [m] and inertia [kg m^2] must be finite numbers.";
   }
   if (payload.mass < 0.0 || payload.mass > kMaxPayloadMass) {
-    std::snprintf(text, sizeof text, "The mass is %g kg; it must lie between 0 and %g kg.",
-                  payload.mass, kMaxPayloadMass);
-  } else if (distanceOf(payload) > kMaxPayloadDistance) {
-    std::snprintf(text, sizeof text,
-                  "The centre of mass is %g m from the flange; it must be within %g m. Give it in "
-                  "metres, in the flange's frame.",
-                  distanceOf(payload), kMaxPayloadDistance);
-  } else if (largestOf(payload.inertia) > kMaxPayloadInertia) {
-    std::snprintf(text, sizeof text,
-                  "The inertia has an entry of %g kg m^2; none may be beyond %g kg m^2.",
-                  largestOf(payload.inertia), kMaxPayloadInertia);
-  } else if (!isInertia(payload.inertia)) {
-    return "The inertia must be a symmetric matrix [kg m^2] without negative principal moments.";
+    return "The mass is " + franka_core::numberText(payload.mass) +
+           " kg; it must lie between 0 and " + franka_core::numberText(kMaxPayloadMass) + " kg.";
   }
-  return text;
+  if (distanceOf(payload) > kMaxPayloadDistance) {
+    return "The centre of mass is " + franka_core::numberText(distanceOf(payload)) +
+           " m from the flange; it must be within " + franka_core::numberText(kMaxPayloadDistance) +
+           " m. Give it in metres, in the flange's frame.";
+  }
+  if (largestOf(payload.inertia) > kMaxPayloadInertia) {
+    return "The inertia has an entry of " + franka_core::numberText(largestOf(payload.inertia)) +
+           " kg m^2; none may be beyond " + franka_core::numberText(kMaxPayloadInertia) +
+           " kg m^2.";
+  }
+  return isInertia(payload.inertia) ? ""
+                                    : "The inertia must be a symmetric matrix [kg m^2] without "
+                                      "negative principal moments.";
 }
 
 bool isFrame(const std::array<double, 16>& transform) noexcept {
@@ -122,12 +122,10 @@ std::string frameFault(const std::array<double, 16>& transform) {
     return franka_core::transformFault(transform);
   }
   const double away = distance(transform[12], transform[13], transform[14]);
-  char text[80] = "";
-  if (away > kMaxFrameDistance) {
-    std::snprintf(text, sizeof text, "it is %g m away and must be within %g m", away,
-                  kMaxFrameDistance);
-  }
-  return text;
+  return away > kMaxFrameDistance
+             ? "it is " + franka_core::numberText(away) + " m away and must be within " +
+                   franka_core::numberText(kMaxFrameDistance) + " m"
+             : "";
 }
 
 bool areThresholds(const CollisionThresholds& thresholds) noexcept {

@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/simulation/hand_commands.h>
 
-#include <cstdio>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -17,11 +17,7 @@ using Words = LineServer::Words;
 
 constexpr double kGraspTolerance = 0.005;  // [m] either way, the default of libfranka's grasp
 
-std::string metres(double width) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.4f m", width);
-  return text;
-}
+std::string metres(double width) { return franka_core::fixedText(width, 4) + " m"; }
 
 GripperUnit& handOf(WholeRobot& robot) {
   if (robot.hand() == nullptr) {

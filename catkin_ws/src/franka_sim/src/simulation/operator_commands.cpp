@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/sizes.h>
 #include <franka_sim/robot/virtual_walls.h>
@@ -80,10 +81,9 @@ void addWorld(LineServer& lines, fci::Host& host, World& world) {
   });
   lines.add("where BODY", [&](const Words& words) {
     const Pose pose = world.bodyPose(words.at(0));
-    char text[128];
-    std::snprintf(text, sizeof(text), "%.9g %.9g %.9g", pose.position[0], pose.position[1],
-                  pose.position[2]);
-    return std::string(text);
+    return franka_core::numberText(pose.position[0], 9) + " " +
+           franka_core::numberText(pose.position[1], 9) + " " +
+           franka_core::numberText(pose.position[2], 9);
   });
 }
 
@@ -100,11 +100,7 @@ fci::Reply advanceTicks(fci::Host& host, std::uint64_t ticks) {
 
 // Lines about time. In lock-step the world otherwise moves only when something happens in it.
 void addTime(LineServer& lines, fci::Host& host, const World& world) {
-  lines.add("time", [&world](const Words&) {
-    char text[32];
-    std::snprintf(text, sizeof(text), "%.3f", world.time());
-    return std::string(text);
-  });
+  lines.add("time", [&world](const Words&) { return franka_core::fixedText(world.time(), 3); });
   lines.add(
       "step MILLISECONDS",
       [&host, &world](const Words& words) {

@@ -186,7 +186,7 @@ fci::Reply recover(ControlUnit& unit) {
 void addErrors(LineServer& lines, fci::SimRobot& robot) {
   SafetyController& safety = robot.whole().safety();
   lines.add("self_test [due SECONDS]", [&](const Words& words) {
-    if (words.empty()) {
+    if (words.size() == 0) {
       return require(safety.startSelfTest());
     }
     if (words[0] != "due") {
@@ -287,16 +287,17 @@ void addMotion(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   constexpr double kSpeed = 0.3;  // share of the joints' velocity limits (chosen here)
   WholeRobot& whole = robot.whole();
   lines.add("move pack|stop|Q1 Q2 Q3 Q4 Q5 Q6 Q7 [SPEED]", [&](const Words& words) -> fci::Reply {
-    host.runFree(kReaction);
     if (words.at(0) == "stop") {
+      host.runFree(kReaction);
       whole.operatorMotion().stop();
       return "";
     }
-    if (words[0] == "pack") {
-      return startMotion(whole, OperatorMotion::kPackPose, kSpeed);
-    }
-    return startMotion(whole, toNumbers<7>(words, 0),
-                       words.size() > 7 ? toNumber(words[7]) : kSpeed);
+    const bool pack = words[0] == "pack";
+    const std::array<double, 7> target = pack ? OperatorMotion::kPackPose : toNumbers<7>(words, 0);
+    const double speed = !pack && words.size() > 7 ? toNumber(words[7]) : kSpeed;
+    fci::Reply reply = startMotion(whole, target, speed);
+    host.runFree(kReaction);
+    return reply;
   });
 }
 

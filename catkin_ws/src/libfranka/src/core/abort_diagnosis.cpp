@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/abort_diagnosis.h>
 #include <franka_core/limits.h>
+#include <franka_core/numbers.h>
 #include <franka_core/robot_error.h>
 #include <franka_core/transform.h>
 
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
 #include <optional>
 
 #include "abort_measures.h"
@@ -20,11 +20,7 @@ namespace {
 
 using Matrix4 = Eigen::Map<const Eigen::Matrix4d>;
 
-std::string number(double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), "%.4g", value);
-  return text;
-}
+std::string number(double value) { return numberText(value, 4); }
 
 /// "a velocity" and so on.
 const char* derivativeName(int order) {

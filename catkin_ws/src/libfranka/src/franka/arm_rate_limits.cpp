@@ -5,7 +5,10 @@
 #include <franka/rate_limiting.h>
 #include <franka_core/fci/protocol.h>
 #include <franka_core/joint_limiter.h>
+#include <franka_core/numbers.h>
 #include <tinyxml2.h>
+
+#include <optional>
 
 namespace franka {
 
@@ -65,7 +68,10 @@ const tinyxml2::XMLElement* findJoint(const tinyxml2::XMLElement& robot, const s
 }
 
 bool readAttribute(const tinyxml2::XMLElement* element, const char* name, double& value) {
-  return element != nullptr && element->QueryDoubleAttribute(name, &value) == tinyxml2::XML_SUCCESS;
+  const char* text = element != nullptr ? element->Attribute(name) : nullptr;
+  const std::optional<double> number = franka_core::readNumber(text != nullptr ? text : "");
+  value = number.value_or(value);
+  return number.has_value();
 }
 
 }  // namespace

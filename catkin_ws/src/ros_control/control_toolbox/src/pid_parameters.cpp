@@ -4,7 +4,8 @@
 #include <tinyxml.h>
 
 #include <cmath>
-#include <cstdlib>
+#include <locale>
+#include <sstream>
 #include <string>
 
 #include "pid_reconfigure.h"
@@ -33,14 +34,19 @@ bool readNumber(const ros::NodeHandle& node, const std::string& name, double& va
   return readOptional(node, name, "a number", value);
 }
 
+/// 0 without a number, as in the original, with a decimal point in every locale.
 double numberOf(const TiXmlElement& element, const char* attribute) {
   const char* text = element.Attribute(attribute);
-  return text != nullptr ? std::atof(text) : 0.0;
+  std::istringstream stream(text != nullptr ? text : "");
+  stream.imbue(std::locale::classic());
+  double number = 0.0;
+  stream >> number;
+  return number;
 }
 
 bool truthOf(const TiXmlElement& element, const char* attribute) {
   const char* text = element.Attribute(attribute);
-  return text != nullptr && (std::string(text) == "true" || std::atof(text) != 0.0);
+  return text != nullptr && (std::string(text) == "true" || numberOf(element, attribute) != 0.0);
 }
 
 }  // namespace

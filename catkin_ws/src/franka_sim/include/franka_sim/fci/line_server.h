@@ -30,9 +30,24 @@ class LineServer final : public Service {
  public:
   static constexpr std::size_t kMaxClients = 8;
 
-  using Words = std::vector<std::string>;
+  /// That a line has fewer words than its command reads: it is answered with the command's usage.
+  struct MissingWord {};
+  /// The words after a command's name.
+  class Words {
+   public:
+    explicit Words(std::vector<std::string> words) : words_(std::move(words)) {}
+    std::size_t size() const noexcept { return words_.size(); }
+    const std::string& operator[](std::size_t i) const noexcept { return words_[i]; }
+    /// @throws MissingWord
+    const std::string& at(std::size_t i) const {
+      return i < words_.size() ? words_[i] : throw MissingWord();
+    }
+
+   private:
+    std::vector<std::string> words_;
+  };
   /// Gets the words after the command's name; returns what to answer, "" for a plain "ok".
-  /// @throws std::exception whose text becomes the error.
+  /// @throws std::exception whose text becomes the error; MissingWord.
   using Handler = std::function<Reply(const Words&)>;
   /// Whether a command can be executed now.
   using Ready = std::function<bool()>;

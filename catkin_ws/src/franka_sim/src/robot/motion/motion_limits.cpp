@@ -1,10 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/robot/motion/motion_limits.h>
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 namespace franka_sim {
 
@@ -46,13 +46,13 @@ franka_core::JointRange MotionLimits::reachFrom(std::size_t joint, double q) con
 }
 
 std::string MotionLimits::reachText(std::size_t joint, double q) const {
+  constexpr int kDecimals = 4;
   constexpr double kDigits = 1e4;
   const franka_core::JointRange range = reach(joint);
-  char text[96];
-  std::snprintf(text, sizeof(text), "between %.4f and %.4f rad, not at %.9g",
-                std::ceil(range.lowest * kDigits) / kDigits,
-                std::floor(range.highest * kDigits) / kDigits, q);
-  return text;
+  return "between " +
+         franka_core::fixedText(std::ceil(range.lowest * kDigits) / kDigits, kDecimals) + " and " +
+         franka_core::fixedText(std::floor(range.highest * kDigits) / kDigits, kDecimals) +
+         " rad, not at " + franka_core::numberText(q, 9);
 }
 
 franka_core::DerivativeLimits MotionLimits::elbow() const noexcept {

@@ -1,0 +1,52 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
+
+#include <charconv>
+#include <cmath>
+#include <limits>
+#include <system_error>
+
+namespace franka_core {
+
+namespace {
+
+std::string written(double value, std::chars_format format, int precision) {
+  // The longest: the sign, all digits of the largest number, the point, the decimals.
+  std::string text(
+      static_cast<std::size_t>(std::numeric_limits<double>::max_exponent10 + 3 + precision), '\0');
+  const auto [end, error] =
+      std::to_chars(text.data(), text.data() + text.size(), value, format, precision);
+  text.resize(error == std::errc() ? static_cast<std::size_t>(end - text.data()) : 0);
+  return text;
+}
+
+}  // namespace
+
+std::optional<double> readNumber(std::string_view text) noexcept {
+  constexpr std::string_view kBlanks = " \t\r\n";
+  const std::size_t begin = text.find_first_not_of(kBlanks);
+  if (begin == std::string_view::npos) {
+    return std::nullopt;
+  }
+  text = text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+  // from_chars refuses a plus sign.
+  const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
+  const char* const end = text.data() + text.size();
+  double value = 0.0;
+  const auto [stop, error] = std::from_chars(text.data() + (plus ? 1 : 0), end, value);
+  if (error != std::errc() || stop != end || !std::isfinite(value)) {
+    return std::nullopt;
+  }
+  return value;
+}
+
+std::string numberText(double value, int digits) {
+  return written(value, std::chars_format::general, digits);
+}
+
+std::string fixedText(double value, int decimals) {
+  return written(value, std::chars_format::fixed, decimals);
+}
+
+}  // namespace franka_core

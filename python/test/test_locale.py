@@ -1,0 +1,56 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""A program that calls setlocale(), as those of Qt do, has the robots of every other program."""
+
+import os
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+
+PROGRAM = """
+import locale, sys, threading
+import numpy, pyfranka
+from pyfranka.sim import FR3, Panda, Simulation
+
+locale.setlocale(locale.LC_ALL, "")
+assert locale.localeconv()["decimal_point"] == sys.argv[1]
+
+def ask(address):
+    robot = pyfranka.Robot(address, pyfranka.RealtimeConfig.Ignore)
+    state = robot.read_once()
+    print(robot.get_upper_joint_velocity_limits(state.q), robot.load_model().mass(state))
+    robot.set_load(0.25, [0.01, 0.02, 0.03], numpy.diag([0.001, 0.002, 0.003]).ravel())
+    for mass in (-0.5, 0.5):
+        try:
+            robot.set_load(mass, [0.5, 0.0, 0.0], [0.0] * 9)
+        except pyfranka.CommandException as error:
+            print(error)
+
+with Simulation(robots=[Panda(base=(0.0, 0.5, 0.0)), FR3(base=(0.0, -0.5, 0.0))]) as sim:
+    for robot, address in zip(list(sim), ("127.0.33.31", "127.0.33.32")):
+        sim.serve(address, robot)
+        client = threading.Thread(target=ask, args=(address,))
+        client.start()
+        while client.is_alive():
+            sim.step()
+with Simulation(robots=[FR3(realism="recorded")]) as sim:
+    sim.step(500)
+    print(sim.hash())
+"""
+
+
+def run(*arguments: str, **environment: str) -> str:
+    return subprocess.check_output(
+        [sys.executable, "-c", PROGRAM, *arguments], env={**os.environ, **environment}, text=True, timeout=120
+    )
+
+
+@pytest.mark.skipif(not Path("/usr/share/i18n/locales/de_DE").exists(), reason="locales is not installed")
+def test_a_decimal_comma_changes_nothing(tmp_path):
+    made = ["localedef", "-i", "de_DE", "-f", "UTF-8", str(tmp_path / "de_DE.UTF-8")]
+    subprocess.run(made, check=True, capture_output=True, timeout=60)
+    with_point = run(".", LC_ALL="C")
+    assert with_point == run(",", LC_ALL="de_DE.UTF-8", LOCPATH=str(tmp_path))
+    assert len(with_point.splitlines()) > 20
