@@ -36,6 +36,7 @@ SWEEPS = "ros-franka-sweep"
 NOT_LOADED = {"tests", "__pycache__", "include", "RECORD", "INSTALLER", "REQUESTED", "direct_url.json"}
 # Groups of apt-packages.txt, and single packages, without which the workspace builds.
 NOT_FOR_BUILDS = {
+    "the documentation site",
     "tests and benchmarks",
     "pictures of the examples in Python",
     "lines for the control interface of simulated robots, as the pages send them",

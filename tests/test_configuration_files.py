@@ -200,9 +200,6 @@ FILES = {
     ),
 }
 
-# What the original's file has beside these values, and ours has not; docs/porting.md says why (decision 51).
-LEFT_OUT = {"franka_hw_sim.yaml": {"motion_generators"}}
-
 
 def differences(loaded, expected, path: str = "") -> list[str]:
     """Expected values that are missing or different."""
@@ -222,33 +219,13 @@ def differences(loaded, expected, path: str = "") -> list[str]:
 
 
 @pytest.mark.parametrize("name", FILES)
-def test_file_loads_without_changes(name):
-    arguments, expected = FILES[name]
-    ((loaded, _),) = rosparam.load_file(str(CONFIG[name]))
-    if not arguments:
-        assert differences(loaded, expected) == []
-    for argument in re.findall(r"\$\(arg (\w+)\)", CONFIG[name].read_text()):
-        assert argument in arguments, f"the original's file has no argument {argument}"
-
-
-@pytest.mark.parametrize("name", FILES)
 def test_file_matches_the_original_with_the_originals_arguments(name):
-    arguments, expected = FILES[name]
-    text = resolve_args(CONFIG[name].read_text(), context={"arg": arguments})
-    ((loaded, _),) = rosparam.load_str(text, name)
+    (arguments, expected), text = FILES[name], CONFIG[name].read_text()
+    rosparam.load_file(str(CONFIG[name]))
+    for argument in re.findall(r"\$\(arg (\w+)\)", text):
+        assert argument in arguments, f"the original's file has no argument {argument}"
+    ((loaded, _),) = rosparam.load_str(resolve_args(text, context={"arg": arguments}), name)
     assert differences(loaded, expected) == []
-
-
-@pytest.mark.parametrize("name", LEFT_OUT)
-def test_what_a_file_leaves_out_is_documented(name):
-    text = resolve_args(CONFIG[name].read_text(), context={"arg": FILES[name][0]})
-    ((loaded, _),) = rosparam.load_str(text, name)
-    docs = SOURCE.parents[1] / "docs"
-    for key in LEFT_OUT[name]:
-        assert key not in loaded and key not in FILES[name][1]
-        for page in ("porting.md", "design/decisions.md"):
-            paragraphs = (docs / page).read_text(encoding="utf-8").split("\n\n")
-            assert [text for text in paragraphs if name in text and key in text], f"{page}: {key} of {name}"
 
 
 def test_files_with_the_same_name_are_identical():

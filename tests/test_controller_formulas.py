@@ -75,6 +75,13 @@ def lengths(robot, long_run):
     return (30.0, 3.0) if long_run or robot == "panda" else (6.0, 3.0)
 
 
+def mostly(robot):
+    """A test for one of the robots; for the other one in the long form."""
+    again = pytest.mark.long_form("the same with the other robot")
+    robots = [pytest.param(each, marks=() if each == robot else again) for each in ("panda", "fr3")]
+    return pytest.mark.parametrize("robot", robots, indirect=True, scope="module")
+
+
 @pytest.fixture(scope="module")
 def simulation(robot, tmp_path_factory):
     launch = ["franka_gazebo", f"{robot}.launch", "headless:=true", "real_time_factor:=0"]
@@ -248,6 +255,7 @@ def test_the_elbow_moves_while_the_end_effector_rests(arm, lengths):
         assert distances(states.O_T_EE, states.O_T_EE[0]).max() < POSE_ERROR
 
 
+@mostly("fr3")
 def test_joint_impedance_moves_the_arm_along_a_circle(arm, lengths):
     """The robot's own motion is the circle. The arm's lag follows from its springs and dampers, whose torques
     accelerate the links and rotors: gravity and Coriolis torques are compensated."""
@@ -331,6 +339,7 @@ def lead(arm):
     return begin, desired, pose_of(reached), pose_of(pushed), arm.states[count:]
 
 
+@mostly("panda")
 def test_cartesian_impedance_reaches_its_equilibrium_and_yields_like_a_spring(arm):
     _, (begin, desired, reached, pushed, states) = arm.run("cartesian_impedance", lambda: lead(arm))
     assert distances(reached, desired) < POSE_ERROR
@@ -388,6 +397,7 @@ def block(arm):
     call("/gazebo/delete_object", DeleteObject, "block")
 
 
+@mostly("fr3")
 def test_force_presses_with_the_desired_force(arm, block):
     for settings in PRESSES:
         arm.place()
@@ -400,6 +410,7 @@ def test_force_presses_with_the_desired_force(arm, block):
         )
 
 
+@mostly("panda")
 def test_impossible_claims_are_refused_and_change_nothing(arm):
     def try_others():
         """Starts each other controller beside a running one."""

@@ -23,23 +23,17 @@ PLUGINS = """<library path="lib/libfranka_control_throwing_controller">
          base_class_type="controller_interface::ControllerBase"/>
 </library>"""
 LAUNCH = """<launch>
-  <param name="{node}/restart_controllers_after_recovery" value="{restart}"/>
+  <param name="{node}/restart_controllers_after_recovery" value="false"/>
   <include file="$(find franka_control)/launch/{file}"> {arguments} <arg name="sim" value="true"/> </include>
 </launch>"""
 SIMULATION = """<launch> <include file="$(find franka_sim_mujoco)/launch/panda.launch">
   <arg name="headless" value="true"/> </include> </launch>"""
 
-# Arms with their addresses, and whether their node restarts controllers after a recovery.
+# Arms with their addresses.
 ONE_ARM = {"fr3": "127.0.7.31"}
 TWO_ARMS = {"panda_1": "127.0.7.32", "panda_2": "127.0.7.33"}
 SIMULATED = {"panda": "nowhere"}  # the controllers run in the simulation's process
-SETUPS = {
-    "one arm": (ONE_ARM, True),
-    "two arms": (TWO_ARMS, True),
-    "simulated": (SIMULATED, True),
-    "one arm without restart": (ONE_ARM, False),
-    "two arms without restart": (TWO_ARMS, False),
-}
+SETUPS = {"one arm": ONE_ARM, "two arms": TWO_ARMS, "simulated": SIMULATED}
 WORDS = {"starting": "I do not want to start", "update": "I have had enough"}
 BEST_EFFORT = 1
 
@@ -50,7 +44,7 @@ def with_setups(*names):
     return pytest.mark.parametrize("setup", names, indirect=True, scope="module")
 
 
-def launch_file(arms, restart):
+def launch_file(arms):
     if arms == SIMULATED:
         return SIMULATION
     if arms == ONE_ARM:
@@ -61,7 +55,7 @@ def launch_file(arms, restart):
         addresses = ", ".join(f"{arm}/robot_ip: {address}" for arm, address in arms.items())
         given = {"robot_ips": f"{{{addresses}}}"}
     arguments = " ".join(f'<arg name="{name}" value="{value}"/>' for name, value in given.items())
-    return LAUNCH.format(node=node, restart=str(restart).lower(), file=file, arguments=arguments)
+    return LAUNCH.format(node=node, file=file, arguments=arguments)
 
 
 class Node(ControlNode):
@@ -104,15 +98,14 @@ def setup(request):
 
 @pytest.fixture(scope="module")
 def node(setup, tmp_path_factory):
-    arms, restart = setup
     folder = tmp_path_factory.mktemp("throwing")
     (folder / "package.xml").write_text(PACKAGE)
     (folder / "plugins.xml").write_text(PLUGINS)
-    (folder / "robot.launch").write_text(launch_file(arms, restart))
+    (folder / "robot.launch").write_text(launch_file(setup))
     with pytest.MonkeyPatch.context() as patch:
         patch.setenv("ROS_PACKAGE_PATH", str(folder), prepend=":")
         with launched(str(folder / "robot.launch"), log=folder / "log") as session:
-            yield Node(arms, session.log)
+            yield Node(setup, session.log)
 
 
 @pytest.fixture
@@ -169,7 +162,7 @@ def check_that_all_stay_at_rest(node):
     node.wait_until_all_are("moving")
 
 
-@with_setups("one arm without restart", "two arms without restart")
+@with_setups("one arm", "two arms")
 def test_controllers_that_must_not_restart_are_stopped_before_a_recovery(ready):
     ready.start("good")
     ready.wait_until_all_are("moving")
@@ -180,7 +173,7 @@ def test_controllers_that_must_not_restart_are_stopped_before_a_recovery(ready):
 
 
 # Several arms wait for a recovery instead.
-@with_setups("one arm without restart")
+@with_setups("one arm")
 def test_they_are_stopped_when_the_user_stop_is_released(ready):
     (arm,) = ready.arms
     ready.start("good")

@@ -271,21 +271,19 @@ def test_a_timeout_is_a_positive_number(desk, timeout):
     assert answer.status == 400 and answer.json()["message"].endswith(".")
 
 
-def test_the_holder_can_deny_or_accept(desk, cookie):
-    first = desk.take_control("me", **cookie)
-
-    async def decide(grant):
-        tokens = desk.desk.tokens
-        tokens.accept() if grant else tokens.deny()
-
-    for grant in (False, True):
+def test_the_holder_denies_or_accepts_a_request_on_the_page(desk, cookie):
+    token = desk.take_control("me", **cookie)["token"]
+    headers = {**cookie, "X_Control_Token": token, "Content_Type": "application/json"}
+    for what, expected in (("deny", 424), ("accept", 200)):
         later = Later(desk, {"owner": "you"})
         wait_for(lambda: state(desk)["tokenRequest"])
-        desk.call(decide(grant))
+        answer = desk.send("POST", "/page/control", {"what": what}, **headers)
+        assert answer.status == 200 and answer.json()["control"]["request"] is None
         status, body = later.result()
-        assert status == (200 if grant else 424)
-        assert grant or body["code"] == "Timeout"
-    assert active_id(desk) != first["id"]
+        assert status == expected
+        assert what == "accept" or body["code"] == "Timeout"
+    assert active_id(desk) == body["tokenId"]
+    assert answer.json()["control"]["owner"] == "you"
 
 
 # ---- options ---------------------------------------------------------------------------------------------

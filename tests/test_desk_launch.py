@@ -6,12 +6,12 @@ control interface that it needs."""
 import json
 import re
 import socket
-import ssl
 import urllib.error
 import urllib.request
-from contextlib import contextmanager, suppress
+from contextlib import suppress
 
 import pytest
+from desk_server import unverified
 from franka_sim_mujoco.session import Session
 from pyfranka.remote import LineRefused, Remote
 from waiting import wait_for
@@ -21,14 +21,6 @@ LAUNCHED_ROBOT = "127.0.31.22"
 PAIR = ("127.0.31.23", "127.0.31.24")
 VERSION = re.compile(r"\d+\.\d+\.\d+")
 START_LIMIT = 120.0  # [s] of a launch on a busy machine
-
-
-def unverified() -> ssl.SSLContext:
-    """Desk's certificate is its own."""
-    context = ssl.create_default_context()
-    context.check_hostname = False
-    context.verify_mode = ssl.CERT_NONE
-    return context
 
 
 def system_version(address: str) -> str:
@@ -42,12 +34,6 @@ def system_version(address: str) -> str:
             if not isinstance(error.reason, ConnectionRefusedError):
                 raise
     raise ConnectionRefusedError(f"Desk does not listen at {address}.")
-
-
-@contextmanager
-def launched(tmp_path, *launch: str):
-    with Session(*launch, log=tmp_path / "launch.log") as session:
-        yield session
 
 
 def awaited(session: Session, attempt, errors=(OSError,)):
@@ -65,7 +51,7 @@ def awaited(session: Session, attempt, errors=(OSError,)):
 def world(tmp_path_factory):
     """A robot of a ROS world with Desk."""
     launch = ["franka_gazebo", "panda.launch", "headless:=true", "desk:=true", f"fci_ip:={WORLD_ROBOT}"]
-    with launched(tmp_path_factory.mktemp("desk"), *launch) as session:
+    with Session(*launch, log=tmp_path_factory.mktemp("desk") / "launch.log") as session:
         yield session
 
 
@@ -113,7 +99,7 @@ def test_the_address_is_free_once_the_robot_has_been_deleted(world, remote):
 
 def test_a_robot_of_a_ros_world_can_start_locked(tmp_path):
     launch = ["franka_sim_mujoco", "fr3.launch", "headless:=true", f"fci_ip:={WORLD_ROBOT}"]
-    with launched(tmp_path, *launch, "start:=locked", "control_port:=1341") as session:
+    with Session(*launch, "start:=locked", "control_port:=1341", log=tmp_path / "launch.log") as session:
         remote = Remote(WORLD_ROBOT, 1341)
         report = awaited(session, remote.report)
         assert (report.type, report.rules, report.fci) == ("fr3", "desk", False)
@@ -132,7 +118,7 @@ def test_a_robot_of_a_ros_world_can_start_locked(tmp_path):
 
 def test_desk_serves_the_simulated_robot_of_franka_control(tmp_path):
     launch = ["franka_control", "franka_control.launch", "sim:=true", "desk:=true"]
-    with launched(tmp_path, *launch, f"robot_ip:={LAUNCHED_ROBOT}") as session:
+    with Session(*launch, f"robot_ip:={LAUNCHED_ROBOT}", log=tmp_path / "launch.log") as session:
         assert VERSION.match(awaited(session, lambda: system_version(LAUNCHED_ROBOT)))
         remote = Remote(LAUNCHED_ROBOT)
         awaited(session, lambda: connected(remote), (AssertionError, OSError))
@@ -143,9 +129,10 @@ def connected(remote: Remote) -> None:
     assert remote.report().client == 5
 
 
+@pytest.mark.long_form("a launch file more")
 def test_desk_serves_both_simulated_robots_of_franka_combined_control(tmp_path):
     ips = f"robot_ips:={{panda_1/robot_ip: {PAIR[0]}, panda_2/robot_ip: {PAIR[1]}}}"
     launch = ["franka_control", "franka_combined_control.launch", "sim:=true", "desk:=true", ips]
-    with launched(tmp_path, *launch) as session:
+    with Session(*launch, log=tmp_path / "launch.log") as session:
         for address in PAIR:
             assert VERSION.match(awaited(session, lambda address=address: system_version(address)))

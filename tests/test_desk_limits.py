@@ -369,6 +369,10 @@ def test_requests_of_another_origin_are_refused(desk, control, header):
         ("POST", "/admin/api/login"),
         ("POST", "/admin/api/control-token/request"),
         ("PATCH", CONFIGURATION),
+        ("POST", "/page/command"),
+        ("POST", "/page/control"),
+        ("POST", "/page/login"),
+        ("POST", "/page/logout"),
     ):
         assert is_refused(desk.send(method, path, {}, **control, **header), 403), path
     upgrade = {"Connection": "Upgrade", "Upgrade": "websocket", "Sec_WebSocket_Version": "13"}

@@ -1,14 +1,19 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A client of the FCI moves a robot, and Desk ends the motion: in each way, and how the client goes on."""
+"""Desk of a simulated robot ends the motions of FCI clients, and shows the safety controller's errors."""
 
+import contextlib
 import threading
 
 import pyfranka
 import pytest
-from desk_server import DeskServer
+from desk_server import DeskServer, basic
+from fci_session import client_process, simulated
+from genuine_clients import client_python
+from lock_step import begin_motion, moved
 from pyfranka.desk import Options
 from pyfranka.desk.robot import PORT
+from pyfranka.desk.status import RECOVERABLE
 from pyfranka.franka_sim import FrankaSim, SimRobot
 from waiting import wait_for
 
@@ -62,8 +67,10 @@ def make_ready(desk):
     cookie = desk.log_in()
     token = desk.take_control(**cookie)["token"]
     headers = {**cookie, "X_Control_Token": token}
-    for path in ("joints/unlock", "operating-mode/execution", "system/fci"):
+    fr3 = desk.desk.profile.fr3
+    for path in ("joints/unlock", "operating-mode/execution") if fr3 else ("robot/open-brakes",):
         assert desk.send("POST", f"/desk/api/{path}", **headers).status == 200
+    assert desk.send("POST", "/admin/api/control-token/fci", {"token": token}, **cookie).status == 200
     return headers
 
 
@@ -134,31 +141,125 @@ def test_a_stop_of_an_fr3_locks_it_until_desks_sequence(place):
     assert desk.send("POST", "/desk/api/joints/lock", **desk.log_in()).status == 200
 
 
+@pytest.mark.parametrize("library, kind", [("pylibfranka", "fr3"), ("panda", "panda")])
+def test_a_genuine_client_reports_the_end_of_its_motion(library, kind, tmp_path):
+    python = client_python(library)
+    with simulated(kind, "patient", "--start", "locked") as robot, client_process(library, python) as client:
+        robot.remote.send("timing brakes 0.2")
+
+        def connect():
+            return client.run_task("connect", address=robot.address)["outcome"]
+
+        with DeskServer(robot.address, PORT, tmp_path) as desk:
+            headers = make_ready(desk)
+            assert connect() == "ok"
+            begin_motion(client, seconds=600.0, amplitude=0.2)
+            lock = "joints/lock" if kind == "fr3" else "robot/close-brakes"
+            assert desk.send("POST", f"/desk/api/{lock}", **headers).status == 200
+            outcome = client.result()["outcome"]
+            assert "Exception" in outcome or "Error" in outcome
+            assert connect() != "ok"
+            make_ready(desk)
+            assert connect() == "ok"
+            assert client.run_task("move", seconds=0.3)["outcome"] == "ok"
+
+
+@contextlib.contextmanager
+def requests_to(desk):
+    """Another thread sends requests, and makes Desk poll the robot, without a pause."""
+    ended = threading.Event()
+
+    def send():
+        while not ended.is_set():
+            desk.refresh()
+            desk.send("GET", "/admin/api/control-token")
+
+    sender = threading.Thread(target=send)
+    sender.start()
+    try:
+        yield
+        assert sender.is_alive(), "The requests have ended."
+    finally:
+        ended.set()
+        sender.join(DEADLINE)
+
+
 def test_desk_has_no_effect_on_lock_step(tmp_path):
-    hashes = []
-    for with_desk in (False, True):
-        with FrankaSim(SimRobot("panda", realism="ideal"), pace="lockstep") as sim:
-            if with_desk:
-                with DeskServer(sim.robot.address, PORT, tmp_path) as desk:
-                    move_briefly(sim.robot, desk.refresh)
-                    assert desk.desk.robot.number >= 10
-            else:
-                move_briefly(sim.robot, lambda: None)
-            hashes.append(sim.robot.remote.hash())
+    with simulated("panda", "lockstep") as robot, client_process("pyfranka") as client:
+        assert client.run_task("connect", address=robot.address)["outcome"] == "ok"
+        hashes = [moved(robot, client)]
+        with DeskServer(robot.address, PORT, tmp_path) as desk, requests_to(desk):
+            first = desk.desk.robot.number
+            hashes.append(moved(robot, client))
+            assert desk.desk.robot.number >= first + 10
     assert hashes[0] == hashes[1]
 
 
-def move_briefly(served, beside):
-    """Half a second of its time; beside it something else happens every 50 ms."""
-    ticks = 0
+# ---- errors of the safety controller ---------------------------------------------------------------------
 
-    def velocities(state, period):
-        nonlocal ticks
-        ticks += 1
-        if ticks % 50 == 0:
-            beside()
-        speed = SPEED * min(1.0, ticks / 250, max(0.0, (500 - ticks) / 250))
-        command = pyfranka.JointVelocities([0.0] * 6 + [speed])
-        return pyfranka.motion_finished(command) if ticks >= 500 else command
+SAFETY, CONFIRM = "/admin/api/safety/status", "/api/safety/recovery:confirm"
+ACKNOWLEDGE = "/admin/api/safety/recoverable-safety-errors/acknowledge?error_id="
+# Names of errors in the older interface, in addition to their own.
+ERROR_IDS = {
+    "td2Timeout": "TD2Timeout",
+    "genericJointError": "GenericJointError",
+    "jointPositionError": "JointPosition",
+}
 
-    served.connect().control_joint_velocities(velocities)
+
+@pytest.fixture
+def control(place):
+    """Headers that have control of the robot, which is locked."""
+    _, desk = place
+    desk.clear()
+    cookie = desk.log_in()
+    headers = {**cookie, "X_Control_Token": desk.take_control(**cookie)["token"]}
+    assert desk.send("POST", "/desk/api/joints/lock", **headers).status == 200
+    return headers
+
+
+def send_lines(served, desk, *lines):
+    for line in lines:
+        served.remote.send(line)
+    desk.refresh()
+
+
+def get(desk, path):
+    return desk.send("GET", path, **basic()).json()
+
+
+def test_each_error_is_shown_and_acknowledged(place, control):
+    served, desk = place
+    for name in RECOVERABLE:
+        send_lines(served, desk, f"inject {name} on")
+        safety = get(desk, SAFETY)
+        assert safety["safetyControllerStatus"] == "Recovery" and safety["recoverableErrors"][name], name
+        assert get(desk, "/api/safety/recovery")["recovery"]["type"]
+        if name == "jointPositionError":
+            send_lines(served, desk, "input x4 on")  # the operator beside the robot confirms it
+        answer = desk.send("POST", ACKNOWLEDGE + ERROR_IDS.get(name, name), **control)
+        assert answer.status == 200, answer
+        assert not get(desk, SAFETY)["recoverableErrors"][name]
+        send_lines(served, desk, "input x4 off")
+    assert desk.send("POST", "/desk/api/joints/unlock", **control).status == 200
+
+
+@pytest.mark.parametrize(
+    "name, part",
+    [("jointLimitViolation", "jointLimitViolation"), ("jointPositionErrorDemand", "jointPositionError")],
+)
+def test_joint_recovery_is_not_cleared_by_an_acknowledgement(place, control, name, part):
+    served, desk = place
+    send_lines(served, desk, f"inject {name} 3 on")
+    assert get(desk, SAFETY)["demandedRecoveries"][part] == [False, False, True] + [False] * 4
+    for path in ("/desk/api/joints/unlock", CONFIRM):
+        answer = desk.send("POST", path, **control)
+        assert answer.status == 424 and answer.json()["details"] == ["JointRecoveryRequired"]
+    assert desk.send("POST", ACKNOWLEDGE + "GenericJointError", **control).status == 424
+    assert any(get(desk, SAFETY)["demandedRecoveries"][part])
+    send_lines(served, desk, "input x4 on")  # the operator beside the robot
+    kind = get(desk, "/api/safety/recovery")["recovery"]
+    assert desk.send("POST", CONFIRM, kind, **basic()).status == 204
+    assert not any(get(desk, SAFETY)["demandedRecoveries"][part])
+    send_lines(served, desk, "input x4 off")
+    assert desk.send("POST", "/desk/api/joints/unlock", **control).status == 200

@@ -23,6 +23,7 @@ if page_browser.missing():
 from selenium.webdriver.common.keys import Keys  # noqa: E402  (only where it is installed)
 
 PHONE = (360, 740)
+LONG = pytest.mark.long_form("uses everything of the page")
 TICKS_PER_SECOND = os.sysconf("SC_CLK_TCK")
 CLOSED, OPEN = [True] * 7, [False] * 7
 
@@ -132,38 +133,27 @@ class Motion(threading.Thread):
 # ---- login, start-up -------------------------------------------------------------------------------------
 
 
-def test_wrong_password_is_refused_with_a_message(tab):
+def test_operator_logs_in_takes_control_and_activates_the_fci(tab, address):
     tab.log_in(password="wrong")
     tab.shows("User or password is wrong.")
     assert all("401" in error for error in tab.errors())
-
-
-def test_it_contacts_no_other_host(page, address):
-    script = "performance.getEntriesByType('resource').map((entry) => entry.name)"
-    loaded = page.run(script)
+    tab.log_in()
+    tab.wait_for_view()
+    tab.shows("No user controls panda")
+    assert not tab.button("Unlock").is_enabled() and not tab.button("FCI active").is_enabled()
+    assert tab.button("Stop panda").is_enabled()
+    unlock(tab)
+    tab.shows("Unlocked", '[data-robot="0"]')
+    tab.click("FCI active")
+    tab.shows("Activate the FCI?", "dialog")
+    tab.click("Cancel")
+    assert not tab.report()["fci"]
+    activate(tab)
+    assert tab.report()["light"]["color"] in ("green", "blue")
+    loaded = tab.run("performance.getEntriesByType('resource').map((entry) => entry.name)")
     assert any(name.endswith("three.module.js") for name in loaded)
     assert [name for name in loaded if not name.startswith(address)] == []
-
-
-def test_without_control_it_only_watches(page):
-    page.shows("No user controls panda")
-    assert not page.button("Unlock").is_enabled() and not page.button("FCI active").is_enabled()
-    assert page.button("Stop panda").is_enabled()
-
-
-def test_operator_takes_control_and_unlocks(page):
-    unlock(page)
-    page.shows("Unlocked", '[data-robot="0"]')
-
-
-def test_the_fci_is_activated_after_a_question(page):
-    unlock(page)
-    page.click("FCI active")
-    page.shows("Activate the FCI?", "dialog")
-    page.click("Cancel")
-    assert not page.report()["fci"]
-    activate(page)
-    assert page.report()["light"]["color"] in ("green", "blue")
+    assert tab.errors() == []
 
 
 # ---- motions ---------------------------------------------------------------------------------------------
@@ -206,6 +196,7 @@ def test_the_user_stop_ends_a_motion_and_recovery_goes_on(client, ready):
     activate(ready)
 
 
+@LONG
 def test_errors_are_shown_in_words_and_recovered(client, ready):
     motion = Motion(client, 600.0)
     wait_for(lambda: ready.report()["mode"] == "Move", "the client moves the arm")
@@ -223,6 +214,7 @@ def test_errors_are_shown_in_words_and_recovered(client, ready):
     ready.shows("No errors.", '[data-robot="0"]')
 
 
+@LONG
 def test_client_receives_the_end_effector(client, ready):
     ready.click("End effector")
     panel = ready.find('[data-robot="0"] details.end-effector')
@@ -234,6 +226,7 @@ def test_client_receives_the_end_effector(client, ready):
     ready.shows("In force: 1.234 kg", '[data-robot="0"]')
 
 
+@LONG
 def test_operator_drags_the_hand_in_guiding(ready):
     assert not ready.button("Guide by hand").is_enabled()
     ready.click("Safety")
@@ -258,6 +251,7 @@ def test_operator_drags_the_hand_in_guiding(ready):
 # ---- several robots, several users -----------------------------------------------------------------------
 
 
+@LONG
 def test_two_robots_are_operated_side_by_side(page):
     unlock(page, 1)
     assert page.report(1)["arm_id"] == "fr3" and page.report(1)["brakes"] == OPEN
@@ -295,6 +289,7 @@ class Anna:
         self._post("/admin/api/control-token/request", {"requestedBy": "anna"})
 
 
+@LONG
 def test_holder_is_asked_and_forced_take_over_works(page, sim):
     take_control(page, 1)
     anna = Anna(desk_addresses(sim.log())[1])
@@ -331,6 +326,7 @@ def go_to(page, name, limit=120):
     raise AssertionError(f"Tab does not reach '{name}'.")
 
 
+@LONG
 def test_the_keyboard_alone_is_enough(page, sim):
     page.run("desk.robots.forEach((robot) => robot.inControl && robot.changeControl('release'))")
     sim.robots[0].remote.send("joints lock")
@@ -353,6 +349,7 @@ def test_the_keyboard_alone_is_enough(page, sim):
     wait_for(lambda: page.report()["fci"], "the FCI is active")
 
 
+@LONG
 def test_a_page_that_ends_while_it_connects_reports_no_error(page):
     page.run(
         """import("/page/files/js/live.js").then(({ Live }) => new Promise((resolve) => {
@@ -363,6 +360,7 @@ def test_a_page_that_ends_while_it_connects_reports_no_error(page):
     )
 
 
+@LONG
 def test_the_view_is_turned_by_keys_and_does_not_hold_the_focus(page):
     page.run("document.querySelector('.view canvas').focus()")
     name, before = page.focused()[0], page.place("panda_hand")
@@ -372,6 +370,7 @@ def test_the_view_is_turned_by_keys_and_does_not_hold_the_focus(page):
     assert page.focused()[0] != name
 
 
+@LONG
 def test_shortcuts_stop_all_robots_and_are_listed(page):
     page.run("document.activeElement.blur()")
     page.press("s")
@@ -385,6 +384,7 @@ def test_shortcuts_stop_all_robots_and_are_listed(page):
     wait_for(lambda: page.find("dialog[open]") is None, "the dialog is closed")
 
 
+@LONG
 def test_it_fits_a_phone(page):
     page.resize(*PHONE)
     page.run("document.querySelectorAll('details').forEach((card) => { card.open = true; })")
@@ -401,6 +401,7 @@ def test_it_fits_a_phone(page):
     page.run("document.querySelectorAll('details').forEach((card) => { card.open = false; })")
 
 
+@LONG
 def test_it_follows_the_dark_theme_of_the_system(page):
     brightness = "getComputedStyle(document.body).backgroundColor.match(/\\d+/g).map(Number)"
     page.prefer("light")

@@ -17,9 +17,9 @@ from pathlib import Path
 import pytest
 from desk_robot import ScriptedRobot
 from desk_server import basic, unverified
-from pyfranka.desk import Options
+from pyfranka.desk import Options, cli
 from pyfranka.desk.profiles import PROFILES
-from pyfranka.franka_sim import FrankaSim
+from pyfranka.franka_sim import FrankaSim, SimRobot
 from waiting import wait_for
 
 COMMAND = [sys.executable, "-m", "pyfranka.desk"]
@@ -78,49 +78,43 @@ def get(place, path, headers):
     return response.status, body
 
 
-def refused(environment, *arguments):
-    result = subprocess.run(
-        [*COMMAND, *arguments], env=environment, capture_output=True, text=True, timeout=DEADLINE
-    )
-    return result.returncode, result.stderr.strip()
+@pytest.fixture(scope="module")
+def served(tmp_path_factory):
+    """The program and its place. The password is in the environment. The policy of the scheduler is one that
+    any user may choose, which is inherited like that of real time."""
 
+    def control_a_robot():
+        os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
 
-def test_a_password_of_the_environment_is_not_shown(environment):
+    folder = str(tmp_path_factory.mktemp("cache"))
+    environment = {**os.environ, "XDG_CACHE_HOME": folder, "FRANKA_DESK_PASSWORD": WORD}
     with ScriptedRobot() as robot:
         words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0", "--user=anna"]
-        with program({**environment, "FRANKA_DESK_PASSWORD": WORD}, *words) as process:
+        with program(environment, *words, preexec_fn=control_a_robot) as process:
             before, (place,) = places(process, 1)
             assert before == []
-            assert get(place, "/api/configuration", basic("anna", WORD))[0] == 200
-            assert get(place, "/api/configuration", basic("anna", ""))[0] == 401
-            with open(f"/proc/{process.pid}/cmdline") as file:
-                assert WORD not in file.read()
+            yield process, place
 
 
-def test_a_generated_password_is_printed_once(environment):
-    with ScriptedRobot() as robot:
-        words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0"]
-        passwords = []
-        for _ in range(2):
-            with program(environment, *words) as process:
-                (line,), (place,) = places(process, 1)
-                passwords.append(re.fullmatch(r"franka_desk: user franka, password (\S{12,})", line)[1])
-                assert get(place, "/api/configuration", basic("franka", passwords[-1]))[0] == 200
-        assert len(set(passwords)) == 2
+def test_a_password_of_the_environment_is_not_shown(served):
+    process, place = served
+    assert get(place, "/api/configuration", basic("anna", WORD))[0] == 200
+    assert get(place, "/api/configuration", basic("anna", ""))[0] == 401
+    with open(f"/proc/{process.pid}/cmdline") as file:
+        assert WORD not in file.read()
 
 
-def test_it_sends_no_session_tickets(environment):
-    with ScriptedRobot() as robot:
-        words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0"]
-        with program({**environment, "FRANKA_DESK_PASSWORD": WORD}, *words) as process:
-            _, (place,) = places(process, 1)
-            with (
-                socket.create_connection(place, timeout=DEADLINE) as plain,
-                unverified().wrap_socket(plain) as secured,
-            ):
-                secured.sendall(b"GET /admin/api/startup-phase HTTP/1.1\r\nHost: localhost\r\n\r\n")
-                assert secured.recv(4096).startswith(b"HTTP/1.1 200")
-                assert not secured.session.has_ticket
+def test_it_sends_no_session_tickets(served):
+    plain = socket.create_connection(served[1], timeout=DEADLINE)
+    with plain, unverified().wrap_socket(plain) as secured:
+        secured.sendall(b"GET /admin/api/startup-phase HTTP/1.1\r\nHost: localhost\r\n\r\n")
+        assert secured.recv(4096).startswith(b"HTTP/1.1 200")
+        assert not secured.session.has_ticket
+
+
+def test_it_does_not_keep_the_priority_of_the_program_that_starts_it(served):
+    assert os.sched_getscheduler(served[0].pid) == os.SCHED_OTHER
+    assert os.getpriority(os.PRIO_PROCESS, served[0].pid) > 0
 
 
 def test_each_robot_has_a_desk_of_its_own_and_its_paths_at_the_others(environment):
@@ -158,56 +152,44 @@ def wait_for_control(place, password):
     return connection
 
 
-@pytest.mark.parametrize("how", [signal.SIGTERM, signal.SIGINT, "end of input"])
-def test_it_ends_on_request(environment, how):
+def test_it_ends_on_request_and_each_time_has_a_new_password(environment):
+    passwords = set()
     with ScriptedRobot() as robot:
-        words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0", "--child"]
-        with program(environment, *words) as process:
-            (line,), (place,) = places(process, 1)
-            waiting = wait_for_control(place, line.rpartition(" ")[2])
-            if how == "end of input":
-                process.stdin.close()
-                process.stdin = None
-            else:
-                process.send_signal(how)
-            assert process.wait(DEADLINE) == 0
-            waiting.close()
+        for how in (signal.SIGTERM, signal.SIGINT, "end of input"):
+            words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0", "--child"]
+            with program(environment, *words) as process:
+                (line,), (place,) = places(process, 1)
+                password = re.fullmatch(r"franka_desk: user franka, password (\S{12,})", line)[1]
+                passwords.add(password)
+                waiting = wait_for_control(place, password)
+                if how == "end of input":
+                    process.stdin.close()
+                    process.stdin = None
+                else:
+                    process.send_signal(how)
+                assert process.wait(DEADLINE) == 0, how
+                waiting.close()
+    assert len(passwords) == 3
 
 
 @pytest.mark.parametrize(
-    "arguments",
-    [
-        ["--option", "nothing=1"],
-        ["--option", "boot-time=-1"],
-        ["--listen", "127.0.0.1:nowhere"],
-        ["--robot", "127.0.0.1:99999"],
-        ["--user", "a:b"],
-    ],
+    "argument",
+    ["--option=boot-time=-1", "--listen=127.0.0.1:nowhere", "--robot=127.0.0.1:99999", "--user=a:b"],
 )
-def test_a_wrong_command_line_is_refused_with_a_sentence(environment, arguments):
-    status, text = refused(environment, *arguments)
-    assert status == 2 and text.startswith("franka_desk: ") and text.endswith(".")
-    assert len(text.splitlines()) == 1
+def test_a_wrong_command_line_is_refused_with_a_sentence(argument, capfd):
+    assert cli.main([argument]) == 2
+    text = capfd.readouterr().err.strip()
+    assert text.startswith("franka_desk: ") and text.endswith(".") and len(text.splitlines()) == 1
 
 
 def test_a_port_in_use_is_an_error_with_a_sentence(environment):
     with ScriptedRobot() as robot:
-        status, text = refused(
-            environment, f"--robot=127.0.0.1:{robot.port}", f"--listen=127.0.0.1:{robot.port}"
-        )
-    assert status == 1
-    assert str(robot.port) in text and "--listen" in text and len(text.splitlines()) == 1
-
-
-def test_it_does_not_keep_the_priority_of_the_program_that_starts_it(environment):
-    def control_a_robot():  # any user may choose this policy, which is inherited like that of real time
-        os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
-
-    words = ["--robot=127.0.34.9", "--listen=127.0.34.9:0"]
-    with program(environment, *words, preexec_fn=control_a_robot) as desk:
-        places(desk, 1)
-        assert os.sched_getscheduler(desk.pid) == os.SCHED_OTHER
-        assert os.getpriority(os.PRIO_PROCESS, desk.pid) > 0
+        place = f"127.0.0.1:{robot.port}"
+        command = [*COMMAND, f"--robot={place}", f"--listen={place}"]
+        result = subprocess.run(command, env=environment, capture_output=True, text=True, timeout=DEADLINE)
+    assert result.returncode == 1
+    assert str(robot.port) in result.stderr and "--listen" in result.stderr
+    assert len(result.stderr.strip().splitlines()) == 1
 
 
 def test_desk_serves_before_its_robot_is_there(environment):
@@ -235,12 +217,15 @@ def test_the_page_names_every_option_with_its_default():
 def test_franka_sim_starts_desk_with_its_password_and_ends_it(environment, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", environment["XDG_CACHE_HOME"])
     monkeypatch.setenv("FRANKA_DESK_PASSWORD", "not this one")
-    words = ["--desk", f"{OWN_ADDRESS}:{FIRST_PORT}", "--desk-user", "anna", "--desk-password", WORD]
-    with FrankaSim("fr3", arguments=words) as sim:
-        wait_for(lambda: "https://" in sim.log(), sim.log)
+    robots = [SimRobot("fr3", base=[0, 0, 0]), SimRobot("panda", base=[1, 1, 0])]
+    words = ["--desk", "--desk-user", "anna", "--desk-password", WORD]
+    with FrankaSim(*robots, arguments=words) as sim:
+        found = wait_for(lambda: len(found := READY.findall(sim.log())) == 2 and found, sim.log)
         assert WORD not in sim.log()
-        place = (OWN_ADDRESS, FIRST_PORT)
-        assert get(place, "/api/configuration", basic("anna", WORD))[0] == 200
-        assert json.loads(get(place, "/api/fci", {})[1]) == {"status": "Inactive"}
+        assert [address for address, _ in found] == [robot.address for robot in sim.robots]
+        for (address, port), robot in zip(found, sim.robots, strict=True):
+            body = get((address, int(port)), "/admin/api/robot/nameplate", basic("anna", WORD))[1]
+            assert json.loads(body)["armId"] == robot.kind
+            assert all(robot.remote.report().brakes)
     with pytest.raises(OSError):
-        get(place, "/api/fci", {})
+        get((address, int(port)), "/admin/api/startup-phase", {})

@@ -110,8 +110,8 @@ def test_inputs_errors_and_demands(desk, robot):
 @pytest.mark.parametrize(
     "self_test, word",
     [
-        ({"due": 86400.0}, "OK"),
-        ({"due": 60.0}, "Warning"),
+        ({"due": 3600.0}, "OK"),
+        ({"due": 3599.0}, "Warning"),
         ({"due": 0.0}, "Elapsed"),
         ({"running": True, "left": 2.5}, "Running"),
     ],
@@ -130,6 +130,55 @@ def test_lights(desk, robot):
         assert shown == {"color": color.capitalize(), "mode": "Blinking" if blinking else "Constant"}
 
 
+def test_values_of_the_robot(desk, robot):
+    numbers = [float(number) for number in range(1, 17)]
+    arm = {"q": numbers[:7], "tau_ext": numbers[1:8], "O_F_ext": numbers[2:8], "O_T_EE": numbers}
+    axes = [True, False, False, False, True, True, False]
+    change(desk, robot, **arm, hand={"width": 0.03, "max_width": 0.07}, guiding={"axes": axes})
+    assert get(desk, "/desk/api/robot/configuration") == {
+        "jointAngles": arm["q"],
+        "estimatedTorques": arm["tau_ext"],
+        "estimatedForces": arm["O_F_ext"],
+        "cartesianPose": arm["O_T_EE"],
+    }
+    assert get(desk, "/desk/api/robot/gripper_state") == {"width": 0.03, "maxWidth": 0.07}
+    names = [f"{kind}_{axis}" for kind in ("translation", "rotation") for axis in "xyz"]
+    assert get(desk, "/desk/api/robot/guiding/configuration") == dict(zip([*names, "elbow"], axes))
+
+
+@pytest.mark.parametrize(
+    "elbow, wrist, close", [(-0.16, 0.11, False), (-0.14, 1.0, True), (-1.0, 0.09, True), (-1.0, -0.09, True)]
+)
+def test_a_stretched_elbow_or_wrist_is_a_warning(desk, robot, elbow, wrist, close):
+    change(desk, robot, q=[0.0, 0.0, 0.0, elbow, 0.0, wrist, 0.0])
+    assert get(desk, "/api/arm/warnings")["closeToSingularity"] is close
+    assert get(desk, SYSTEM)["robot"]["closeToSingularity"] is close
+
+
+@pytest.mark.parametrize(
+    "hand, word",
+    [
+        ({}, "uninitialized"),
+        ({"homed": True}, "initialized"),
+        ({"kind": "vacuum"}, "initialized"),
+        ({"kind": "none"}, "disconnected"),
+    ],
+)
+def test_connection_of_the_hand(desk, robot, hand, word):
+    change(desk, robot, hand=hand)
+    assert get(desk, "/desk/api/events/gripper/hardware") == {"connection_status": word}
+
+
+def test_power_and_conflicting_inputs(desk, robot):
+    safety = get(desk, SAFETY)
+    assert safety["powerState"] == {"endEffector": "On", "robot": "On"}
+    assert not safety["safetyControllerStatusReason"]["conflictingInputs"]
+    change(desk, robot, end_effector={"power": False}, light={"color": "pink"})
+    safety = get(desk, SAFETY)
+    assert safety["powerState"] == {"endEffector": "Off", "robot": "On"}
+    assert safety["safetyControllerStatusReason"]["conflictingInputs"]
+
+
 def test_errors_are_booleans_by_name_or_a_list(desk, robot):
     change(desk, robot, errors=["cartesian_reflex", "base_acceleration_invalid_reading"])
     errors = get(desk, "/desk/api/robot/status")["robotErrors"]
@@ -140,7 +189,9 @@ def test_errors_are_booleans_by_name_or_a_list(desk, robot):
 
 def test_a_panda_shows_its_brakes_and_switches(tmp_path):
     with desk_with_robot(tmp_path, "fer-spoc") as (robot, desk):
-        change(desk, robot, brakes=OPEN, inputs={"x4": True})
+        change(desk, robot, brakes=OPEN)
+        assert get(desk, "/desk/api/system/status")["operationalMode"] == "Operational"
+        change(desk, robot, inputs={"x4": True})
         status = get(desk, "/desk/api/system/status")
         assert status["brakesOpen"] == [True] * 7 and status["operationalMode"] == "SS1"
         assert status["x3Enabled"] and not status["x4Enabled"]

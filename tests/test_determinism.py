@@ -19,7 +19,7 @@ from fci_session import simulated
 from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, MOVE, Client, command
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
-RUNS = 100 if LONG else 5
+RUNS = 100 if LONG else 3
 
 
 def at_rest(client):

@@ -12,6 +12,7 @@ from pyfranka.franka_sim import FrankaSim, SimRobot
 from screen import colours, dragged, move_pointer, press, virtual_screen, window_of
 from waiting import wait_for
 
+LONG = pytest.mark.long_form("further windows, and one that must not open")
 WIDTH, HEIGHT = 1200, 900  # of the window [px]
 PATIENCE = 180.0  # [s] for what the window shows, on a busy machine
 BORDER, LEAST = 10, 90  # of the panel with texts: within its edge, and a width of it that shows no sky [px]
@@ -37,6 +38,7 @@ def test_window_shows_the_scene(screen, tmp_path):
         wait_for(is_drawn, lambda: f"{session.tail()}\nA picture", PATIENCE, 0.5)
 
 
+@LONG
 def test_headless_opens_no_window(screen, tmp_path):
     with simulation(tmp_path / "launch.log", "headless:=true") as session:
         session.wait_for_master()
@@ -139,6 +141,7 @@ def stands_in(name: np.ndarray, line: np.ndarray) -> bool:
     return False
 
 
+@LONG
 def test_the_viewer_names_the_errors(screen, tmp_path):
     """The name of a second robot is that of the error, so that the letters to look for are on the screen."""
     other = SimRobot("panda", arm_id="joint_reflex", base=(0, 2.0, 0))

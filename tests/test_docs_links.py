@@ -11,8 +11,11 @@ from urllib.parse import urlsplit
 
 import pytest
 from docsite import pages as site_sources
+from docsite.paths import TOP
 from docsite.tree import Tree
 from site_pages import Page, follow, pages_of, read_page
+
+builds_the_site = pytest.mark.long_form("builds the documentation site")
 
 
 def is_external(target: str) -> bool:
@@ -22,16 +25,17 @@ def is_external(target: str) -> bool:
 def dead_links(page: Page, site: Path) -> list[str]:
     dead = []
     for link in page.links:
-        if is_external(link.target):
+        if is_external(link):
             continue
-        path, anchor = follow(page, link.target)
+        path, anchor = follow(page, link)
         if not path.is_file() or site not in path.parents:
-            dead.append(f"{page.path.relative_to(site)}: {link.target}")
+            dead.append(f"{page.path.relative_to(site)}: {link}")
         elif path.suffix == ".html" and anchor and anchor not in read_page(path).anchors:
-            dead.append(f"{page.path.relative_to(site)}: {link.target}: no such anchor")
+            dead.append(f"{page.path.relative_to(site)}: {link}: no such anchor")
     return dead
 
 
+@builds_the_site
 def test_every_internal_link_leads_to_a_page_and_its_anchor(site):
     pages = pages_of(site)
     assert len(pages) > 60
@@ -56,8 +60,9 @@ def test_dead_links_are_found(tmp_path):
     assert found == ["gone.html", "there.html#b", "#c", "../x.html"]
 
 
+@builds_the_site
 def test_external_links_are_addresses(site):
-    external = {link.target for page in pages_of(site) for link in page.links if is_external(link.target)}
+    external = {link for page in pages_of(site) for link in page.links if is_external(link)}
     wrong = []
     for target in sorted(external):
         parts = urlsplit(target)
@@ -66,6 +71,7 @@ def test_external_links_are_addresses(site):
     assert not wrong
 
 
+@builds_the_site
 def test_nothing_is_loaded_from_outside(site):
     loaded = {target for page in pages_of(site) for target in page.loaded}
     assert any(target.endswith(".css") or ".css?" in target for target in loaded)
@@ -76,19 +82,39 @@ def test_nothing_is_loaded_from_outside(site):
     ]
 
 
+@builds_the_site
 def test_every_page_can_be_reached_from_the_start_page(site):
     seen, new = set(), {site / "index.html"}
     while new:
         seen |= new
         found = {
-            follow(read_page(path), link.target)[0]
+            follow(read_page(path), link)[0]
             for path in new
             for link in read_page(path).own_links
-            if not is_external(link.target)
+            if not is_external(link)
         }
         new = {path for path in found if path.suffix == ".html" and path.is_file()} - seen
     made = {"genindex.html", "search.html", "py-modindex.html", "cpp-modindex.html"}
     assert not {str(page.path.relative_to(site)) for page in pages_of(site) if page.path not in seen} - made
+
+
+def anchors(file: Path) -> set[str]:
+    """The anchors of a page's headings, as MyST and GitHub make them."""
+    headings = re.findall(r"^#+ (.+)$", file.read_text(encoding="utf-8"), re.M)
+    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
+
+
+def test_links_of_the_written_pages_lead_somewhere():
+    broken = []
+    for file in sorted((TOP / "docs").rglob("*.md")):
+        for target in re.findall(r"\]\(([^)\s]+)\)", file.read_text(encoding="utf-8")):
+            if "://" in target or target.startswith("reference/"):  # the site's own pages
+                continue
+            name, _, anchor = target.partition("#")
+            other = (file.parent / name).resolve() if name else file
+            if not other.exists() or (anchor and anchor not in anchors(other)):
+                broken.append(f"{file.name}: {target}")
+    assert not broken
 
 
 def in_site(text: str, page: str, folder: Path) -> str:

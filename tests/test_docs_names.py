@@ -182,52 +182,17 @@ def source(package: str, name: str) -> Path:
 
 
 @pytest.mark.parametrize(
-    ("package", "node", "kind", "name", "file"),
+    ("kind", "name", "file"),
     [
-        ("franka_sim_mujoco", "franka_sim_mujoco_node", "publishes", "~markers", "src/marker_publisher.cpp"),
-        ("franka_sim_mujoco", "franka_sim_mujoco_node", "services", "~step", "src/sim_services.cpp"),
-        (
-            "franka_sim_mujoco",
-            "franka_sim_mujoco/FrankaGripperSim",
-            "actions",
-            "~grasp",
-            "src/gripper_actions.cpp",
-        ),
-        (
-            "franka_sim_mujoco",
-            "franka_sim_mujoco/FrankaHWSim",
-            "publishes",
-            "initialized",
-            "src/franka_hw_sim.cpp",
-        ),
-        (
-            "franka_sim_mujoco",
-            "franka_sim_mujoco/FrankaHWSim",
-            "parameters",
-            "reflexes",
-            "src/franka_hw_sim.cpp",
-        ),
-        (
-            "franka_visualization",
-            "robot_joint_state_publisher",
-            "parameters",
-            "~publish_rate",
-            "src/parameters.cpp",
-        ),
-        (
-            "franka_example_controllers",
-            "move_to_start.py",
-            "calls",
-            "~follow_joint_trajectory",
-            "scripts/move_to_start.py",
-        ),
+        ("publishes", "~markers", "src/marker_publisher.cpp"),
+        ("services", "~step", "src/sim_services.cpp"),
     ],
 )
-def test_a_name_that_a_table_lacks_is_found(package, node, kind, name, file):
-    whole = table_of(package, node)
-    assert not missing(source(package, file), [*tables_by_file()[source(package, file)]])
-    lacking = whole | {kind: whole[kind] - {name}}
-    assert [each.strip("~/") for each in missing(source(package, file), [lacking])] == [name.strip("~/")]
+def test_a_name_that_a_table_lacks_is_found(kind, name, file):
+    whole, path = table_of("franka_sim_mujoco", "franka_sim_mujoco_node"), source("franka_sim_mujoco", file)
+    assert [each.strip("~/") for each in missing(path, [whole | {kind: whole[kind] - {name}}])] == [
+        name.strip("~/")
+    ]
 
 
 def test_a_name_of_another_node_or_of_another_kind_does_not_count():
@@ -279,6 +244,13 @@ def nodes_with_tables() -> list[tuple[str, Node]]:
 def test_names_of_the_reference_are_in_the_sources(package, node):
     names = {name for kind in LISTS for name in node.names[kind]} | set(node.parameters)
     assert not gone(package, node, names)
+
+
+@pytest.mark.parametrize("page", sorted({node.page for _, node in nodes_with_tables() if node.page}))
+def test_parameters_of_the_pages_are_in_the_sources(page):
+    names = on_the_page(page).get("parameters", set())
+    nodes = [(package, node) for package, node in nodes_with_tables() if node.page == page]
+    assert not set.intersection(*(set(gone(package, node, names)) for package, node in nodes))
 
 
 def test_a_name_that_no_source_has_is_found():

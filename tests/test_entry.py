@@ -92,7 +92,7 @@ def test_every_package_belongs_to_a_group():
         ("shell", ""),
         ("docs", "docs"),
         ("wheel", "wheel"),
-        ("deb", "extras docs"),
+        ("deb", "extras"),
         ("bench", "test"),
         ("test", "test"),
         ("test --style", "test"),

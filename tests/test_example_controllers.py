@@ -1,16 +1,15 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every single-arm example controller on franka_control_node and a simulated robot, Panda and FR3."""
+"""Every single-arm example controller on franka_control_node and a simulated robot.
 
-import numpy as np
+The short form runs each controller with one of the robots, so that both are used.
+"""
+
 import pytest
-import rospy
 from control_nodes import MODES, ControlNode
-from franka_msgs.msg import FrankaState
 from ros_client import follow, launched, set_example_parameters
 from waiting import wait_for
 
-FIRST_POSITION = (0.3069, 0.0, 0.4869)  # [m] of a simulated arm's hand
 RUNS = 2.5  # [s] of the robot
 RETURNS = "effort_joint_trajectory_controller"
 AT_HOME = 0.02  # [rad]
@@ -26,7 +25,6 @@ CONTROLLERS = {
     "force": None,
     "cartesian_impedance": None,
 }
-RADIUS, CIRCLE = 0.05, 4.0  # [m] python_controllers.yaml, [s]
 WAIT = 300.0  # [s] of wall time, for a few seconds of the robot
 
 pytestmark = pytest.mark.own_process("robot")
@@ -50,8 +48,10 @@ def node(robot, tmp_path_factory):
 
 
 @pytest.fixture
-def arm(node):
-    """The arm, at rest at its first position."""
+def arm(node, robot, name, long_run):
+    """The arm, at rest at its first position. @param name of the controller"""
+    if not long_run and robot != ("panda", "fr3")[list(CONTROLLERS).index(name) % 2]:
+        pytest.skip("the same with the other robot: ./franka test --long")
     arm = node.arms[0]
 
     def away():
@@ -89,27 +89,3 @@ def test_runs_and_stops(node, arm, name):
     assert end.robot_mode == MODES["idle" if name == "model" else "moving"]
     if CONTROLLERS[name] is None:
         assert abs(begin.O_T_EE[14] - end.O_T_EE[14]) < 0.005
-
-
-@pytest.mark.own_process
-def test_the_launch_file_of_a_python_example_moves_the_robot(tmp_path):
-    launch = ["franka_example_controllers", "python_cartesian_circle_example_controller.launch", "sim:=true"]
-    launch += ["robot_ip:=127.0.7.3", "rviz:=false", "max_update_time:=30.0", "max_starting_time:=60.0"]
-    states = []
-
-    def moving():
-        return [state for state in list(states) if state.robot_mode == FrankaState.ROBOT_MODE_MOVE]
-
-    with launched(*launch, log=tmp_path / "launch.log"):
-        topic = "/franka_state_controller/franka_states"
-        rospy.Subscriber(topic, FrankaState, states.append, queue_size=1000)
-        wait_for(lambda: moving() and moving()[-1].time - moving()[0].time >= CIRCLE, "The circle", WAIT)
-    x, y, z = np.array([state.O_T_EE_d[12:15] for state in moving()]).T
-    # The circle through the points, by least squares: the first states of the motion may have been missed.
-    coefficients, *_ = np.linalg.lstsq(np.c_[2 * y, 2 * z, np.ones_like(y)], y**2 + z**2, rcond=None)
-    centre_y, centre_z = coefficients[:2]
-    np.testing.assert_allclose(np.hypot(y - centre_y, z - centre_z), RADIUS, atol=1e-4)
-    np.testing.assert_allclose(x, x[0], atol=1e-4)
-    # It starts at the arm's first position, and moves around a point beside it.
-    np.testing.assert_allclose([x[0], centre_y - RADIUS, centre_z], FIRST_POSITION, atol=2e-3)
-    assert np.ptp(np.unwrap(np.arctan2(z - centre_z, y - centre_y))) > 0.85 * np.pi

@@ -3,6 +3,7 @@
 """The table of exit statuses in docs/how_to/shell.md has every program, and is true."""
 
 import re
+import shutil
 import subprocess
 from pathlib import Path
 
@@ -28,14 +29,11 @@ CASES = [
     ("franka_plot", ["robot"], 2),
     ("franka_desk", ["--no-such-option"], 2),
     ("franka_desk", ["--listen", "192.0.2.1:9443"], 1),
-    ("spawner", ["--no-such-option"], 2),
     ("new_controller", ["my_package", "MyLaw", "--interfaces", "thought"], 2),
     ("new_controller", ["my_package", "MyLaw", "--interfaces", "effort"], 0),
     ("spawn_robot", ["-param", "robot_description"], 2),
     ("fit_robot", ["FILE", "a.yaml"], 1),
-    ("fit_robot", [], 2),
     ("pick_and_place", ["--no-such-option"], 2),
-    ("pyfranka-run", ["--no-such-option"], 2),
     ("pyfranka-run", ["--", "sh", "-c", "exit 7"], 7),
     ("pyfranka-sweep", ["--no-such-option"], 2),
 ]
@@ -65,9 +63,7 @@ def test_every_command_and_program_is_in_the_table():
 @pytest.mark.parametrize(("program", "words", "status"), CASES)
 def test_the_statuses_are_those_of_the_table(program, words, status, tmp_path):
     (tmp_path / "FILE").write_text("nothing\n")
-    path = subprocess.run(
-        ["bash", "-c", f"command -v {program}"], text=True, capture_output=True
-    ).stdout.strip()
+    path = shutil.which(program)
     command = [path] if path else ["rosrun", "controller_manager", program]
     done = subprocess.run(
         [*command, *words],

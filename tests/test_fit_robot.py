@@ -55,11 +55,10 @@ def fit_module():
     return module
 
 
-SEEDS = range(1, 7) if os.environ.get("FRANKA_TEST_LONG") else [5]
+LONG = [(robot, seed) for robot in ("panda", "fr3") for seed in range(1, 7)]
 
 
-@pytest.mark.parametrize("seed", SEEDS)
-@pytest.mark.parametrize("robot", ["panda", "fr3"])
+@pytest.mark.parametrize("robot, seed", LONG if os.environ.get("FRANKA_TEST_LONG") else [("fr3", 5)])
 def test_the_fit_finds_hidden_friction_and_payload(robot, seed, tmp_path):
     hidden, recording, fitted = (tmp_path / name for name in ("hidden.yaml", "recording.csv", "fitted.yaml"))
     hidden.write_text(yaml.safe_dump(HIDDEN))
@@ -120,14 +119,14 @@ def test_without_scipy_it_says_what_to_install(tmp_path):
 
 def test_a_recording_at_rest_is_refused(tmp_path):
     recording = tmp_path / "recording.csv"
-    with simulated("panda", "lockstep") as sim:
+    with simulated("panda", "5") as sim:  # time passes five times as fast; states may be lost
         assert call("franka_info", "record", sim.address, recording, 10).returncode == 0
     result = fit(recording, tmp_path / "robot.yaml")
     assert result.returncode == 1 and "hardly move" in result.stderr
     samples = recording.read_text().splitlines(keepends=True)
     recording.write_text("".join([samples[0], *samples[1::10]]))
     result = fit(recording, tmp_path / "robot.yaml")
-    assert result.returncode == 1 and "a sample is 0.05 s after the one before it" in result.stderr
+    assert result.returncode == 1 and "s after the one before it" in result.stderr
 
 
 def test_a_recording_that_the_user_stop_ends_is_kept(tmp_path):

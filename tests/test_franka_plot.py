@@ -99,6 +99,7 @@ def changed(before, after) -> int:
     return sum(difference.point(lambda grey: 255 if grey > 60 else 0).histogram()[1:])
 
 
+@pytest.mark.long_form("waits for two full windows of curves")
 def test_a_window_follows_a_robot_on_the_network(tmp_path):
     """The curves show that the arm is pushed, and that this ends in a reflex."""
     before, after = tmp_path / "before.png", tmp_path / "after.png"

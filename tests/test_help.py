@@ -8,8 +8,6 @@ import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
-import pytest
-
 TOP = Path(__file__).resolve().parent.parent
 SOURCE, DEVEL = TOP / "catkin_ws" / "src", TOP / "catkin_ws" / "devel"
 PATIENCE = 120.0  # [s]
@@ -25,10 +23,11 @@ def is_program(path: Path) -> bool:
 
 
 def programs() -> list[Path]:
-    """Built programs in the folders of rosrun and the shell, and scripts in the sources."""
+    """Built programs in the folders of rosrun and the shell, and scripts that are in neither."""
     built = [path for path in DEVEL.glob("lib/*/*") if path.parent.name in PACKAGES]
     scripts = [path for path in SOURCE.glob("**/scripts/*") if path.parent.parent.name in PACKAGES]
-    return sorted(path for path in [*built, *DEVEL.glob("bin/*"), *scripts] if is_program(path))
+    found = {path.name: path for path in [*scripts, *DEVEL.glob("bin/*"), *built] if is_program(path)}
+    return list(found.values())
 
 
 def help_of(path: Path) -> tuple[int | None, str]:
@@ -42,19 +41,12 @@ def help_of(path: Path) -> tuple[int | None, str]:
     return result.returncode, result.stdout
 
 
-@pytest.fixture(scope="module")
-def answers():
-    with ThreadPoolExecutor(2) as pool:
-        found = programs()
-        return dict(zip(found, pool.map(help_of, found)))
-
-
-def test_there_are_programs_of_every_kind(answers):
-    names = {path.name for path in answers}
+def test_every_program_answers_help():
+    found = programs()
+    names = {path.name for path in found}
     assert {"franka_control_node", "franka_sim", "franka_gripper_node", "spawner", "roslaunch"} <= names
-
-
-def test_every_program_answers_help(answers):
+    with ThreadPoolExecutor(2) as pool:
+        answers = dict(zip(found, pool.map(help_of, found)))
     wrong = {
         str(path.relative_to(TOP)): (status, text[:200])
         for path, (status, text) in answers.items()

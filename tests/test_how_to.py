@@ -107,11 +107,3 @@ def test_launch_file_for_two_arms_gives_known_arguments():
         package, rest = re.fullmatch(r"\$\(find (\w+)\)/(.+)", include.get("file")).groups()
         known = page_commands.launch_arguments(page_commands.folder_of(package) / rest)
         assert {arg.get("name") for arg in include.iter("arg")} <= known
-
-
-def test_every_example_controller_is_listed():
-    plugins = TOP / "catkin_ws/src/franka_example_controllers"
-    launch_files = {file.name for file in (plugins / "launch").glob("*_example_controller.launch")}
-    text = page("example_controllers")
-    assert len(launch_files) >= 13
-    assert not [name for name in launch_files if name not in text or f"`{name.split('.')[0]}`" not in text]

@@ -40,37 +40,19 @@ def answer(service: str, *arguments: str) -> tuple[bool, str]:
     return bool(success), getattr(answer, "error", getattr(answer, "message", ""))
 
 
-@pytest.fixture
-def session(tmp_path):
-    """A simulation with a robot under ros_control, and a served one; the calls change it."""
+pytestmark = pytest.mark.own_process
+
+
+@pytest.fixture(scope="module")
+def session(tmp_path_factory):
+    """A simulation with a robot under ros_control, and a served one."""
     launch = [str(TOP / "tests/data/how_to.launch"), f"fci_ip:={SERVED}"]
-    with launched(*launch, log=tmp_path / "launch.log") as running:
+    with launched(*launch, log=tmp_path_factory.mktemp("how_to") / "launch.log") as running:
         latest("/franka_state_controller/franka_states", FrankaState, START)
         rospy.wait_for_service("/served/franka_sim/get_state", START)
         yield running
 
 
-@pytest.mark.own_process
-def test_every_service_call_succeeds(session):
-    refused, count = [], 0
-    for words in service_calls():
-        service = words[2].replace("/franka_sim/", "/served/franka_sim/")
-        calls = [(service, *words[3:])]
-        if "stop_controllers: [joint" in " ".join(words):
-            controllers = Controllers()
-            controllers.load(CONTROLLER)
-            controllers.start(CONTROLLER)  # as the argument `controller` of the launch file does
-            calls.insert(0, WITHIN_A_MOTION)
-        for call in calls:
-            success, error = answer(*call)
-            count += 1
-            if not success:
-                refused.append((call, error))
-    assert count > 50
-    assert not refused
-
-
-@pytest.mark.own_process
 def test_programs_with_ros_run(session):
     programs = {
         name: subprocess.Popen(
@@ -88,3 +70,23 @@ def test_programs_with_ros_run(session):
     assert "Traceback" not in "".join(error for _, error in printed.values()), printed
     assert "refused" not in printed["services"][1]
     assert re.match(r"(True|False) ", printed["gripper"][0])  # whether the stone was there
+
+
+def test_every_service_call_succeeds(session):
+    """The last case: the calls change the simulation."""
+    refused, count = [], 0
+    for words in service_calls():
+        service = words[2].replace("/franka_sim/", "/served/franka_sim/")
+        calls = [(service, *words[3:])]
+        if "stop_controllers: [joint" in " ".join(words):
+            controllers = Controllers()
+            controllers.load(CONTROLLER)
+            controllers.start(CONTROLLER)  # as the argument `controller` of the launch file does
+            calls.insert(0, WITHIN_A_MOTION)
+        for call in calls:
+            success, error = answer(*call)
+            count += 1
+            if not success:
+                refused.append((call, error))
+    assert count > 50
+    assert not refused

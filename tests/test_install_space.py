@@ -1,12 +1,20 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Installed packages work without the source tree's environment: the demo from the install space."""
+"""Installed packages are complete, and work without the source tree's environment: the demo runs."""
 
 import json
+import os
 import subprocess
+from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
+from docsite.packages import Package, packages
+from docsite.paths import WORKSPACE
+
+DATA = [f"{folder}/*.*" for folder in ("launch", "config", "worlds", "msg", "srv", "action", "templates")]
+DATA += ["robots/**/*.*", "python/*.py", "*plugin*.xml"]
+installs = pytest.mark.long_form("builds the install space")
 
 
 def in_install_space(
@@ -30,6 +38,7 @@ def in_install_space(
     )
 
 
+@installs
 def test_demo_runs_from_the_install_space(installed, tmp_path):
     result = in_install_space(
         installed,
@@ -40,11 +49,13 @@ def test_demo_runs_from_the_install_space(installed, tmp_path):
     assert json.loads((tmp_path / "demo" / "report.json").read_text())[0]["in_tray"]
 
 
+@installs
 def test_the_sweep_program_runs_from_the_install_space(installed, tmp_path):
     result = in_install_space(installed, "pyfranka-sweep --help", tmp_path)
     assert result.returncode == 0 and "case(index, seed)" in result.stdout, result.stderr
 
 
+@installs
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
 def test_xacro_runs_from_the_install_space(installed, robot, tmp_path):
     result = in_install_space(
@@ -56,21 +67,24 @@ def test_xacro_runs_from_the_install_space(installed, robot, tmp_path):
     assert f'<link name="{robot}_hand_tcp"' in result.stdout
 
 
-@pytest.mark.parametrize(
-    "header",
-    [
-        "hardware_interface/robot_hw.h",
-        "franka_hw/model_kdl.h",
-        "franka_sim/physics/world.h",
-        "franka_sim_mujoco/robot_hw_sim.h",
-        "franka_gazebo/franka_hw_sim.h",
-        "gazebo_msgs/ModelStates.h",
-        "pluginlib/class_list_macros.h",
-        "controller_manager/controller_manager.h",
-        "franka/robot_state.h",
-        "franka_msgs/FrankaState.h",
-        "control_toolbox/pid.h",
-    ],
-)
-def test_headers_are_installed(installed, header):
-    assert (installed / "include" / header).exists()
+def places(package: Package, prefix: Path) -> Iterator[tuple[Path, list[Path]]]:
+    """The files of a package that users and programs use, and where they may be installed."""
+    share, programs = prefix / "share" / package.name, prefix / "lib" / package.name
+    for pattern, folder in [*((pattern, share) for pattern in DATA), ("include/**/*.h", prefix)]:
+        for file in package.files(pattern):
+            yield file, [folder / file.relative_to(package.folder)]
+    for file in filter(Path.is_file, package.files("scripts/*")):
+        if file.name != "install_page_libraries":  # a step of ./franka install
+            yield file, [programs / file.name, prefix / "bin" / file.name]
+
+
+def test_the_install_rules_have_every_file_of_the_packages(tmp_path):
+    """Runs the rules below another root; nothing is built."""
+    workspace = WORKSPACE.resolve().parent
+    environment = {**os.environ, "DESTDIR": str(tmp_path), "PATH": f"/usr/bin:{os.environ['PATH']}"}
+    rules = ["cmake", "-P", workspace / "build" / "cmake_install.cmake"]
+    subprocess.run(rules, env=environment, check=True, capture_output=True, timeout=600)
+    prefix = tmp_path / (workspace / "install").relative_to("/")
+    found = [each for package in packages() for each in places(package, prefix) if each[0].suffix != ".in"]
+    assert {"franka_hw_sim.h", "panda.launch", "new_controller"} <= {file.name for file, _ in found}
+    assert not [file for file, installed in found if not any(path.exists() for path in installed)]

@@ -33,7 +33,7 @@ def controller_of(interface):
 
 @pytest.fixture(scope="module")
 def controllers(tmp_path_factory):
-    launch = ["franka_sim_mujoco", "panda.launch", "headless:=true", "real_time_factor:=1"]
+    launch = ["franka_sim_mujoco", "panda.launch", "headless:=true", "real_time_factor:=0"]
     with launched(*launch, log=tmp_path_factory.mktemp("trajectory") / "launch.log"):
         for name, value in yaml.safe_load((HERE / "joint_trajectory.yaml").read_text()).items():
             rospy.set_param(f"/{name}", value)

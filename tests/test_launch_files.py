@@ -32,6 +32,8 @@ REQUIRED = {
     "follower_ip": "10.0.0.2",
 }
 KINDS = ("robot", "robot_type")  # arguments that may be panda or fr3
+# Nodes that end without their robot, and with them the launch.
+CONTROL_NODES = {"franka_control_node", "franka_combined_control_node", "robot_joint_state_publisher"}
 CALLS = ["plain", "other"]  # of a Panda; of an FR3 with another name in a namespace
 MARKERS = {  # nodes, and the names of the markers that they serve
     "interactive_marker.py": "equilibrium_pose_marker",
@@ -98,6 +100,7 @@ def check_nodes(config: ROSLaunchConfig) -> None:
     assert not config.config_errors
     for node in config.nodes:
         assert is_there(node.package, node.type), f"{node.package} has no node {node.type}"
+        assert node.required or node.type not in CONTROL_NODES, f"{node.type} is not required"
 
 
 def name_for(node, name: str) -> str:
@@ -163,19 +166,13 @@ def test_launch_file_is_valid_with_every_switch_inverted(name):
         check_nodes(read(path, [*needed(path), given], Reader(with_descriptions=False)))
 
 
-@pytest.mark.parametrize("robot", ["panda", "fr3"])
-def test_the_robot_type_is_passed_to_the_simulation(robot):
-    given = [f"robot:={robot}", "arm_id:=other"]
-    config = read(FILES["franka_gazebo/robot.launch"], given, Reader(with_descriptions=False))
-    assert config.params["/robot_type"].value == robot
-
-
-@pytest.mark.parametrize("reflexes", [True, False])
-@pytest.mark.parametrize("name", ["panda", "fr3", "robot"])
-def test_reflexes_are_an_argument_of_the_simulation(name, reflexes):
-    given = [f"reflexes:={str(reflexes).lower()}", *(["robot:=fr3"] if name == "robot" else [])]
-    config = read(FILES[f"franka_gazebo/{name}.launch"], given, Reader(with_descriptions=False))
-    assert config.params["/reflexes"].value is reflexes
+@pytest.mark.parametrize("robot, reflexes", [("panda", True), ("fr3", False)])
+def test_robot_type_and_reflexes_are_passed_to_the_simulation(robot, reflexes):
+    for name, own in (("robot", [f"robot:={robot}", "arm_id:=other"]), (robot, [])):
+        given = [f"reflexes:={str(reflexes).lower()}", *own]
+        config = read(FILES[f"franka_gazebo/{name}.launch"], given, Reader(with_descriptions=False))
+        assert config.params["/robot_type"].value == robot
+        assert config.params["/reflexes"].value is reflexes
 
 
 @pytest.mark.parametrize("name", ["franka_control.launch", "franka_combined_control.launch"])

@@ -3,12 +3,15 @@
 """A package from new_controller builds, loads, and its rostest passes; invalid arguments are refused."""
 
 import os
+import subprocess
+import sys
 from pathlib import Path
 
 import pytest
 from overlay import Overlay
 
 DEVEL = Path(__file__).resolve().parent.parent / "catkin_ws" / "devel"
+PROGRAM = DEVEL.parent / "src/franka_example_controllers/scripts/new_controller"
 NEW = "rosrun franka_example_controllers new_controller"
 
 PACKAGES = {"my_pose_and_torque": "MyController --interfaces cartesian_pose effort"}
@@ -56,8 +59,8 @@ def test_the_printed_command_succeeds_and_fails_with_the_test(tmp_path):
     ],
 )
 def test_invalid_arguments_are_refused(arguments, why, tmp_path):
-    overlay = Overlay(DEVEL, tmp_path / "none", tmp_path)
-    result = overlay.shell(f"{NEW} {arguments} --folder {tmp_path}", DEVEL, 60)
+    command = [sys.executable, PROGRAM, *arguments.split(), "--folder", tmp_path]
+    result = subprocess.run(command, text=True, capture_output=True, timeout=60)
     assert result.returncode != 0
     assert why in result.stderr.lower(), result.stderr
     assert "Traceback" not in result.stderr

@@ -20,11 +20,19 @@ START = 120.0  # [s] on a busy machine
 PACKAGES = ["franka_control", "franka_gripper", "franka_visualization", "franka_example_controllers"]
 # They start simulated robots.
 OTHERS = {"simulated_robot.launch", "python_controllers_simulation.launch"}
-LAUNCHES = [
+ALL = [
     f"{package}/{path.name}"
     for package in PACKAGES
     for path in sorted((SOURCE / package / "launch").glob("*.launch"))
     if path.name not in OTHERS
+]
+# One of each node that needs a robot; all that start these nodes are in test_launch_files.
+ONE_OF_EACH = {"franka_control.launch", "franka_gripper.launch", "franka_visualization.launch"}
+LAUNCHES = [
+    name
+    if name.split("/")[1] in ONE_OF_EACH
+    else pytest.param(name, marks=pytest.mark.long_form("launch files with the same nodes"))
+    for name in ALL
 ]
 # They have no argument that starts simulated robots.
 WITHOUT_SIM = {"franka_visualization.launch", "franka_gripper.launch", "teleop_gripper.launch"}
@@ -62,9 +70,10 @@ def launched(name: str) -> tuple[int | None, str]:
 
 
 @pytest.fixture(scope="module")
-def results():
+def results(long_run):
+    names = [name for name in ALL if long_run or name.split("/")[1] in ONE_OF_EACH]
     with ThreadPoolExecutor(2) as pool:
-        return dict(zip(LAUNCHES, pool.map(launched, LAUNCHES)))
+        return dict(zip(names, pool.map(launched, names)))
 
 
 @pytest.mark.parametrize("name", LAUNCHES)

@@ -17,6 +17,7 @@ PACKAGES = TOP / "tests" / "out_of_tree"
 AWAY = 0.1  # [rad], as in the launch file
 LONG = 300.0  # [s] on a busy machine
 BEGIN = -2.356194490192345  # of the fourth joint [rad]
+SPACES = ["devel", pytest.param("install", marks=pytest.mark.long_form("the same on the install space"))]
 
 
 def end(process: subprocess.Popen) -> None:
@@ -44,7 +45,7 @@ def where(overlay: Overlay, launch: subprocess.Popen, log: Path) -> tuple[str, i
     return found[1], int(found[2])
 
 
-@pytest.mark.parametrize("space", ["devel", "install"])
+@pytest.mark.parametrize("space", SPACES)
 def test_package_builds_and_runs(space, tmp_path, request):
     underlay = TOP / "catkin_ws" / "devel" if space == "devel" else request.getfixturevalue("installed")
     overlay = Overlay(underlay, PACKAGES / "my_arm", tmp_path)
@@ -72,7 +73,7 @@ def test_package_builds_and_runs(space, tmp_path, request):
         end(robot)
 
 
-@pytest.mark.parametrize("space", ["devel", "install"])
+@pytest.mark.parametrize("space", SPACES)
 def test_callbacks_with_boost_bind_compile(space, tmp_path, request):
     """boost::bind with _1 from the global namespace, beside std::bind: not ambiguous, and no warning."""
     underlay = TOP / "catkin_ws" / "devel" if space == "devel" else request.getfixturevalue("installed")

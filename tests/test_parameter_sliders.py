@@ -27,6 +27,7 @@ ENTRY_WIDTH, BUTTON_WIDTH = 96, 118  # [px]
 ABOVE_BOTTOM = 12  # position of the knob [px]
 STIFFEST = 400.0  # [N/m]
 PUSH = 8.0  # [N]
+LONG = pytest.mark.long_form("moves every control of the panel")
 
 
 def wait_for(session, condition, what):
@@ -151,6 +152,7 @@ def test_a_slider_changes_the_stiffness(sliders):
     assert panel.shows(0, STIFFEST) == pytest.approx(STIFFEST, abs=2.0)
 
 
+@LONG
 def test_sliders_follow_changes_by_others(sliders):
     session, panel, robot = sliders
     robot.set(translational_stiffness=120.0, rotational_stiffness=20.04)
@@ -160,6 +162,7 @@ def test_sliders_follow_changes_by_others(sliders):
     assert robot.parameters()["rotational_stiffness"] == 20.04
 
 
+@LONG
 def test_numbers_can_be_typed_and_reset(sliders):
     session, panel, robot = sliders
 
@@ -179,6 +182,7 @@ def test_numbers_can_be_typed_and_reset(sliders):
     is_set("rotational_stiffness", 10.0)
 
 
+@LONG
 def test_a_stopped_controller_keeps_its_sliders(sliders):
     session, panel, robot = sliders
     robot.controller("stop")
@@ -186,6 +190,7 @@ def test_a_stopped_controller_keeps_its_sliders(sliders):
     wait_for(session, lambda: abs(robot.parameters()["nullspace_stiffness"] - 50.0) < 1.0, "the new value")
 
 
+@LONG
 def test_sliders_appear_and_disappear_with_their_controller(sliders):
     session, panel, robot = sliders
     robot.controller("stop")
@@ -216,9 +221,9 @@ print(json.dumps(found))
 """
 
 
-def labels_of(parameters: list) -> list[list[str]]:
-    """The texts of the panel's labels and buttons for each of the parameters of a .cfg file."""
-    described = [
+def described(parameters: list) -> list[dict]:
+    """The parameters of a .cfg file as the panel receives them."""
+    return [
         {
             "name": each.name,
             "type": each.type,
@@ -229,25 +234,18 @@ def labels_of(parameters: list) -> list[list[str]]:
         }
         for each in parameters
     ]
-    program = [sys.executable, "-c", LABELS, str(EXAMPLES / "scripts/parameter_sliders")]
-    with virtual_screen():
-        return json.loads(
-            subprocess.run(
-                program,
-                input=json.dumps(described),
-                stdout=subprocess.PIPE,
-                text=True,
-                check=True,
-                timeout=60,
-            ).stdout
-        )
 
 
-@pytest.mark.parametrize("name", ["compliance_param", "desired_mass_param", "teleop_gripper_param"])
-def test_each_number_has_its_unit_limits_and_default(name):
+def test_each_number_has_its_unit_limits_and_default():
     """What the panel shows of the examples' parameters, as their .cfg files give them."""
-    parameters = read_config(EXAMPLES / "cfg" / f"{name}.cfg").parameters
-    for parameter, texts in zip(parameters, labels_of(parameters), strict=True):
+    names = ("compliance_param", "desired_mass_param", "teleop_gripper_param")
+    files = [EXAMPLES / "cfg" / f"{name}.cfg" for name in names]
+    parameters = [each for file in files for each in read_config(file).parameters]
+    program = [sys.executable, "-c", LABELS, str(EXAMPLES / "scripts/parameter_sliders")]
+    options = {"stdout": subprocess.PIPE, "text": True, "check": True, "timeout": 60}
+    with virtual_screen():
+        printed = subprocess.run(program, input=json.dumps(described(parameters)), **options).stdout
+    for parameter, texts in zip(parameters, json.loads(printed), strict=True):
         unit = re.search(r"\[(.*)\]", parameter.meaning)
         assert (unit is None) == (parameter.name == "k_p"), "all but one have a unit"
         assert {parameter.name, unit[1] if unit else ""} <= set(texts)

@@ -12,17 +12,18 @@ from ros_client import follow, launched, outcome, set_example_parameters
 from waiting import wait_for
 
 # Robots, the number of arms, and how many reflexes follow each other.
-SETUPS = {"panda": ("panda", 1, 10), "fr3": ("fr3", 1, 3)}
-SETUPS |= {"2 panda": ("panda", 2, 1), "2 fr3": ("fr3", 2, 1), "4 panda": ("panda", 4, 1)}
+SETUPS = {"panda": ("panda", 1, 5), "2 fr3": ("fr3", 2, 2)}
+OTHERS = {"fr3": ("fr3", 1, 5), "2 panda": ("panda", 2, 2), "4 panda": ("panda", 4, 2)}
+AGAIN = pytest.mark.long_form("the same with other robots")
 MANY = 100  # reflexes in the long form
 ANGLE = 0.05  # [rad]
 
 pytestmark = pytest.mark.own_process("setup")
 
 
-@pytest.fixture(scope="module", params=SETUPS)
+@pytest.fixture(scope="module", params=[*SETUPS, *(pytest.param(setup, marks=AGAIN) for setup in OTHERS)])
 def setup(request):
-    return SETUPS[request.param]
+    return (SETUPS | OTHERS)[request.param]
 
 
 @pytest.fixture(scope="module")

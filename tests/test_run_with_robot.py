@@ -50,11 +50,10 @@ def leaves_no_process(monkeypatch):
     assert left == []
 
 
-@pytest.mark.parametrize("robot", ["panda", "fr3"])
-def test_the_command_reads_its_robot(robot):
-    done = run("--robot", robot, "--", "/usr/bin/python3", "-c", READ)
+def test_the_command_reads_its_robot():
+    done = run("--robot", "panda", "--", "/usr/bin/python3", "-c", READ)
     assert (done.returncode, done.stdout) == (0, "RobotMode.Idle\n"), done.stderr
-    assert re.search(rf"the robot is ready: {robot} at 127\.\d+\.\d+\.\d+\n", done.stderr)
+    assert re.search(r"the robot is ready: panda at 127\.\d+\.\d+\.\d+\n", done.stderr)
     assert "last lines" not in done.stderr
 
 
@@ -76,8 +75,8 @@ def test_a_command_that_a_signal_ends_has_its_number():
 
 
 def test_a_late_command_is_ended_with_its_children():
-    done = run("--timeout=2", "--", "bash", "-c", "sleep 1000 & wait")
-    assert done.returncode == 124 and "did not end within 2 s" in done.stderr
+    done = run("--timeout=0.5", "--", "bash", "-c", "sleep 1000 & wait")
+    assert done.returncode == 124 and "did not end within 0.5 s" in done.stderr
 
 
 @pytest.mark.parametrize(
@@ -139,18 +138,6 @@ def test_a_signal_ends_command_and_robot():
 
 # ---- roslaunch -------------------------------------------------------------------------------------------
 
-LAUNCH = "franka_gazebo fr3.launch headless:=true controller:=joint_impedance_example_controller"
-
-
-def test_a_launched_robot_is_ready_for_the_command():
-    code = """
-        rosservice call /controller_manager/list_controllers | grep -A1 joint_impedance | grep -q running
-        rostopic echo -n 1 /joint_states/name | grep -o fr3_joint7
-    """
-    done = run("--launch", LAUNCH, "--", "bash", "-eo", "pipefail", "-c", code)
-    assert done.returncode == 0, done.stdout + done.stderr
-    assert "fr3_joint7" in done.stdout
-
 
 def test_a_launch_file_that_does_not_exist_is_reported():
     done = run("--launch=franka_gazebo robot_arm.launch", "--", "echo", "mine")
@@ -161,9 +148,9 @@ def test_a_launch_file_that_does_not_exist_is_reported():
 def test_a_launch_without_a_robot_is_reported(tmp_path):
     file = tmp_path / "empty.launch"
     file.write_text("<launch/>")
-    done = run(f"--launch={file}", "--start-timeout=4", "--", "echo", "mine")
+    done = run(f"--launch={file}", "--start-timeout=1", "--", "echo", "mine")
     assert (done.returncode, done.stdout) == (125, "")
-    assert "states had no message within 4 s" in done.stderr
+    assert "states had no message within 1 s" in done.stderr
 
 
 def test_without_ros_a_launch_is_refused(tmp_path):
@@ -268,9 +255,11 @@ def test_the_job_of_gitlab_runs_a_users_rostest(tmp_path, source):
     project.mkdir()
     variables = GITLAB["variables"] | {
         "FRANKA_SOURCE": source,
-        "FRANKA_LAUNCH": "franka_gazebo panda.launch headless:=true",
+        "FRANKA_LAUNCH": "franka_gazebo fr3.launch headless:=true "
+        "controller:=joint_impedance_example_controller",
         "FRANKA_SETUP": str(setup),
-        "FRANKA_RUN": "rostest --text --reuse-master mine mine.test",
+        "FRANKA_RUN": "rosservice call /controller_manager/list_controllers | grep -A1 joint_impedance | "
+        "grep -q running && rostest --text --reuse-master mine mine.test",
         "CI_PROJECT_DIR": str(project),
     }
     script = "\n".join([*GITLAB["before_script"], *GITLAB["script"]])

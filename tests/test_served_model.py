@@ -7,7 +7,7 @@ import pytest
 import rigid_arm
 from fci_session import simulated
 
-STATES = 1000
+STATES = 200
 GRAVITY = [0.0, 0.0, -9.81]  # [m/s^2]
 SERVED = [("panda", 5), ("fr3", 6), ("fr3", 9), ("fr3", 10)]
 

@@ -52,9 +52,14 @@ def world(tmp_path_factory):
         yield
 
 
-@pytest.fixture(params=ROBOTS)
+both = pytest.mark.parametrize("robot", ROBOTS, indirect=True)
+fr3 = pytest.mark.parametrize("robot", ["fr3"], indirect=True)
+
+
+@pytest.fixture
 def robot(request):
-    return request.param
+    """The Panda, unless a mark says otherwise."""
+    return getattr(request, "param", "panda")
 
 
 @pytest.fixture
@@ -147,6 +152,7 @@ class Motion:
         return {"status": status, "mode": self.state.mode, "reasons": self.state.reasons}
 
 
+@both
 def test_a_client_finds_its_robot(robot, operator):
     address, version = ROBOTS[robot]
     alone = "Idle, client of protocol 0, errors none"
@@ -160,6 +166,7 @@ def at_rest(state):
     return max(map(abs, state.joints("dq"))) < 1e-6
 
 
+@fr3
 def test_the_robot_moves_in_simulated_time(robot, operator, client):
     begin = rospy.get_time()
     motion = Motion(client)
@@ -175,6 +182,7 @@ def test_the_robot_moves_in_simulated_time(robot, operator, client):
     assert seen == pytest.approx(operator.sees().q, abs=1e-6)
 
 
+@both
 def test_the_user_stop_ends_its_motion(robot, operator, client):
     motion = Motion(client)
     motion.run(100, finish=False)
@@ -201,12 +209,14 @@ def with_lost_commands(client, operator, count):
     return motion.end(), rate
 
 
+@fr3
 def test_ten_lost_commands_are_accepted(operator, client):
     end, rate = with_lost_commands(client, operator, 10)
     assert (end["status"], end["mode"]) == (0, IDLE)
     assert rate == pytest.approx(1.0, abs=1e-6), "They are more than 100 cycles ago."
 
 
+@both
 def test_twenty_lost_commands_end_the_motion(robot, operator, client):
     end, _ = with_lost_commands(client, operator, 20)
     assert end["mode"] == REFLEX and end["reasons"] == [COMMUNICATION]
@@ -233,7 +243,11 @@ def test_setters_work_at_rest_and_report_refusals(operator, client):
     assert operator.does("set_load", SetLoad, 0.0, [0, 0, 0], NOTHING) == OK
 
 
-@pytest.mark.parametrize(("switch", "mode"), [("guiding", "Guiding"), ("brakes", "Other")])
+@pytest.mark.parametrize(
+    ("robot", "switch", "mode"),
+    [("panda", "guiding", "Guiding"), ("fr3", "brakes", "Other")],
+    indirect=["robot"],
+)
 def test_a_switch_of_the_robot_changes_its_mode(operator, client, switch, mode):
     assert operator.does(f"set_{switch}", SetBool, True)[0]
     assert operator.sees().text.split(",")[0] == mode
@@ -241,6 +255,7 @@ def test_a_switch_of_the_robot_changes_its_mode(operator, client, switch, mode):
     assert operator.sees().text.split(",")[0] == "Idle"
 
 
+@fr3
 def test_a_paused_world_pauses_its_motions(client):
     """A motion pauses with the world, and then continues. Meanwhile the client gets the same state again."""
     motion = Motion(client)
@@ -281,7 +296,11 @@ def overtake(robot, service):
     return elsewhere
 
 
-@pytest.mark.parametrize("service", ["reset", "restore_snapshot", "set_joint_states"])
+@pytest.mark.parametrize(
+    ("robot", "service"),
+    [("panda", "reset"), ("fr3", "restore_snapshot"), ("panda", "set_joint_states")],
+    indirect=["robot"],
+)
 def test_a_service_that_overtakes_a_braking_arm_leaves_no_request_unanswered(
     robot, operator, client, service
 ):

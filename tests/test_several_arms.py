@@ -64,23 +64,12 @@ def system():
     return rosgraph.Master(rospy.get_name()).getSystemState()
 
 
-def test_all_controllers_run():
-    usual = {"franka_state_controller", CONTROLLER}
-    assert set(running("arm_0")) == usual | {"franka_gripper"}
-    assert all(set(running(arm)) == usual for arm in ARMS[1:])
-
-
 def test_an_arm_adds_no_processes_but_its_spawners():
     spawners = ("_model_spawner", "_controller_spawner", "_gripper_spawner")
     nodes = {node for part in system() for _, nodes in part for node in nodes}
     own = [node for node in nodes if node.startswith("/arm_")]
     assert own
     assert all(node.endswith(spawners) for node in own), own
-
-
-def test_clock_messages_wake_no_spawners():
-    """They run as long as their controllers: each message would wake them up needlessly."""
-    assert not [node for node in dict(system()[1])["/clock"] if "spawner" in node]
 
 
 def test_joint_states_hold_arm_and_hand_in_kinematic_order():

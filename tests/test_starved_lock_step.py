@@ -10,6 +10,7 @@ import os
 import signal
 import threading
 from contextlib import ExitStack
+from functools import partial
 
 import pyfranka
 import pytest
@@ -22,19 +23,13 @@ from waiting import wait_for
 STOPPED = 0.7  # [s]
 STARVED = 1.5  # [s]; our client waits 5 s for a robot on its own machine
 
-LIBRARIES = [("pyfranka", "panda"), ("pyfranka", "fr3")]
 
-
-@pytest.mark.parametrize("library, robot", LIBRARIES)
-def test_lock_step_waits_for_a_starved_client_and_repeats(library, robot):
-    with simulated(robot, "lockstep") as sim, client_process(library) as client, busy():
+def test_lock_step_waits_for_a_starved_client_and_repeats():
+    with simulated("panda", "lockstep") as sim, client_process("pyfranka") as client, busy():
         assert client.run_task("connect", address=sim.address)["outcome"] == "ok"
         for torque in (False, True):
-            hashes = [
-                moved(sim, client, torque),
-                moved(sim, client, torque, client.process, STOPPED),
-                moved(sim, client, torque, sim.server.process, STOPPED),
-            ]
+            move = partial(moved, sim, client, torque, motion=3.0)
+            hashes = [move(), move(client.process, STOPPED), move(sim.server.process, STOPPED)]
             assert len(set(hashes)) == 1, hashes
         assert sim.remote.state().mode == "Idle"
 
@@ -57,9 +52,9 @@ def test_lock_step_waits_for_a_silent_client_but_not_for_a_dead_one():
             assert client.state().mode == IDLE
 
 
-@pytest.fixture(params=["panda", "fr3"])
-def robot_and_client(request):
-    with simulated(request.param, "lockstep") as sim:
+@pytest.fixture
+def robot_and_client():
+    with simulated("fr3", "lockstep") as sim:
         yield sim, sim.connect()
 
 

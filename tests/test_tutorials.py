@@ -2,19 +2,17 @@
 # SPDX-License-Identifier: Apache-2.0
 """The tutorials and the pages to get started do what they say: their commands are typed as they stand.
 
-The short form follows some pages and checks the files of all. The long form follows every page,
+The short form follows a page and checks the files of all. The long form follows every page,
 also as a reader with an FR3. With FRANKA_UPDATE_PICTURES=1 the pictures that a page makes replace those in
 docs/pictures/tutorials.
 """
 
-import ast
 import json
 import os
 import re
 import shutil
 import subprocess
 import time
-import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
 import pytest
@@ -32,12 +30,11 @@ from tutorial import (
     Reader,
     check_picture,
     has_variant,
-    lines_in_order,
     read,
 )
 
-# Pages that take less than half a minute together.
-SHORT = {"python", "network"}
+# A page that takes a few seconds.
+SHORT = {"python"}
 RUNS = [(page, False) for page in PAGES] + [(page, True) for page in PAGES if has_variant(page)]
 OURS = [page for page, variant in RUNS if not variant]
 
@@ -81,16 +78,12 @@ def test_page_commands_have_the_documented_effect(path, variant, tmp_path):
 
 
 @pytest.mark.parametrize("path", OURS, ids=lambda path: path.stem)
-def test_files_of_a_page_are_named_and_valid(path, tmp_path):
+def test_files_of_a_page_are_named(path):
     page = read(path)
     written = {step.path: step for step in page.of("file")}
     for step in written.values():
         where = f"{path.name}:{step.line}"
         assert f"`{step.path}`" in page.prose, f"{where}: the text does not say where to save {step.path}"
-        if step.language == "python":
-            ast.parse(step.text, where)
-        elif step.language == "xml":
-            ElementTree.fromstring(step.text)
     typed = "".join(step.text for step in page.of("bash"))
     for script in re.findall(r"python3? (~/\S+\.py)", typed):
         assert script in written, f"{path.name}: {script} is run, but the page does not have it"
@@ -100,7 +93,7 @@ def test_files_of_a_page_are_named_and_valid(path, tmp_path):
 def test_programs_in_cpp_compile(name, tmp_path):
     # The folders of headers that the workspace's own controllers are compiled with.
     compiled = json.loads((TOP / "catkin_ws" / "build" / "compile_commands.json").read_text())
-    ours = next(entry for entry in compiled if entry["file"].endswith("/elbow_example_controller.cpp"))
+    ours = next(entry for entry in compiled if "/franka_example_controllers.dir/" in entry["command"])
     options = [f"-I{tmp_path}", *re.findall(r"-(?:I|isystem )\S+", ours["command"])]
     options = [word for option in options for word in option.split()]
     sources = []
@@ -121,34 +114,14 @@ def test_programs_in_cpp_compile(name, tmp_path):
     assert done.returncode == 0, done.stderr[-4000:]
 
 
-@pytest.mark.parametrize("path", OURS, ids=lambda path: path.stem)
-def test_page_has_the_required_parts(path):
-    text = path.read_text()
-    assert text.startswith("# ")
-    parts = ["## Where to go next"]
-    if path.parent.name == "tutorials":
-        parts = [
-            "**You learn** ",
-            "**You need** ",
-            "## What to try next",
-            "](../pictures/tutorials/",
-        ]
-    for part in parts:
-        assert part in text, f"{path.name} has no {part}"
-    assert re.search(r"^## (1\.|Step 1:) ", text, re.M) or path.parent.name != "tutorials"
-    page = read(path)
-    made = {step.text.split(" is ")[1] for kind in ("picture", "window") for step in page.of(kind)}
-    shown = {Path(link).name for link in re.findall(r"\]\((\S*pictures/tutorials/\S+)\)", text)}
-    assert made == shown, "pictures that are made are shown, and the reverse"
-    for link in re.findall(r"\]\(([^)#]+)\)", page.prose):
-        target = (path.parent / link).resolve()
-        assert target.exists(), f"{path.name}: there is no {link}"
-
-
-def test_pictures_show_something():
+def test_pictures_that_are_made_are_shown_and_show_something():
     shown = set()
     for path in [*PAGES, *MORE_PAGES]:
-        shown |= set(re.findall(r"pictures/tutorials/(\S+)\)", path.read_text()))
+        on_page = set(re.findall(r"pictures/tutorials/(\S+)\)", path.read_text()))
+        page = read(path)
+        made = {step.text.split(" is ")[1] for kind in ("picture", "window") for step in page.of(kind)}
+        assert made == on_page if path in PAGES else made <= on_page, path.name
+        shown |= on_page
     assert {picture.name for picture in PICTURES.glob("*.png")} == shown
     for name in shown:
         check_picture(PICTURES / name)
@@ -248,11 +221,6 @@ def test_ctrl_c_waits_until_the_program_runs(tmp_path):
             terminal.interrupt()
             terminal.type("echo $?", set())
             assert "130" in terminal.printed
-
-
-def test_lines_are_compared_in_their_order():
-    assert lines_in_order("a\n...\nb ... c", "x\na\ny\nb 1 2 c\n") is None
-    assert lines_in_order("b\na", "a\nb\n") == "a"
 
 
 def test_empty_picture_is_reported(tmp_path):

@@ -31,26 +31,6 @@ def page(name: str) -> str:
     return (TUTORIALS / f"{name}.md").read_text(encoding="utf-8")
 
 
-def anchors(file: Path) -> set[str]:
-    """The anchors of a page's headings, as MyST and GitHub make them."""
-    headings = re.findall(r"^#+ (.+)$", file.read_text(encoding="utf-8"), re.M)
-    return {re.sub(r"[^\w\- ]", "", heading.lower()).replace(" ", "-") for heading in headings}
-
-
-@pytest.mark.parametrize("folder", ["troubleshooting", "how_to", "tutorials"])
-def test_links_lead_somewhere(folder):
-    broken = []
-    for file in sorted((TOP / "docs" / folder).glob("*.md")):
-        for target in re.findall(r"\]\(([^)\s]+)\)", file.read_text(encoding="utf-8")):
-            if "://" in target:
-                continue
-            name, _, anchor = target.partition("#")
-            other = (file.parent / name).resolve() if name else file
-            if not other.exists() or (anchor and anchor not in anchors(other)):
-                broken.append(f"{file.name}: {target}")
-    assert not broken
-
-
 def test_debian_has_the_named_packages():
     """Those that the pages say to install. Without Debian's lists, apt knows what is installed only."""
     names = set(re.findall(r"apt-get install (\S+)", page("real_robot")))
@@ -116,6 +96,7 @@ def test_table_of_dependencies_matches_the_packages():
     assert not missing
 
 
+@pytest.mark.long_form("builds one more package of a user")
 def test_the_ported_package_builds_and_runs(tmp_path):
     overlay = Overlay(DEVEL, PACKAGE, tmp_path)
     overlay.build()

@@ -131,16 +131,3 @@ def test_programs_run_in_the_terminal_of_the_page(tmp_path):
     )
     with Reader(tmp_path / "home") as reader:
         reader.follow(read(page))
-
-
-def test_every_picture_has_code_that_makes_it():
-    scripts = [path.read_text() for path in (TOP / "tests" / "support").glob("*_pictures.py")]
-    demo = (TOP / "catkin_ws/src/franka_sim_mujoco/scripts/pick_and_place").read_text()
-    without = [
-        path.name
-        for path in (TOP / "docs" / "pictures").glob("*.png")
-        if not any(f'"{path.name}"' in text for text in scripts)
-        and not (TOP / "examples" / "python" / f"{path.stem}.py").is_file()
-        and f"-{path.stem}" not in demo
-    ]
-    assert not without

@@ -5,12 +5,25 @@
 import pyfranka
 import pytest
 
+KINDS = ("panda", "fr3")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items):
+    """In a file with ROBOTS_TAKE_TURNS, whose code depends on no robot, each test runs with one of them."""
+    cases = {}
+    for item in items:
+        if getattr(getattr(item, "module", None), "ROBOTS_TAKE_TURNS", False) and "name" in item.fixturenames:
+            kind = item.callspec.params["name"]
+            turn = cases.setdefault(item.nodeid.replace(kind, ""), len(cases))
+            if kind != KINDS[turn % 2]:
+                item.add_marker(pytest.mark.long_form("with the other robot"))
+
 
 @pytest.fixture(scope="session")
 def served(franka_sim_session):
     """Robots in lock-step, without friction and latency."""
-    kinds = ("panda", "fr3")
-    return {kind: franka_sim_session(kind, pace="lockstep", realism="ideal").robot for kind in kinds}
+    return {kind: franka_sim_session(kind, pace="lockstep", realism="ideal").robot for kind in KINDS}
 
 
 @pytest.fixture(scope="session")
@@ -35,7 +48,7 @@ def narrow_world(tmp_path):
     return world
 
 
-@pytest.fixture(params=["panda", "fr3"])
+@pytest.fixture(params=KINDS)
 def name(request):
     return request.param
 

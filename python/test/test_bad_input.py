@@ -16,6 +16,7 @@ from pyfranka.sim import FR3, KINDS, Gripper, Panda, Remote, Robot, Simulation, 
 
 NAN, INF = math.nan, math.inf
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
+ROBOTS_TAKE_TURNS = True
 FAR = 1e4  # [m], [N]: beyond what a world takes
 ERRORS = (ValueError, TypeError, KeyError, IndexError, RuntimeError)
 # Of pybind11, numpy and Python, which name no argument of the user.
@@ -622,7 +623,7 @@ def test_while_another_thread_steps_each_call_is_refused(sim, name):
 # ---- the control interface ---------------------------------------------------------------------------------
 
 REMOTE = {
-    "__init__": {"Give the address": lambda x: Remote(5), "The port is a whole": lambda x: Remote("a", 1.5)},
+    "__init__": {"Give the address": lambda x: Remote(""), "The port is a whole": lambda x: Remote("a", 1.5)},
     "send": {"one line at a time": lambda x: x.send("state\nquit")},
     "user_stop": {"Give True or False, not 'off'": lambda x: x.user_stop("off")},
     "guiding": {"Give True or False, not 1": lambda x: x.guiding(1)},
@@ -653,7 +654,11 @@ REMOTE = {
     "lose": {"whole number": lambda x: x.lose("x")},
     "delay": {"whole number, not 1.5": lambda x: x.delay(1.5)},
     "push": {"one word, not 'a b'": lambda x: x.push("a b", (0, 0, 1), 1)},
-    "place": {"The position has 3 numbers": lambda x: x.place("stone", "high")},
+    "place": {
+        "The position has 3 numbers": lambda x: x.place("stone", "high"),
+        "The orientation has 4 numbers": lambda x: x.place("stone", (0, 0, 1), (1, 0, 0)),
+    },
+    "state": {"positive number of seconds": lambda x: x.state(timeout=NAN)},
     "where": {"one word": lambda x: x.where("stone\nquit")},
     "mesh": {"": lambda x: x.mesh("nothing")},
     "step": {"": lambda x: x.step(-1)},

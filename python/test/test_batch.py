@@ -14,6 +14,7 @@ from pyfranka.sim import FR3, KINDS, Panda, Simulation, SimulationBatch
 from waiting import wait_for
 
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
+ROBOTS_TAKE_TURNS = True
 
 
 def move(sim, name, way):
@@ -174,13 +175,6 @@ def test_another_simulation_replaces_a_world():
         assert batch.observations[:, 0] == pytest.approx([0.04, 0.03])
         with pytest.raises(RuntimeError, match="is closed"):
             gone.step()
-        for sentence, number, simulation in (
-            ("There is no world 2", 2, Simulation()),
-            ("already world 1 of the batch", 0, other),
-            ("There is no value 'panda.q'", 0, Simulation(robots=[FR3()])),
-        ):
-            with pytest.raises((IndexError, ValueError), match=sentence):
-                batch.replace(number, simulation)
         batch[0].close()
         batch.replace(0, Simulation(robots=[Panda()]))  # a closed one, too
         batch.step(1)

@@ -11,9 +11,10 @@ import contact_motion
 import pyfranka
 import pytest
 from contact_motion import BASE, SCENE, TICKS, WORLD, down_and_back, follow, press
-from fci_session import go_first, go_with_all, simulated
+from fci_session import simulated
 from pyfranka.sim import KINDS, Simulation, SimulationBatch
 
+ROBOTS_TAKE_TURNS = True
 cloudpickle.register_pickle_by_value(contact_motion)  # workers cannot import the tests
 PROGRAM = (
     Path(__file__).resolve().parents[2]
@@ -73,13 +74,9 @@ def test_in_a_batch(name, alone):
 
 
 def test_over_the_network(name, alone):
-    go_first()
-    try:
-        with simulated(name, "lockstep", *SCENE) as served:
-            press(served.address, served.protocol, alone[2])
-            expected = served.remote.hash()
-    finally:
-        go_with_all()
+    with simulated(name, "lockstep", *SCENE) as served:
+        press(served.address, served.protocol, alone[2])
+        expected = served.remote.hash()
     assert expected in alone[1], "a served world runs on until it rests"
 
 

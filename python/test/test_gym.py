@@ -18,6 +18,7 @@ from pyfranka.gym import scripted_policy
 TOP = Path(__file__).resolve().parents[2]
 TASKS = ("Reach", "Push", "PickAndPlace", "HandOver")
 CONTROLS = ("torque", "joint_delta", "cartesian_delta")
+ROBOTS_TAKE_TURNS = True
 RANDOMIZE = {
     "realism": ["real", "recorded"],
     "mass": (0.5, 2.0),
@@ -50,9 +51,14 @@ def play(env, seed):
     return info, rewards
 
 
-@pytest.mark.parametrize("task", TASKS)
 @pytest.mark.parametrize(
-    ("robot", "control"), [*(("panda", control) for control in CONTROLS), ("fr3", "cartesian_delta")]
+    ("task", "robot", "control"),
+    [
+        ("Reach", "panda", "torque"),
+        ("Push", "fr3", "joint_delta"),
+        ("PickAndPlace", "panda", "cartesian_delta"),
+        ("HandOver", "fr3", "cartesian_delta"),
+    ],
 )
 def test_the_checker_of_gymnasium_passes(task, robot, control):
     env = make(task, robot=robot, control=control)
@@ -124,7 +130,7 @@ def test_the_checker_of_stable_baselines3_passes_and_it_learns(learning_python):
 @pytest.mark.parametrize("task", TASKS)
 def test_its_script_solves_a_task(task, name, long_run):
     env = make(task, robot=name)
-    for seed in range(20 if long_run else 2 if task == "HandOver" else 4):
+    for seed in range(20 if long_run else 1 if task == "HandOver" else 2):
         info, rewards = play(env, seed)
         assert info["is_success"], (seed, info)
         assert info["reflexes"] == 0, (seed, info)
@@ -145,7 +151,7 @@ def test_random_actions_never_fail(task, control):
     env = make(task, control=control, max_episode_steps=10**6)
     env.action_space.seed(1)
     env.reset(seed=1)
-    for _ in range(200):
+    for _ in range(100):
         observation, reward, terminated, _, info = env.step(env.action_space.sample())
         assert all(np.isfinite(part).all() for part in observation.values()) and np.isfinite(reward)
         assert not terminated
@@ -380,7 +386,8 @@ def test_a_vector_of_environments_has_pictures():
 
 ASYNCHRONOUS = """
 import gymnasium, numpy, pyfranka.gym
-def vector(mode, **options):
+def vector(mode):
+    options = {"observation": "state+pictures", "size": (32, 24)}
     env = gymnasium.make_vec("pyfranka/Push-v0", num_envs=2, vectorization_mode=mode, **options)
     env.action_space.seed(1)
     return env
@@ -388,44 +395,24 @@ def run(env):
     seen = [env.reset(seed=3)[0]] + [env.step(env.action_space.sample())[0] for _ in range(4)]
     env.close()
     return seen
-"""
-
-
-def after(code):
-    """What a program writes in which Gymnasium's own vector of processes, which are forked, is used."""
-    program = [sys.executable, "-c", ASYNCHRONOUS + code]
-    ran = subprocess.run(program, capture_output=True, text=True, timeout=300)
-    assert ran.returncode == 0, ran.stderr
-    return ran.stdout
-
-
-def test_gymnasiums_vector_of_processes_gives_the_same_numbers():
-    code = """
 one, two = run(vector("async")), run(vector("sync"))
 print(all((a[part] == b[part]).all() for a, b in zip(one, two) for part in a))
-"""
-    assert after(code) == "True\n"
-
-
-def test_gymnasiums_vector_of_processes_draws():
-    code = """
-seen = run(vector("async", observation="state+pictures", size=(32, 24)))
-print(seen[-1]["picture"].shape, seen[-1]["picture"].std() > 5.0)
-"""
-    assert after(code) == "(2, 24, 32, 3) True\n"
-
-
-def test_gymnasiums_vector_of_processes_refuses_pictures_after_an_earlier_one():
-    code = """
-pyfranka.sim.Simulation().render(width=32, height=24)
-env = vector("async", observation="state+pictures", size=(32, 24))
+print(one[-1]["picture"].shape, one[-1]["picture"].std() > 5.0)
+env = vector("async")  # sync has drawn in this process
 try:
     env.reset(seed=3)
 except RuntimeError as error:
     print(error)
 env.close(terminate=True)
 """
-    assert "Pictures were drawn before this process was forked" in after(code)
+
+
+def test_gymnasiums_vector_of_forked_processes_gives_the_same_unless_a_picture_was_drawn_before():
+    ran = subprocess.run([sys.executable, "-c", ASYNCHRONOUS], capture_output=True, text=True, timeout=300)
+    assert ran.returncode == 0, ran.stderr
+    equal, picture, *refusal = ran.stdout.splitlines()
+    assert (equal, picture) == ("True", "(2, 24, 32, 3) True")
+    assert "Pictures were drawn before this process was forked" in refusal[0]
 
 
 def test_only_reset_worlds_are_recreated():

@@ -148,24 +148,6 @@ def test_coriolis_torques_balance_the_change_of_the_mass_matrix(model):
 
 
 @pytest.mark.parametrize(
-    "call, sentence",
-    [
-        (
-            lambda model: model.zero_jacobian(Frame.Flange, Q, EYE, np.eye(3)),
-            "EE_T_K needs 16 numbers, not 9",
-        ),
-        (lambda model: model.body_jacobian(Frame.Flange, Q[:6], EYE, EYE), "q needs 7 numbers, not 6"),
-        (lambda model: model.mass(Q, [0.0] * 3, 0.0, [0.0] * 3), "I_total needs 9 numbers, not 3"),
-        (lambda model: model.coriolis(Q, [0.0], *NO_LOAD), "dq needs 7 numbers, not 1"),
-        (lambda model: model.gravity(Q, 0.0, [0.0] * 2), "F_x_Ctotal needs 3 numbers, not 2"),
-    ],
-)
-def test_wrong_argument_counts_are_reported(offline, call, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        call(offline)
-
-
-@pytest.mark.parametrize(
     "arguments, error",
     [
         (("no urdf", "fr3_link0", "fr3_link8"), ValueError),

@@ -131,15 +131,11 @@ def test_an_abort_is_drawn_with_its_reason_and_its_limit(robots, tmp_path):
     text = drawn(figure, tmp_path)
     assert "15 rad/s² is allowed" in text and "limits of a Panda" in text
     assert "joint_motion_generator_velocity_discontinuity" in text
-
-
-def test_the_names_of_the_lines_are_within_the_picture(robots, tmp_path):
-    error = aborted(robots["panda"], jump_of_velocity)
-    figure = plot.abort_figure(error, robots["panda"].server_version())
     figure.savefig(tmp_path / "abort.png")
-    for axes in figure.axes:
-        for legend in axes.findobj(matplotlib.legend.Legend):
-            assert legend.get_window_extent().x1 <= figure.bbox.x1
+    for legend in figure.findobj(matplotlib.legend.Legend):
+        assert legend.get_window_extent().x1 <= figure.bbox.x1, (
+            "the names of the lines are within the picture"
+        )
 
 
 def swung(kind, version=0):
@@ -207,7 +203,7 @@ def test_the_kind_follows_from_the_name(name, version):
 
 
 def test_errors_are_found_in_a_reason():
-    assert len(ERRORS) == 41 and set(EVIDENCE) <= set(ERRORS)
+    assert set(EVIDENCE) <= set(ERRORS)
     assert Abort.of_text('aborted! ["tau_J_range_violation"]').errors == ("tau_J_range_violation",)
 
 

@@ -200,14 +200,6 @@ def test_the_examples_of_the_documentation_work(project):
     exec(alone, {})
 
 
-def test_the_projects_own_tests_use_the_plugin():
-    """catkin installs no entry points: the project's conftest.py names the module."""
-    conftest = Path(__file__).resolve().parents[2] / "conftest.py"
-    assert re.search(
-        r"^pytest_plugins = .*['\"]pyfranka\.pytest_plugin['\"]", conftest.read_text(), re.MULTILINE
-    )
-
-
 # ---- several sessions, and ends of sessions --------------------------------------------------------------
 
 

@@ -83,17 +83,6 @@ def test_each_line_of_the_program_is_a_method_and_each_method_a_line(server):
     assert names(re.findall(r"^\| `([^`]+)`", table, re.MULTILINE)) == lines
 
 
-def test_methods_are_typed_and_take_a_time_limit():
-    for name, method in inspect.getmembers(Remote, inspect.isfunction):
-        if name.startswith("_") or name == "close":
-            continue
-        parameters = inspect.signature(method).parameters
-        assert "return" in method.__annotations__, name
-        assert set(parameters) - {"self"} == set(method.__annotations__) - {"return"}, name
-        assert parameters["timeout"].default is None, name
-        assert method.__doc__, name
-
-
 def test_the_example_of_the_documentation_works(server, capsys):
     page = (TOP / "docs" / "python.md").read_text().partition("## Control interface")[2]
     example = page.partition("```python\n")[2].partition("```")[0]
@@ -317,9 +306,8 @@ def test_reading_the_scene_delays_no_state(franka_sim):
     assert max(late) < 0.05, "The host makes up for delays of up to 50 ms."
 
 
-@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
-def test_the_hand_works_for_the_operator(franka_sim, pace):
-    remote = franka_sim("panda", pace=pace, realism="ideal").robot.remote
+def test_the_hand_works_for_the_operator(franka_sim):
+    remote = franka_sim("panda", pace="lockstep", realism="ideal").robot.remote
 
     def width():
         return numpy.linalg.norm(remote.where("panda_leftfinger") - remote.where("panda_rightfinger"))
@@ -468,73 +456,7 @@ def test_the_hash_waits_until_the_world_is_at_rest_and_repeats(server):
     assert isinstance(hashes[0], int)
 
 
-# ---- bad input -------------------------------------------------------------------------------------------
-
-
-@pytest.mark.parametrize(
-    "call, error, sentence",
-    [
-        (lambda r: r.user_stop("off"), TypeError, "Give True or False, not 'off'"),
-        (lambda r: r.guiding(1), TypeError, "Give True or False"),
-        (lambda r: r.delay(1.5), TypeError, "A delay is a whole number, not 1.5"),
-        (lambda r: r.lose("x"), TypeError, "whole number"),
-        (lambda r: r.push("a b", (0, 0, 1), 1), ValueError, "one word, not 'a b'"),
-        (lambda r: r.push("", (0, 0, 1), 1), ValueError, "one word"),
-        (lambda r: r.where("stone\nquit"), ValueError, "one word"),
-        (lambda r: r.send("state\nquit"), ValueError, "one line at a time"),
-        (lambda r: r.push("stone", (0, 1), 1), ValueError, "The force has 3 numbers, not 2"),
-        (lambda r: r.place("stone", "high"), ValueError, "The position has 3 numbers"),
-        (lambda r: r.place("stone", (0, 0, 1), (1, 0, 0)), ValueError, "The orientation has 4 numbers"),
-        (lambda r: r.push("stone", (0, float("nan"), 1), 1), LineRefused, "'nan' is not a finite number"),
-        (lambda r: r.push("nobody", (0, 0, 1), 1), LineRefused, "nobody"),
-        (lambda r: r.place("stone", (0, 0, 1e11)), LineRefused, " m"),
-        (lambda r: r.place("stone", (0, 0, 1), (0, 0, 0, 0)), LineRefused, "not a unit quaternion"),
-        (lambda r: r.load(-1), LineRefused, "The load was refused"),
-        (lambda r: r.loss(2), LineRefused, "from 0 to 1"),
-        (lambda r: r.send("dance"), LineRefused, "There is no command 'dance'"),
-        (lambda r: r.state(timeout=0), ValueError, "positive number of seconds, not 0"),
-        (lambda r: r.state(timeout=float("nan")), ValueError, "positive number"),
-    ],
-)
-def test_bad_input_raises_a_sentence_and_changes_nothing(server, call, error, sentence):
-    remote = server["panda"].remote
-    remote.reset()
-    before = remote.wait().q, remote.where("stone"), remote.time()
-    with pytest.raises(error, match=sentence):
-        call(remote)
-    after = remote.state().q, remote.where("stone"), remote.time()
-    assert all(numpy.array_equal(a, b) for a, b in zip(before, after))
-
-
-def test_an_address_is_needed():
-    with pytest.raises(ValueError, match="Give the address"):
-        Remote("")
-    with pytest.raises(TypeError, match="The port is a whole number"):
-        Remote("127.0.0.1", "1340")
-
-
 # ---- connections -----------------------------------------------------------------------------------------
-
-
-def test_a_long_line_of_one_client_does_not_delay_the_others(franka_sim):
-    address = franka_sim("panda", pace="realtime").robot.address
-    with Remote(address) as first, Remote(address) as second:
-
-        def step():
-            with suppress(ConnectionError):
-                first.step(1000000)  # 1000 s
-
-        begin = second.time()
-        thread = threading.Thread(target=step)
-        thread.start()
-        while second.time() < begin + 1.0:
-            assert second.state().mode == "Idle"
-        second.user_stop(True)
-        assert second.state().mode == "User stopped"
-        assert thread.is_alive(), "The first client still waits for its line."
-        second.quit()
-        thread.join(60)
-        assert not thread.is_alive()
 
 
 def test_steps_of_two_clients_follow_each_other_in_lock_step(server):

@@ -17,6 +17,7 @@ from pyfranka.sim import FR3, KINDS, Panda, RequestRefused, Simulation, Simulati
 from waiting import wait_for
 
 ADDRESSES = {"panda": "127.0.33.11", "fr3": "127.0.33.12"}
+ROBOTS_TAKE_TURNS = True
 TORQUES = np.array([0.5, -1.0, 0.3, 0.8, 0.1, -0.2, 0.05])  # [Nm]
 
 
@@ -253,16 +254,9 @@ def test_ticks_follow_the_clock_if_requested():
         assert 0.45 < time.monotonic() - begin
 
 
-def test_bad_input_is_refused_and_an_end_frees_the_address(sim, name):
-    for sentence, call in {
-        "no robot 'ur5'": lambda: sim.serve("127.0.33.19", robot="ur5"),
-        "served at": lambda: sim.serve("127.0.33.19"),
-        "'lockstep' or 'realtime'": lambda: sim.serve("127.0.33.19", pace="fast"),
-        "patience must be": lambda: sim.serve("127.0.33.19", patience=0),
-        "or 'forever', not 'for ever'": lambda: sim.serve("127.0.33.19", patience="for ever"),
-    }.items():
-        with pytest.raises((ValueError, KeyError, RuntimeError), match=sentence):
-            call()
+def test_an_address_in_use_is_refused_and_an_end_frees_it(sim, name):
+    with pytest.raises(RuntimeError, match="served at"):
+        sim.serve("127.0.33.19")
     with Simulation() as other:
         for address in (ADDRESSES[name], "300.1.1.1", ""):
             with pytest.raises(RuntimeError):

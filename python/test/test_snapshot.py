@@ -8,6 +8,7 @@ import pytest
 from pyfranka.sim import FR3, KINDS, GripperOutcome, Panda, Simulation
 
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
+ROBOTS_TAKE_TURNS = True
 
 
 @pytest.fixture

@@ -64,6 +64,21 @@ def test_the_line_end_effector(robot, served, name):
     served[name].remote.send("end_effector " + " ".join(repr(float(word)) for word in words))
 
 
+def test_a_matrix_and_its_columns_set_the_same_end_effector(robot, served, name):
+    before = robot.read_once()
+    turned = np.array(
+        [[0.0, -1.0, 0.0, 0.01], [1.0, 0.0, 0.0, 0.02], [0.0, 0.0, 1.0, 0.1], [0.0, 0.0, 0.0, 1.0]]
+    )
+    body = (0.5, [0.0, 0.0, 0.03], 1e-3 * np.eye(3))
+    for given in (turned, turned.tolist(), turned.T.ravel()):
+        served[name].remote.end_effector(*body, np.eye(4))
+        served[name].remote.end_effector(*body, given)
+        np.testing.assert_allclose(robot.read_once().F_T_NE, turned, atol=1e-12)
+    with pytest.raises(ValueError, match="4x4"):
+        served[name].remote.end_effector(*body, np.ones((2, 8)))
+    served[name].remote.end_effector(before.m_ee, before.F_x_Cee, before.I_ee, before.F_T_NE)
+
+
 @pytest.fixture(scope="module", params=[pyfranka.sim.Panda, pyfranka.sim.FR3])
 def simulation(request):
     return pyfranka.sim.Simulation(robots=[request.param()])

@@ -17,7 +17,7 @@ from ros_nodes import CONTROL_CONFIG
 from std_msgs.msg import Bool, String
 from waiting import wait_for
 
-OK, ERROR = 0, 2  # levels of diagnostics
+OK, WARN, ERROR = 0, 1, 2  # levels of diagnostics
 ONE, COMBINED = "/franka_control", "/combined_panda"
 PUSH = (0, 0, -220), 60  # far beyond the thresholds [N, ms]
 SUCCEEDED = (GoalStatus.SUCCEEDED, "")

@@ -1,14 +1,19 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Genuine clients of Desk, from PyPI, beside a robot with its Desk, and how each of them begins."""
+"""Genuine clients of Desk, from PyPI, a robot with its Desk for them, and how each of them begins."""
 
-from contextlib import contextmanager
+import json
+import ssl
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import pytest
 from client_session import ClientError, client_session
-from desk_session import PASSWORD, USER, robot_with_desk
+from desk_server import PASSWORD, USER, DeskServer
+from fci_session import simulated
 from genuine_clients import client_python
+from pyfranka.desk.robot import PORT
+from waiting import wait_for
 
 LOGIN = f"{USER!r}, {PASSWORD!r}"
 PANDA = f"""
@@ -53,15 +58,78 @@ AIOFRANKA = f"""
 """
 
 
+class RobotWithDesk:
+    """`host` is the name that clients use, `robot` the ServedRobot."""
+
+    def __init__(self, robot, server: DeskServer, folder: Path):
+        self.robot, self._server = robot, server
+        self.host = robot.address if server.site.port == 443 else f"{robot.address}:{server.site.port}"
+        self.certificate = folder / "desk.pem"
+        self.certificate.write_text(ssl.get_server_certificate((robot.address, server.site.port)))
+
+    def report(self) -> dict:
+        """Of the robot."""
+        return json.loads(self.robot.remote.send("report"))
+
+    def wait(self, condition) -> None:
+        """Waits for a report that fulfils the condition, and until Desk has seen it too."""
+        wait_for(lambda: condition(self.report()), lambda: f"The state after {self.report()}")
+        self._server.refresh()
+
+    @contextmanager
+    def held(self, name: str):
+        """An input or a button of the Pilot that is pressed until the end of the block."""
+        self.robot.remote.send(f"{name} on")
+        try:
+            yield
+        finally:
+            self.robot.remote.send(f"{name} off")
+
+
+def is_ready(report: dict) -> bool:
+    return report["fci"] and not any(report["brakes"])
+
+
+def is_locked(report: dict) -> bool:
+    return not report["fci"] and all(report["brakes"])
+
+
 @contextmanager
-def desk_and_client(folder: Path, name: str, profile: str, **settings):
-    """A robot with its Desk, and one genuine client that knows `HOST` and trusts the certificate of Desk.
-    settings: of robot_with_desk."""
+def desk_and_client(folder: Path, name: str, profile: str, port: int = 443):
+    """A locked robot of the profile's type with its Desk, and one genuine client that knows `HOST` and trusts
+    the certificate of Desk."""
     python = client_python(name)  # before the robot
-    with robot_with_desk(folder, profile, **settings) as desk:
-        with client_session(python, folder / "client", SSL_CERT_FILE=str(desk.certificate)) as client:
-            client.run(f"HOST = {desk.host!r}")
-            yield desk, client
+    kind = "fr3" if profile.startswith("fr3") else "panda"
+    with simulated(kind, "patient", "--start", "locked") as robot:
+        robot.remote.send("timing brakes 0.4")
+        with DeskServer(robot.address, PORT, folder, profile, address=robot.address, port=port) as server:
+            desk = RobotWithDesk(robot, server, folder)
+            with client_session(python, folder / "client", SSL_CERT_FILE=str(desk.certificate)) as client:
+                client.run(f"HOST = {desk.host!r}")
+                yield desk, client
+
+
+def move(robot, seconds: float = 0.3, amplitude: float = 0.01) -> None:
+    """A motion of this project's own client there and back. Raises pyfranka's exceptions."""
+    import pyfranka
+
+    connection = robot.connect()
+    with suppress(pyfranka.CommandException):  # nothing to recover from
+        connection.automatic_error_recovery()
+    passed, first = 0.0, None
+
+    def callback(state, period):
+        nonlocal passed, first
+        passed += period
+        first = first or list(state.q_d)
+        x = min(passed / seconds, 1.0)
+        q = list(first)
+        q[3] += amplitude * (16.0 * x * x * (1.0 - x) * (1.0 - x)) ** 2
+        command = pyfranka.JointPositions(q)
+        command.motion_finished = passed >= seconds
+        return command
+
+    connection.control_joint_positions(callback)
 
 
 def fails(client, statement: str, kind: str) -> str:

@@ -81,6 +81,8 @@ class DeskServer:
     profile: str = ""
     options: Options = field(default_factory=Options)
     limits: Limits = LIMITS
+    address: str = "127.0.0.1"  # where it listens
+    port: int = 0
 
     def __enter__(self) -> DeskServer:
         self.loop = SteppedLoop()
@@ -109,7 +111,8 @@ class DeskServer:
         settings = Settings(PASSWORD, USER, self.profile, self.options, self.limits)
         desks = make_desks([robot], settings)
         self.desk = desks[0]
-        self.site = Site(app_of(desks, 0), "127.0.0.1", 0, tls_context("127.0.0.1", self.folder))
+        context = tls_context(self.address, self.folder)
+        self.site = Site(app_of(desks, 0), self.address, self.port, context)
         self.desk.power.site = self.site
         await self.site.open()
         self.port = self.site.port
@@ -175,7 +178,8 @@ class DeskServer:
 
     def connection(self) -> http.client.HTTPSConnection:
         """A new one."""
-        return http.client.HTTPSConnection("127.0.0.1", self.port, timeout=START_LIMIT, context=unverified())
+        options = {"timeout": START_LIMIT, "context": unverified()}
+        return http.client.HTTPSConnection(self.address, self.port, **options)
 
     def close_connection(self) -> None:
         if self._connection is not None:

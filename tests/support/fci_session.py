@@ -42,12 +42,6 @@ def go_first(pid: int = 0) -> None:
         os.sched_setscheduler(pid, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, os.sched_param(50))
 
 
-def go_with_all(pid: int = 0) -> None:
-    """Restores the priority before `go_first`."""
-    with suppress(PermissionError, ProcessLookupError):
-        os.sched_setscheduler(pid, os.SCHED_OTHER, os.sched_param(0))
-
-
 class ClientProcess:
     """A genuine or own client in its own process; `run_task` sends it one task and returns the result."""
 

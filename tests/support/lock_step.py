@@ -26,12 +26,14 @@ def begin_motion(client, **task):
     assert begun == "moving", begun
 
 
-def moved(sim, client, torque=False, process=None, seconds=0.0, pause=0.0):
-    """One motion from a reset world. `process` is stopped for so many seconds in its middle; or the callback
-    sleeps once for `pause`. @returns the robot's hash."""
+def moved(sim, client, torque=False, process=None, seconds=0.0, pause=0.0, motion=8.0):
+    """One motion of `motion` seconds from a reset world. `process` is stopped for `seconds` in its middle; or
+    the callback sleeps once for `pause`. @returns the robot's hash."""
     sim.remote.reset()
     held = process is not None
-    begin_motion(client, seconds=8.0, amplitude=0.0 if torque else 0.1, torque=torque, pause=pause, held=held)
+    begin_motion(
+        client, seconds=motion, amplitude=0.0 if torque else 0.1, torque=torque, pause=pause, held=held
+    )
     if held:
         with stopped(process):
             client.go_on()

@@ -2,11 +2,21 @@
 # SPDX-License-Identifier: Apache-2.0
 """A package outside this repository, built and run on top of it with a clean environment."""
 
-import os
+import shutil
 import subprocess
 from pathlib import Path
 
 from franka_sim_mujoco.session import free_port
+
+
+def compiler_cache(folder: Path) -> dict[str, str]:
+    """Variables with which a build in a temporary folder uses the compiler's cache, where there is one."""
+    if not shutil.which("ccache"):
+        return {}
+    ask = ["ccache", "--get-config", "cache_dir"]
+    place = subprocess.run(ask, text=True, capture_output=True, check=True).stdout.strip()
+    names = {"CCACHE_DIR": place, "CCACHE_BASEDIR": str(folder), "CCACHE_NOHASHDIR": "1"}
+    return {**names, "CMAKE_CXX_COMPILER_LAUNCHER": "ccache"}
 
 
 class Overlay:
@@ -23,9 +33,8 @@ class Overlay:
             "ROS_HOSTNAME": "localhost",
             "ROS_MASTER_URI": f"http://localhost:{free_port()}",
             "ROS_HOME": str(folder),
+            **compiler_cache(folder),
         }
-        if "CCACHE_DIR" in os.environ:
-            self.environment["CCACHE_DIR"] = os.environ["CCACHE_DIR"]
 
     def shell(self, command: str, setup: Path, timeout: float) -> subprocess.CompletedProcess:
         return subprocess.run(

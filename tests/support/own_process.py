@@ -87,6 +87,8 @@ class Group:
                 config=item.config, data=json.loads(line)
             )
             if report.nodeid == item.nodeid:
+                if report.skipped and isinstance(report.longrepr, list):  # a tuple before it was JSON
+                    report.longrepr = tuple(report.longrepr)
                 yield report
                 if report.when == "teardown":
                     return

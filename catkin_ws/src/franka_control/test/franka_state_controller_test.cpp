@@ -4,7 +4,6 @@
 #include <franka_control/state_conversions.h>
 #include <gtest/gtest.h>
 #include <hardware_interface/robot_hw.h>
-#include <pluginlib/class_loader.h>
 #include <ros/ros.h>
 #include <ros_test/arm_controller_test.h>
 #include <ros_test/eventually.h>
@@ -281,12 +280,6 @@ TEST_F(FrankaStateControllerTest, RefusesMissingAndWrongParameters) {
   hardware_interface::RobotHW no_franka;
   FrankaStateController controller;
   EXPECT_FALSE(initialise(controller, no_franka));
-}
-
-TEST_F(FrankaStateControllerTest, IsFoundAsAPlugin) {
-  pluginlib::ClassLoader<controller_interface::ControllerBase> loader(
-      "controller_interface", "controller_interface::ControllerBase");
-  EXPECT_NE(nullptr, loader.createUniqueInstance("franka_control/FrankaStateController"));
 }
 
 }  // namespace

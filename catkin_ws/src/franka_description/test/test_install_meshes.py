@@ -3,7 +3,6 @@
 """Files that install_meshes installs from small wheels made here."""
 
 import hashlib
-import re
 import shutil
 import sys
 import zipfile
@@ -59,7 +58,7 @@ def quick_conversion(dae, folder):
     (folder / "index.yaml").write_text(f"# {dae.name}\n")
 
 
-def test_all_files_are_installed_at_their_paths(place, monkeypatch, capsys):
+def test_all_files_are_installed_at_their_paths(place, monkeypatch):
     assert place.run(monkeypatch=monkeypatch) == 0
     links = [f"link{i}" for i in range(8)]
     visual = [f"visual/{kind}{n}.dae" for kind in ("", "fr3/") for n in [*links, "hand", "finger"]]
@@ -71,7 +70,6 @@ def test_all_files_are_installed_at_their_paths(place, monkeypatch, capsys):
     assert index["mujoco/visual"] == index["mujoco/visual/fr3"] == index["visual"]
     assert index["collision"] == sorted([*links, "hand"])
     assert set(index["sources"]) == {"example-robot-data==4.4.0", "franky-sim==1.0.4"}
-    assert re.search(r"done in \d+\.\d s", capsys.readouterr().out)
 
 
 def test_xacro_uses_the_installed_meshes(place, monkeypatch):
@@ -114,11 +112,10 @@ def test_a_missing_file_is_restored(place, monkeypatch):
     assert place.files() == before
 
 
-@pytest.mark.parametrize("required, status", [([], 0), (["--required"], 1)])
-def test_missing_wheels_leave_simple_shapes(place, monkeypatch, capsys, required, status):
+def test_missing_wheels_leave_simple_shapes(place, monkeypatch, capsys):
     shutil.rmtree(place.wheels)
     place.wheels.mkdir()
-    assert place.run(*required, monkeypatch=monkeypatch) == status
+    assert place.run(monkeypatch=monkeypatch) == 0
     printed = capsys.readouterr().err
     assert "example_robot_data-4.4.0-1-py3-none-any.whl (Panda meshes) is not in" in printed
     assert "simple shapes" in printed
@@ -206,13 +203,3 @@ def test_unwritable_folder_is_reported(place, tmp_path, monkeypatch):
     monkeypatch.setattr(sys, "argv", ["install_meshes", f"--meshes={tmp_path / 'file' / 'm'}"])
     with pytest.raises(SystemExit, match="cannot write to"):
         place.script.main()
-
-
-def test_committed_checksums():
-    """Checksums of the real wheels, not of those made here."""
-    assert {s.wheel: s.sha256 for s in description_install.load().SOURCES} == {
-        "example_robot_data-4.4.0-1-py3-none-any.whl": "b170191e76f7a13139eb12a873a157b5"
-        "a00df45a49c66d7f2b8f95e07437e64e",
-        "franky_sim-1.0.4-py3-none-any.whl": "5e54f3b69be883e0fa1cf17c42c84e61"
-        "631cc2f5d70505ed8542749b2f107707",
-    }

@@ -2,120 +2,42 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Uses the library with a real connection to a fake gripper whose answers the test sets.
-#include <arpa/inet.h>
+#include <fake_gripper.h>
 #include <franka_gripper/franka_gripper.h>
 #include <gtest/gtest.h>
-#include <netinet/in.h>
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <array>
-#include <atomic>
-#include <cstdint>
 #include <cstring>
-#include <thread>
+#include <memory>
 #include <vector>
 
 namespace {
 
-/// Answers every request with `status`; sends a state every few milliseconds.
-class FakeHand {
+using franka_test::FakeGripper;
+
+/// A hand of version 3 that shows a width of 4 of 8 cm.
+class FakeHand : public FakeGripper {
  public:
-  FakeHand() {
-    listener_ = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof(address);
-    bind(listener_, reinterpret_cast<sockaddr*>(&address), size);
-    listen(listener_, 1);
-    getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size);
-    port_ = ntohs(address.sin_port);
-    datagrams_ = socket(AF_INET, SOCK_DGRAM, 0);
-    thread_ = std::thread([this] { run(); });
-  }
-  ~FakeHand() {
-    ended_ = true;
-    thread_.join();
-    close(listener_);
-    close(datagrams_);
+  FakeHand() : FakeGripper(3) {
+    franka_core::fci::gripper::State state;
+    state.width = 0.04;
+    state.max_width = 0.08;
+    franka_core::fci::gripper::StateBuffer buffer;
+    franka_core::fci::gripper::encodeState(state, buffer);
+    show({buffer.begin(), buffer.end()});
   }
 
-  std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
-
-  std::atomic<std::uint16_t> status{0};  ///< 0 success, 1 refused, 2 unsuccessful
-  std::vector<std::uint8_t> last;        ///< the request answered last
-
- private:
-  void run() {
-    int client = -1;
-    sockaddr_in to{};
-    while (!ended_) {
-      pollfd waiting{client < 0 ? listener_ : client, POLLIN, 0};
-      if (poll(&waiting, 1, 5) == 1) {
-        if (client < 0) {
-          client = accept(listener_, nullptr, nullptr);
-        } else if (!answer(client, to)) {
-          break;
-        }
-      }
-      sendState(to);
+  /// Expects that the last request has this command and these numbers.
+  void expectLast(int command, const std::vector<double>& numbers) {
+    const Bytes last = requests().back();
+    EXPECT_EQ(command, last[0]);
+    for (std::size_t i = 0; i < numbers.size(); i++) {
+      double value;
+      std::memcpy(&value, &last.at(10 + 8 * i), 8);
+      EXPECT_EQ(numbers[i], value) << i;
     }
-    close(client);
   }
-
-  bool answer(int client, sockaddr_in& to) {
-    std::array<std::uint8_t, 64> request{};
-    const ssize_t size = recv(client, request.data(), request.size(), 0);
-    if (size < 10) {
-      return false;
-    }
-    const bool connects = request[0] == 0;
-    std::vector<std::uint8_t> reply(request.begin(), request.begin() + 14);
-    const std::uint16_t answer = connects ? 0 : status.load();
-    const std::uint32_t length = connects ? 14 : 12;
-    std::memcpy(&reply[6], &length, 4);
-    std::memcpy(&reply[10], &answer, 2);
-    if (connects) {
-      std::memcpy(&reply[12], &request[10], 2);  // the requested version
-      to.sin_family = AF_INET;
-      to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-      std::uint16_t port;
-      std::memcpy(&port, &request[12], 2);
-      to.sin_port = htons(port);
-    } else {
-      last.assign(request.begin(), request.begin() + size);
-    }
-    send(client, reply.data(), length, MSG_NOSIGNAL);
-    return true;
-  }
-
-  void sendState(const sockaddr_in& to) const {
-    if (to.sin_port == 0) {
-      return;
-    }
-    std::array<std::uint8_t, 23> state{};
-    const double width = 0.04;
-    const double max_width = 0.08;
-    std::memcpy(&state[4], &width, 8);
-    std::memcpy(&state[12], &max_width, 8);
-    sendto(datagrams_, state.data(), state.size(), 0, reinterpret_cast<const sockaddr*>(&to),
-           sizeof(to));
-  }
-
-  int listener_{-1};
-  int datagrams_{-1};
-  std::uint16_t port_{0};
-  std::atomic<bool> ended_{false};
-  std::thread thread_;
 };
-
-double number(const std::vector<std::uint8_t>& request, std::size_t index) {
-  double value;
-  std::memcpy(&value, &request.at(10 + 8 * index), 8);
-  return value;
-}
 
 TEST(GripperLibrary, ReadsTheState) {
   FakeHand hand;
@@ -133,9 +55,7 @@ TEST(GripperLibrary, ExecutesGoals) {
   move->width = 0.03;
   move->speed = 0.1;
   EXPECT_TRUE(franka_gripper::move(gripper, move));
-  EXPECT_EQ(3, hand.last[0]);
-  EXPECT_EQ(0.03, number(hand.last, 0));
-  EXPECT_EQ(0.1, number(hand.last, 1));
+  hand.expectLast(3, {0.03, 0.1});
 
   auto grasp = boost::make_shared<franka_gripper::GraspGoal>();
   grasp->width = 0.02;
@@ -144,26 +64,22 @@ TEST(GripperLibrary, ExecutesGoals) {
   grasp->speed = 0.05;
   grasp->force = 30.0;
   EXPECT_TRUE(franka_gripper::grasp(gripper, grasp));
-  EXPECT_EQ(2, hand.last[0]);
-  const std::array<double, 5> expected{{0.02, 0.001, 0.002, 0.05, 30.0}};
-  for (std::size_t i = 0; i < expected.size(); i++) {
-    EXPECT_EQ(expected[i], number(hand.last, i));
-  }
+  hand.expectLast(2, {0.02, 0.001, 0.002, 0.05, 30.0});
 
   EXPECT_TRUE(franka_gripper::homing(gripper, boost::make_shared<franka_gripper::HomingGoal>()));
-  EXPECT_EQ(1, hand.last[0]);
+  hand.expectLast(1, {});
   EXPECT_TRUE(franka_gripper::stop(gripper, boost::make_shared<franka_gripper::StopGoal>()));
-  EXPECT_EQ(4, hand.last[0]);
+  hand.expectLast(4, {});
 }
 
 TEST(GripperLibrary, DistinguishesFailureAndRefusal) {
   FakeHand hand;
   const franka::Gripper gripper(hand.address());
-  hand.status = 2;
-  EXPECT_FALSE(franka_gripper::move(gripper, boost::make_shared<franka_gripper::MoveGoal>()));
-  hand.status = 1;
-  EXPECT_THROW(franka_gripper::move(gripper, boost::make_shared<franka_gripper::MoveGoal>()),
-               franka::CommandException);
+  const auto goal = boost::make_shared<franka_gripper::MoveGoal>();
+  hand.answer = FakeHand::Status::kUnsuccessful;
+  EXPECT_FALSE(franka_gripper::move(gripper, goal));
+  hand.answer = FakeHand::Status::kFail;
+  EXPECT_THROW(franka_gripper::move(gripper, goal), franka::CommandException);
 }
 
 TEST(GripperLibrary, ReportsWhetherTheStateCanBeRead) {

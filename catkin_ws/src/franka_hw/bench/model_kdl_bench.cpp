@@ -35,7 +35,7 @@ constexpr std::array<double, 16> kF_T_EE{
     {0.7071, -0.7071, 0, 0, 0.7071, 0.7071, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1}};
 
 std::string urdfText() {
-  std::ifstream file(std::string(FRANKA_HW_TEST_DATA) + "/panda.urdf");
+  std::ifstream file(std::string(FRANKA_HW_TEST_DATA) + "/panda_hand.urdf");
   std::stringstream text;
   text << file.rdbuf();
   return text.str();

@@ -4,7 +4,6 @@
 catkin_add_gtest(franka_hw_test
   test/arm_connection_test.cpp
   test/arm_state_test.cpp
-  test/control_mode_test.cpp
   test/handles_test.cpp
   test/main.cpp
   test/model_base_test.cpp
@@ -16,14 +15,14 @@ catkin_add_gtest(franka_hw_test
 )
 target_compile_options(franka_hw_test PRIVATE -Wall -Wextra)
 target_compile_definitions(franka_hw_test PRIVATE
-  FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
+  FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test/data")
 target_link_libraries(franka_hw_test franka_hw)
 
 # A separate executable, because the guard against allocations replaces malloc.
 catkin_add_gtest(model_kdl_test test/model_kdl_test.cpp)
 target_compile_options(model_kdl_test PRIVATE -Wall -Wextra)
 target_compile_definitions(model_kdl_test PRIVATE
-  FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
+  FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test/data")
 target_include_directories(model_kdl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
 target_link_libraries(model_kdl_test franka_hw Franka::Core ${CMAKE_DL_LIBS})
 
@@ -46,7 +45,7 @@ add_rostest_gtest(franka_hw_robot_test test/franka_hw_robot.test
 # Unoptimised, because compilation takes most of the time of these tests.
 target_compile_options(franka_hw_robot_test PRIVATE -Wall -Wextra -O0)
 target_compile_definitions(franka_hw_robot_test PRIVATE
-  FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/data")
+  FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test/data")
 target_include_directories(franka_hw_robot_test PRIVATE
   ${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
 target_include_directories(franka_hw_robot_test SYSTEM PRIVATE ${controller_manager_INCLUDE_DIRS})

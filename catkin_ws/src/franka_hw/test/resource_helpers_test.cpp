@@ -218,25 +218,5 @@ TEST(ClaimRules, JudgeTheOwnArmOnly) {
                 "another arm is claimed in part");
 }
 
-TEST(GetControlMode, AcceptsExactlyNineModes) {
-  // Every combination of the five kinds of command, as bits.
-  int modes = 0;
-  for (unsigned bits = 0; bits < 32; ++bits) {
-    ResourceClaims claims;
-    claims.joint_torque_claims = (bits & 1U) != 0 ? 7 : 0;
-    claims.joint_position_claims = (bits & 2U) != 0 ? 7 : 0;
-    claims.joint_velocity_claims = (bits & 4U) != 0 ? 7 : 0;
-    claims.cartesian_velocity_claims = (bits & 8U) != 0 ? 1 : 0;
-    claims.cartesian_pose_claims = (bits & 16U) != 0 ? 1 : 0;
-    const int generators = __builtin_popcount(bits >> 1U);
-    ArmClaimedMap arms{{"panda", claims}};
-    const ControlMode mode = getControlMode("panda", arms);
-    EXPECT_EQ(generators > 1 ? ControlMode::None : static_cast<ControlMode>(bits), mode) << bits;
-    modes += mode == ControlMode::None ? 0 : 1;
-    EXPECT_EQ(ControlMode::None, getControlMode("fr3", arms));
-  }
-  EXPECT_EQ(9, modes);
-}
-
 }  // namespace
 }  // namespace franka_hw

@@ -22,7 +22,7 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
 /// replaced.
 urdf::Model describe(const std::string& robot, const std::string& arm_id,
                      const std::string& from = "@", const std::string& to = "") {
-  std::ifstream file(FRANKA_HW_TEST_DATA "/" + robot + ".urdf");
+  std::ifstream file(FRANKA_HW_TEST_DATA "/" + robot + "_hand.urdf");
   std::stringstream text;
   text << file.rdbuf();
   std::string urdf = text.str();

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -49,16 +48,6 @@ Recorder recordOf(const Request& request) {
   Recorder recorder;
   configure(recorder, request);
   return recorder;
-}
-
-TEST(Setters, AreSevenServicesOfDifferentNames) {
-  std::set<std::string> names;
-  forEachSetter([&](auto setter) { names.insert(setter.name); });
-  EXPECT_EQ(
-      (std::set<std::string>{"set_EE_frame", "set_K_frame", "set_cartesian_impedance",
-                             "set_force_torque_collision_behavior", "set_full_collision_behavior",
-                             "set_joint_impedance", "set_load"}),
-      names);
 }
 
 TEST(Setters, CallTheSetterOfTheirName) {

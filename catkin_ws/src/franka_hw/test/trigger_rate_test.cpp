@@ -3,6 +3,7 @@
 #include <franka_hw/trigger_rate.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
@@ -21,15 +22,10 @@ int firesInOneSecond(TriggerRate& trigger, int first_millisecond) {
 }
 
 TEST(TriggerRate, DeliversTheRequestedRate) {
-  for (double rate : {1.0, 30.0, 250.0, 300.0, 999.0, 1000.0}) {
+  for (double rate : {1.0, 30.0, 250.0, 300.0, 999.0, 1000.0, 1e6}) {
     TriggerRate trigger(rate, ros::Time(0.5));
-    EXPECT_EQ(static_cast<int>(rate), firesInOneSecond(trigger, 500)) << rate;
+    EXPECT_EQ(std::min(rate, 1000.0), firesInOneSecond(trigger, 500)) << rate;
   }
-}
-
-TEST(TriggerRate, FiresWithEveryCallAtHigherRates) {
-  TriggerRate trigger(1e6, ros::Time(0.5));
-  EXPECT_EQ(1000, firesInOneSecond(trigger, 500));
 }
 
 TEST(TriggerRate, DoesNotCatchUpAfterAPause) {

@@ -48,13 +48,12 @@ sim_test(robot_unit_test
     test/robot/error_flags_test.cpp
     test/robot/external_wrench_test.cpp
     test/robot/finger_motion_test.cpp
-    test/robot/motion_supervisor_test.cpp
+    test/robot/link_accelerometers_test.cpp
     test/robot/operator_motion_test.cpp
     test/robot/pending_answers_test.cpp
     test/robot/rest_sequence_test.cpp
     test/robot/safety_controller_test.cpp
     test/robot/self_collision_test.cpp
-    test/robot/state_estimator_test.cpp
     test/robot/torque_command_test.cpp
     test/robot/transform_entrances_test.cpp
     test/robot/unit_limits_test.cpp
@@ -67,7 +66,6 @@ sim_test(robot_motion_test
   SOURCES
     test/robot/motion/async_joint_generator_test.cpp
     test/robot/motion/brake_trajectory_test.cpp
-    test/robot/motion/cartesian_limits_test.cpp
     test/robot/motion/elbow_test.cpp
     test/robot/motion/inverse_kinematics_test.cpp
     test/robot/motion/joint_limits_test.cpp

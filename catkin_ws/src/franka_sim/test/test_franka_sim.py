@@ -5,7 +5,7 @@
 import socket
 import struct
 import subprocess
-from contextlib import ExitStack, contextmanager
+from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
@@ -46,25 +46,6 @@ def served(*robots, pace="realtime", world="", arguments=()):
 def simulated(address, *arguments, kind="panda", **options):
     """The same for one robot with these words of the command line."""
     return served(SimRobot(kind, address=address), arguments=arguments, **options)
-
-
-def test_help_names_every_option():
-    result = run("--help")
-    assert result.returncode == 0
-    for option in (
-        "--robot",
-        "--ip",
-        "--protocol",
-        "--pace",
-        "--world",
-        "--hand",
-        "--linger",
-        "--patience",
-        "--wait",
-        "--viewer",
-        "--control-port",
-    ):
-        assert option in result.stdout
 
 
 @pytest.mark.parametrize(
@@ -136,39 +117,6 @@ def test_impossible_configurations_are_reported(arguments, sentence, monkeypatch
     assert sentence in result.stderr
 
 
-def test_two_robots_need_two_addresses():
-    with simulated("127.0.22.1"):
-        result = run("--ip", "127.0.22.1")
-        assert result.returncode == 1
-        assert "Another simulated robot runs there" in result.stderr
-        with simulated("127.0.22.2", kind="fr3") as (send, _):
-            assert send("state").startswith("ok Idle")
-
-
-def joints(send):
-    return [float(word) for word in send("state").split(", q ")[1].split()]
-
-
-@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
-def test_switches_of_the_robot(pace):
-    with simulated("127.0.22.3", "--pace", pace) as (send, _):
-        status, joints = send("state").split(", q ")
-        assert status == "ok Idle, client of protocol 0, errors none"
-        ready = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
-        assert [float(word) for word in joints.split()] == pytest.approx(ready, abs=2e-4)
-        assert send("user_stop on") == "ok"
-        assert send("state").startswith("ok User stopped")
-        assert send("user_stop off") == "ok"
-        assert send("state").startswith("ok Idle")
-        assert send("guiding on") == "ok"
-        assert send("state").startswith("ok Guiding")
-        assert send("guiding off") == "ok"
-        assert send("brakes close") == "ok"
-        assert send("state").startswith("ok Other")
-        assert send("brakes open") == "ok"
-        assert send("state").startswith("ok Idle")
-
-
 def test_invalid_control_commands_are_reported():
     with simulated("127.0.22.4") as (send, _):
         assert send("dance").startswith("error: There is no command 'dance'")
@@ -187,10 +135,9 @@ def test_invalid_control_commands_are_reported():
         assert send("load 0.5 0 0 0.1") == "ok"
 
 
-@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
-def test_robots_of_one_world_have_their_own_addresses_and_names(pace):
+def test_robots_of_one_world_have_their_own_addresses_and_names():
     turned = SimRobot("panda", base=(0.5, 1, 0, 1.5708))
-    with served("panda", turned, SimRobot("fr3", base=(0, -1, 0)), pace=pace) as (send, server):
+    with served("panda", turned, SimRobot("fr3", base=(0, -1, 0)), pace="lockstep") as (send, server):
         heads = {}
         for name in ("panda", "panda_2", "fr3"):
             heads[name] = [float(word) for word in send(f"where {name}_link0").split()[1:]]
@@ -218,11 +165,6 @@ def test_a_vacuum_gripper_replaces_the_gripper():
                 probe.settimeout(60)
                 assert (probe.connect_ex(("127.0.22.10", port)) == 0) == served
         assert send("part on") == "ok"
-        assert send("part perhaps") == "error: 'perhaps' is neither on nor off."
-        assert send("pump red") == "ok"
-        assert send("pump blue") == "error: 'blue' must be one of green, yellow, orange and red."
-    with simulated("127.0.22.10") as (send, _):
-        assert send("part on").startswith("error: There is no command 'part'")
 
 
 def test_every_option_also_takes_its_value_after_an_equals_sign():
@@ -238,6 +180,7 @@ TOO_LARGE = [
     ("place stone 1e11 0 0", " m"),
     ("place stone 0 0 -1001", " m"),
     ("place stone 0 1e308 0", " m"),
+    ("place stone 0 0 1 0 0 0 0", "not a unit quaternion"),
     ("push stone 1e12 0 0 10", " N"),
     ("push panda_hand 0 0 -10001 10", " N"),
     ("load 730 0 0 0", "730 kg"),
@@ -247,6 +190,7 @@ TOO_LARGE = [
     ("load 1e300 0 0 0", " kg"),
     ("wall 0 1e11 0 0 1 1 1", " m"),
     ("wall 0 0 0 0 1 1 1e6", " m"),
+    ("wall 0 0 0 0 1 1 1 0 0 0 0", "not an orientation"),
 ]
 
 
@@ -300,50 +244,6 @@ def test_a_robot_that_starts_inside_a_body_is_reported():
         assert ("begins within other bodies" in server.log()) == within
 
 
-def test_the_hash_command_waits_for_a_world_at_rest():
-    options = ["--pace=lockstep", "--world=stone.xml", "--base=-0.5,0,0", "--realism=ideal"]
-    with simulated("127.0.22.16", *options) as (send, _):
-        before = joints(send)
-        # The hand is pushed for 3 s of simulated time, then it returns.
-        assert send("push panda_hand 0 8 0 3000") == "ok"
-        assert send("hash") == "ok cbf29ce484222325", "of no commands"
-        settled = send("state")
-        assert joints(send) == pytest.approx(before, abs=1e-4)
-        assert send("state") == settled, "time stands still"
-
-
-def lines_of(connection, text):
-    connection.sendall(text.encode())
-    return connection.makefile("r", newline="\n")
-
-
-def test_eight_control_clients_are_served_and_a_ninth_one_gets_an_error():
-    with simulated("127.0.22.17") as (send, _), ExitStack() as others:
-
-        def client(text):
-            connection = socket.create_connection(("127.0.22.17", 1340), timeout=60)
-            return lines_of(others.enter_context(connection), text)
-
-        assert send("state").startswith("ok Idle")
-        for _ in range(7):
-            assert client("state\n").readline().startswith("ok Idle")
-        ninth = client("state\nhelp\n")
-        assert ninth.readline().startswith("error: 8 clients use this control interface")
-        assert ninth.readline() == "", "and the connection ends"
-        assert send("state").startswith("ok Idle")
-
-
-def test_a_half_closed_control_connection_is_answered():
-    with FrankaSim("panda", pace="realtime") as server:
-        for _ in range(3):
-            with socket.create_connection((server.robot.address, 1340), timeout=60) as connection:
-                connection.sendall(b"user_stop on\nstate\nuser_stop off\n")
-                connection.shutdown(socket.SHUT_WR)
-                answers = connection.makefile("r").read().splitlines()
-            assert answers[0] == answers[2] == "ok"
-            assert answers[1].startswith("ok User stopped")
-
-
 @pytest.mark.parametrize(
     "words, mode",
     [
@@ -395,8 +295,7 @@ def test_the_first_state_after_a_recovery_is_idle(kind, protocol):
             assert client.newest_state().mode == IDLE
 
 
-@pytest.mark.parametrize("kind", ["panda", "fr3"])
-@pytest.mark.parametrize("pace", ["realtime", "lockstep", "0.5"])
+@pytest.mark.parametrize(("kind", "pace"), [("panda", "realtime"), ("fr3", "lockstep"), ("fr3", "0.5")])
 def test_the_initial_width_of_a_hand_is_the_same_at_any_pace(kind, pace):
     with simulated("127.0.22.21", "--pace", pace, kind=kind):
         # Gripper protocol: Connect [u16 version, u16 port]; states are 23 bytes, the width behind the id.
@@ -420,12 +319,6 @@ def test_franka_info_ignores_lateness_of_a_robot_with_another_pace(pace):
     lost = "states are lost" in result.stdout  # as happens to a client on a busy machine
     assert ("Verdict         ready to be controlled" in result.stdout) == (not lost)
     assert result.returncode == lost
-
-
-def test_quit_ends_the_simulation():
-    with simulated("127.0.22.6") as (send, server):
-        assert send("quit") == "ok"
-        assert server.process.wait(60) == 0
 
 
 @pytest.fixture

@@ -119,7 +119,10 @@ class Arm:
         return Point(x, y, z)
 
 
-@pytest.fixture(scope="module", params=["panda", "fr3"])
+PANDA = pytest.param("panda", marks=pytest.mark.long_form("the same for every robot"))
+
+
+@pytest.fixture(scope="module", params=[PANDA, "fr3"])
 def robot(request):
     return request.param
 

@@ -22,8 +22,7 @@ from franka_gripper.msg import (
     StopAction,
     StopGoal,
 )
-from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
-from franka_msgs.srv import SetEEFrame, SetForceTorqueCollisionBehavior, SetKFrame, SetLoad
+from franka_msgs.msg import FrankaState
 from franka_sim_mujoco.srv import (
     GetBodyPose,
     GetContacts,
@@ -37,11 +36,10 @@ from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from ros_client import Action, Controllers, call, latest, launched, outcome
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Bool
-from std_srvs.srv import Empty, SetBool, Trigger
-from waiting import PATIENCE, wait_for
+from std_srvs.srv import Empty, Trigger
+from waiting import wait_for
 
 HERE = Path(__file__).resolve().parent
-IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
 
 pytestmark = pytest.mark.own_process
 
@@ -59,7 +57,6 @@ def simulation(tmp_path_factory):
 @pytest.fixture(autouse=True)
 def running_again(simulation):
     yield
-    service("/franka_control/set_user_stop", SetBool)(False)
     pause(False)
 
 
@@ -71,13 +68,10 @@ step = service("/gazebo/step", Step)
 set_factor = service("/gazebo/set_real_time_factor", SetRealTimeFactor)
 
 
-def state():
-    return latest("/franka_state_controller/franka_states", FrankaState)
-
-
-def state_when(condition, patience=PATIENCE):
-    """The first state that meets a condition; fails if none does in time."""
-    return wait_for(lambda: next(filter(condition, [state()]), None), "A state that is awaited", patience)
+def moving():
+    """The robot's state, if it moves."""
+    state = latest("/franka_state_controller/franka_states", FrankaState)
+    return state if state.robot_mode == FrankaState.ROBOT_MODE_MOVE else None
 
 
 def finish(name, kind, goal):
@@ -99,7 +93,7 @@ def pause(paused=True):
 
 
 def test_state_is_that_of_a_moving_panda_at_rest():
-    now = state_when(lambda s: s.robot_mode == FrankaState.ROBOT_MODE_MOVE)
+    now = wait_for(moving, "A motion")
     assert now.m_ee == pytest.approx(0.76, abs=5e-7)
     assert now.m_total == pytest.approx(0.76, abs=5e-7)
     assert now.F_T_NE[14] == pytest.approx(0.1034, abs=5e-8)
@@ -122,80 +116,6 @@ def test_joint_states_name_the_joints_of_the_arm_and_the_fingers():
 
 def test_initialized_reaches_late_subscribers():
     assert latest("/initialized", Bool).data
-
-
-# ---- services ----
-
-
-def test_load_and_frames_are_set_or_refused():
-    set_load = service("/franka_control/set_load", SetLoad)
-    assert set_load(0.1, [0, 0, 0.1], [0] * 9).success
-    now = state_when(lambda s: s.m_load > 0)
-    assert now.m_total == pytest.approx(0.86, abs=5e-8)
-    assert set_load(0.0, [0, 0, 0], [0] * 9).success
-    refused = set_load(-1.0, [0, 0, 0], [0] * 9)
-    assert not refused.success
-    assert "load" in refused.error
-
-    frame = list(IDENTITY)
-    frame[14] = 0.05
-    for name, kind, field in (
-        ("set_EE_frame", SetEEFrame, "NE_T_EE"),
-        ("set_K_frame", SetKFrame, "EE_T_K"),
-    ):
-        setter = service("/franka_control/" + name, kind)
-        assert setter(frame).success
-        state_when(lambda s, f=field: abs(getattr(s, f)[14] - 0.05) < 1e-9)
-        assert setter(IDENTITY).success
-        refused = setter([0] * 16)
-        assert not refused.success
-        assert field in refused.error
-
-
-def test_a_push_is_reported_as_contact_and_collision_with_the_right_sign():
-    set_behavior = service(
-        "/franka_control/set_force_torque_collision_behavior", SetForceTorqueCollisionBehavior
-    )
-    push = service("/gazebo/push_body", PushBody)
-    assert set_behavior([50] * 7, [60] * 7, [5] * 6, [50] * 6).success
-    pause()
-    assert push("panda_hand", Vector3(10, 0, 0), Vector3(), False, Point(), 100000).success
-    pause(False)
-    now = state_when(lambda s: any(s.cartesian_contact))
-    assert not any(now.cartesian_collision)
-    now = state_when(lambda s: abs(s.O_F_ext_hat_K[0] + 10) < 0.2)
-    assert set_behavior([1, 1, 1, 1, 1, 1, 1], [2] * 7, [5] * 6, [8] * 6).success
-    state_when(lambda s: any(s.cartesian_collision))
-    assert set_behavior(
-        [20, 20, 18, 18, 16, 14, 12],
-        [20, 20, 18, 18, 16, 14, 12],
-        [20, 20, 20, 25, 25, 25],
-        [20, 20, 20, 25, 25, 25],
-    ).success
-    bad = set_behavior([-5] * 7, [4] * 7, [5] * 6, [50] * 6)
-    assert not bad.success
-    assert "negative" in bad.error
-    assert not push("no_such_body", Vector3(), Vector3(), False, Point(), 1).success
-    # The push lasts 100 s of simulated time, which may take long on a busy machine.
-    state_when(lambda s: abs(s.O_F_ext_hat_K[0]) < 0.5, patience=3 * PATIENCE)
-
-
-def test_user_stop_disconnects_until_recovery():
-    stop = service("/franka_control/set_user_stop", SetBool)
-    recovery = "/franka_control/error_recovery", ErrorRecoveryAction
-    assert stop(True).success
-    held = state_when(lambda s: s.robot_mode == FrankaState.ROBOT_MODE_USER_STOPPED)
-    status, _, text = finish(*recovery, ErrorRecoveryGoal())
-    assert status == GoalStatus.ABORTED
-    assert "user stop" in text
-    stop(False)
-    idle = state_when(lambda s: s.robot_mode == FrankaState.ROBOT_MODE_IDLE)
-    assert list(idle.tau_J_d) == [0.0] * 7
-    status, _, text = finish(*recovery, ErrorRecoveryGoal())
-    assert status == GoalStatus.SUCCEEDED, text
-    moving = state_when(lambda s: s.robot_mode == FrankaState.ROBOT_MODE_MOVE)
-    for before, after in zip(held.q, moving.q):
-        assert before == pytest.approx(after, abs=0.02)
 
 
 # ---- the gripper ----
@@ -336,6 +256,7 @@ def test_bodies_can_be_read_and_placed():
         set_pose("no_such_body", stone.pose),
         set_pose("panda_link3", stone.pose),
         set_pose("stone", Pose(orientation=Quaternion(w=3))),
+        service("/gazebo/push_body", PushBody)("no_such_body", Vector3(), Vector3(), False, Point(), 1),
     ):
         assert not answer.success
         assert answer.error

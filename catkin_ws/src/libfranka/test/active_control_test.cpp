@@ -154,6 +154,8 @@ TEST_P(Active, AsynchronousMotionsNeedVersion10) {
     EXPECT_EQ(0, fake.count(Command::kMove));
     return;
   }
+  // Without a command the next state comes after this time.
+  fake.script([](FakeRobot::Script& s) { s.answer_timeout = std::chrono::milliseconds(20); });
   auto motion = start();
   const auto move = std::get<franka_core::fci::MoveRequest>(fake.requests().back());
   EXPECT_TRUE(move.use_async_motion_generator);

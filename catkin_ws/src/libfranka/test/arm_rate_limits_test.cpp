@@ -143,39 +143,4 @@ INSTANTIATE_TEST_SUITE_P(All, RobotOfVersion, ::testing::Values(3, 5, 6, 9, 10),
 INSTANTIATE_TEST_SUITE_P(All, PandaOfVersion, ::testing::Values(3, 5),
                          [](const auto& info) { return "Version" + std::to_string(info.param); });
 
-std::string jointsOf(double velocity, bool whole = true, const std::string& prefix = "fr3_") {
-  std::string text = "<robot name='r'>";
-  for (int i = 1; i <= 7; i++) {
-    text += "<joint name='" + prefix + "joint" + std::to_string(i) + "'><limit lower='-2' upper='" +
-            std::to_string(i) + "' velocity='" + std::to_string(velocity) + "'/>";
-    if (whole || i < 7) {
-      text += "<position_based_velocity_limits velocity_offset='0.25' deceleration_limit='6'/>";
-    }
-    text += "</joint>";
-  }
-  return text + "</robot>";
-}
-
-TEST(VelocityLimits, AreReadFromTheDescription) {
-  const auto limits = franka::velocityLimitsFromUrdf(jointsOf(1.5));
-  ASSERT_TRUE(limits);
-  EXPECT_EQ(1.5, limits->velocity[6]);
-  EXPECT_EQ(-2.0, limits->q_min[3]);
-  EXPECT_EQ(5.0, limits->q_max[4]);
-  EXPECT_EQ(0.25, limits->offset[0]);
-  // v = -offset + sqrt(2 a (end - q)), never above the joint's own
-  EXPECT_NEAR(std::sqrt(12.0 * 0.1) - 0.25, franka_core::upperVelocityLimit(*limits, 0, 0.9),
-              1e-12);
-  EXPECT_EQ(1.5, franka_core::upperVelocityLimit(*limits, 0, 0.0));
-  EXPECT_NEAR(-(std::sqrt(12.0 * 0.1) - 0.25), franka_core::lowerVelocityLimit(*limits, 0, -1.9),
-              1e-12);
-}
-
-TEST(VelocityLimits, AreNotReadFromIncompleteDescriptions) {
-  EXPECT_FALSE(franka::velocityLimitsFromUrdf(jointsOf(1.5, false)));
-  EXPECT_FALSE(franka::velocityLimitsFromUrdf("<robot/>"));
-  EXPECT_FALSE(franka::velocityLimitsFromUrdf("no description"));
-  EXPECT_FALSE(franka::velocityLimitsFromUrdf(""));
-}
-
 }  // namespace

@@ -526,13 +526,6 @@ TEST_F(LoopRealtimeOnWallClock, EnvironmentVariableEnforcesIt) {
   EXPECT_NO_THROW(robot.readOnce());
 }
 
-TEST_F(LoopRealtime, EnvironmentVariableIgnoresItSilently) {
-  const RealtimeVariable variable("ignore");
-  SimulatedRobot robot;
-  robot.move();
-  EXPECT_TRUE(warnings_->texts.empty());
-}
-
 TEST_F(LoopRealtime, OtherValuesOfTheVariableAreRefused) {
   const RealtimeVariable variable("perhaps");
   SimulatedRobot robot;

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
-#include <string>
 
 namespace {
 
@@ -39,33 +38,6 @@ TEST(ControlTypes, RefuseListsOfTheWrongSize) {
   EXPECT_THROW(
       (franka::CartesianPose{Pair{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}, Pair{1, 1, 1}}),
       std::invalid_argument);
-  try {
-    franka::JointPositions({1, 2});
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ("libfranka: franka::JointPositions needs 7 values, but 2 were given.",
-                 error.what());
-  }
-}
-
-TEST(ControlTypes, DetectACommandedElbow) {
-  const std::array<double, 16> pose{};
-  const std::array<double, 6> twist{};
-  EXPECT_FALSE(franka::CartesianPose(pose).hasElbow());
-  EXPECT_FALSE((franka::CartesianPose(pose, {0.0, 0.0}).hasElbow()));
-  EXPECT_TRUE((franka::CartesianPose(pose, std::array<double, 2>{0.0, -1.0}).hasElbow()));
-  EXPECT_FALSE(franka::CartesianVelocities(twist).hasElbow());
-  EXPECT_TRUE((franka::CartesianVelocities(twist, std::array<double, 2>{0.3, 1.0}).hasElbow()));
-}
-
-TEST(ControlTypes, MotionFinishedMarksACopy) {
-  const franka::Torques torques{1, 2, 3, 4, 5, 6, 7};
-  const franka::Torques last = franka::MotionFinished(torques);
-  EXPECT_FALSE(torques.motion_finished);
-  EXPECT_TRUE(last.motion_finished);
-  EXPECT_EQ(torques.tau_J, last.tau_J);
-  EXPECT_TRUE(
-      franka::MotionFinished(franka::CartesianPose(std::array<double, 16>{})).motion_finished);
 }
 
 }  // namespace

@@ -37,9 +37,8 @@ TEST(Duration, SupportsArithmeticInPlace) {
   EXPECT_EQ(Duration(24), d *= 3);
   EXPECT_EQ(Duration(6), d /= 4);
   EXPECT_EQ(Duration(2), d %= Duration(4));
-  d = Duration(11);
-  EXPECT_EQ(Duration(1), d %= 5);
-  EXPECT_EQ(Duration(1), d);
+  EXPECT_EQ(Duration(0), d %= 2);
+  EXPECT_EQ(Duration(0), d);
 }
 
 TEST(Duration, Compares) {
@@ -48,11 +47,6 @@ TEST(Duration, Compares) {
   EXPECT_TRUE(one < two && one <= two && one <= Duration(1));
   EXPECT_TRUE(two > one && two >= one && two >= Duration(2));
   EXPECT_FALSE(one > two || two < one || one == two);
-}
-
-TEST(Duration, KeepsLongSpans) {
-  const uint64_t years = 1000ull * 3600 * 24 * 365 * 100;
-  EXPECT_EQ(years + 1, (Duration(years) + Duration(1)).toMSec());
 }
 
 }  // namespace

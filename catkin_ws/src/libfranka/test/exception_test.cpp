@@ -6,37 +6,9 @@
 
 namespace {
 
-template <typename Type>
-void expectOneOfTheFamily() {
-  try {
-    throw Type("what happened");
-  } catch (const franka::Exception& error) {
-    EXPECT_STREQ("what happened", error.what());
-    EXPECT_NE(nullptr, dynamic_cast<const std::runtime_error*>(&error));
-    EXPECT_NE(nullptr, dynamic_cast<const Type*>(&error));
-  }
-}
-
-TEST(Exception, HasOneBaseClass) {
-  expectOneOfTheFamily<franka::ModelException>();
-  expectOneOfTheFamily<franka::NetworkException>();
-  expectOneOfTheFamily<franka::ProtocolException>();
-  expectOneOfTheFamily<franka::CommandException>();
-  expectOneOfTheFamily<franka::RealtimeException>();
-  expectOneOfTheFamily<franka::InvalidOperationException>();
-  expectOneOfTheFamily<franka::ControlException>();
-}
-
-TEST(Exception, VersionMismatchNamesBothVersions) {
-  const franka::IncompatibleVersionException error(5, 10);
-  EXPECT_EQ(5, error.server_version);
-  EXPECT_EQ(10, error.library_version);
-  EXPECT_NE(std::string::npos,
-            std::string(error.what()).find("(server version: 5, library version: 10)"));
-}
-
 TEST(Exception, VersionMismatchNamesTheRobotAndGivesAdvice) {
   const std::string panda = franka::IncompatibleVersionException(5, 10).what();
+  EXPECT_NE(std::string::npos, panda.find("(server version: 5, library version: 10)")) << panda;
   EXPECT_NE(std::string::npos, panda.find("a Panda with system 4.2.1")) << panda;
   const std::string newer = franka::IncompatibleVersionException(12, 10).what();
   EXPECT_NE(std::string::npos, newer.find("update this library")) << newer;
@@ -45,15 +17,6 @@ TEST(Exception, VersionMismatchNamesTheRobotAndGivesAdvice) {
   // A gripper has other version numbers.
   const std::string gripper = franka::IncompatibleVersionException(5, 3).what();
   EXPECT_EQ(std::string::npos, gripper.find("Panda")) << gripper;
-}
-
-TEST(Exception, ControlExceptionKeepsTheLog) {
-  std::vector<franka::Record> log(2);
-  log[1].state.time = franka::Duration(17);
-  const franka::ControlException error("aborted", log);
-  ASSERT_EQ(2u, error.log.size());
-  EXPECT_EQ(17u, error.log[1].state.time.toMSec());
-  EXPECT_TRUE(franka::ControlException("aborted").log.empty());
 }
 
 TEST(Frame, LoopsOverTheTen) {

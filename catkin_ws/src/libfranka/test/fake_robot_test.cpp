@@ -100,13 +100,6 @@ TEST(FakeRobot, AnswersConnectAndSendsStates) {
   }
 }
 
-TEST(FakeRobot, RefusesAnotherVersionAndNamesItsOwn) {
-  FakeRobot robot(5);
-  Client client(robot);
-  client.connectTo(10);
-  EXPECT_EQ(Bytes({0, 0, 0, 0, 0, 0, 0, 0, 15, 0, 0, 0, 1, 5, 0}), client.receive(15));
-}
-
 // Move with external torques and joint velocities, command id 1.
 Bytes moveRequest() {
   Bytes request{1, 0, 0, 0, 1, 0, 0, 0, 68, 0, 0, 0, 2, 0, 0, 0, 1, 0, 0, 0};

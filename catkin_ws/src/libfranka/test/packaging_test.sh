@@ -97,12 +97,6 @@ case_plain() {
   [ ! -e "$work/prefix/setup.sh" ] || fail "a plain build installed catkin's files"
   use_installed "plain install" "$work/prefix"
   use_installed "plain build folder" "$work/plain"
-  # franka_core is used together with the vendor's library: it must define nothing in namespace franka.
-  local core
-  core=$(find "$work/prefix" -name libfranka_core.so)
-  if nm -DC --defined-only "$core" | grep -E ' (franka::|(vtable|typeinfo)( name)? for franka::)'; then
-    fail "libfranka_core.so defines symbols of namespace franka"
-  fi
 }
 
 # Another libfranka replaces ours: only our core is built, and both work together.
@@ -115,6 +109,12 @@ case_vendor() {
     -DCMAKE_INSTALL_PREFIX="$work/core_prefix" -DFranka_DIR="$vendor/lib/cmake/Franka"
   step "core beside the vendor's" cmake --build "$work/core" -j2 --target install
   [ -z "$(find "$work/core_prefix" -name 'libfranka.so*')" ] || fail "our libfranka did not step aside"
+  # franka_core is used together with the vendor's library: it must define nothing in namespace franka.
+  local core
+  core=$(find "$work/core_prefix" -name libfranka_core.so)
+  if nm -DC --defined-only "$core" | grep -E ' (franka::|(vtable|typeinfo)( name)? for franka::)'; then
+    fail "libfranka_core.so defines symbols of namespace franka"
+  fi
   step "user of both" cmake -S "$here/vendor_stub/user" -B "$work/vendor_user" "${options[@]}" \
     -DFranka_DIR="$vendor/lib/cmake/Franka" -DCMAKE_PREFIX_PATH="$work/core_prefix"
   step "user of both" cmake --build "$work/vendor_user"

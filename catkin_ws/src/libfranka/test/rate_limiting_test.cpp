@@ -253,6 +253,9 @@ TEST(JointVelocityLimits, AreReadFromADescription) {
     EXPECT_NEAR(lowest[i], lower[i], 1e-13) << i;
   }
   EXPECT_THROW(limits.parseFromURDF("<robot name='fr3'/>"), std::runtime_error);
+  std::string incomplete = urdf.str();
+  incomplete.replace(incomplete.rfind("deceleration_limit"), 1, "x");
+  EXPECT_THROW(limits.parseFromURDF(incomplete), std::runtime_error);
   EXPECT_THROW(franka::JointVelocityLimitsConfig("<robot"), std::runtime_error);
   EXPECT_EQ(upper, limits.getUpperJointVelocityLimits({2.8, 1.8, 2.85, -0.13, 2.8, 4.6, 3.0}));
 }

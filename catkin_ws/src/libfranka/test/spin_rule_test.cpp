@@ -153,23 +153,14 @@ class WaitVariable : public ::testing::Test {
   ~WaitVariable() override { unsetenv("FRANKA_WAIT"); }
 };
 
-TEST_F(WaitVariable, NamesAModeOrIsRefusedWithASentence) {
+TEST_F(WaitVariable, NamesAModeOrIsRefused) {
   EXPECT_EQ(WaitMode::kAuto, waitModeOfEnvironment());
   setenv("FRANKA_WAIT", "", 1);
   EXPECT_EQ(WaitMode::kAuto, waitModeOfEnvironment());
   setenv("FRANKA_WAIT", "block", 1);
   EXPECT_EQ(WaitMode::kBlock, waitModeOfEnvironment());
   setenv("FRANKA_WAIT", "sleep", 1);
-  try {
-    waitModeOfEnvironment();
-    FAIL();
-  } catch (const std::invalid_argument& error) {
-    EXPECT_STREQ(
-        "The environment variable FRANKA_WAIT is \"sleep\", but must be spin, block or auto. It "
-        "says how a program waits for a simulated robot (on a loopback address) in lock-step; "
-        "without it: auto.",
-        error.what());
-  }
+  EXPECT_THROW(waitModeOfEnvironment(), std::invalid_argument);
 }
 
 }  // namespace

@@ -17,12 +17,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kStall{700};
+constexpr milliseconds kStall{250};
 
 /// A client that waits for kStall only because the robot is on its own machine.
 franka::Timeouts shorterThanTheStall() {
   franka::Timeouts timeouts;
-  timeouts.state = milliseconds(200);
+  timeouts.state = milliseconds(50);
   timeouts.silence = std::chrono::minutes(10);
   return timeouts;
 }

@@ -17,7 +17,7 @@ import pytest
 HERE = Path(__file__).resolve().parent
 PACKAGE = HERE.parent
 FUZZERS = HERE / "fuzz"
-TARGETS = ["command", "gripper", "reply", "request", "state", "vacuum"]
+TARGETS = sorted(path.name.removesuffix("_fuzzer.cpp") for path in FUZZERS.glob("*_fuzzer.cpp"))
 LONG = os.environ.get("FRANKA_TEST_LONG") == "1"
 LENGTH = ["-max_total_time=3600"] if LONG else ["-runs=100000", "-seed=1"]
 FLAGS = [
@@ -42,7 +42,10 @@ def run(command, **arguments):
 
 def compile_object(compiler, source, build):
     result = build / (source.stem + ".o")
-    done = run([compiler, *FLAGS, "-fsanitize=fuzzer-no-link", "-c", source, "-o", result], timeout=300)
+    cache = ["ccache"] if shutil.which("ccache") else []
+    done = run(
+        [*cache, compiler, *FLAGS, "-fsanitize=fuzzer-no-link", "-c", source, "-o", result], timeout=300
+    )
     assert done.returncode == 0, done.stdout
     return result
 
@@ -63,8 +66,8 @@ def codec(tmp_path_factory):
 def test_decoder(codec, target):
     compiler, objects, build = codec
     program = build / f"{target}_fuzzer"
-    source = FUZZERS / f"{target}_fuzzer.cpp"
-    built = run([compiler, *FLAGS, "-fsanitize=fuzzer", source, *objects, "-o", program], timeout=300)
+    fuzzer = compile_object(compiler, FUZZERS / f"{target}_fuzzer.cpp", build)
+    built = run([compiler, *FLAGS, "-fsanitize=fuzzer", fuzzer, *objects, "-o", program], timeout=300)
     assert built.returncode == 0, built.stdout
     corpus = build / f"{target}_corpus"
     shutil.unpack_archive(FUZZERS / "corpus" / f"{target}.zip", corpus)
@@ -82,8 +85,3 @@ def test_decoder(codec, target):
     )
     assert fuzzed.returncode == 0, fuzzed.stdout[:1000] + fuzzed.stdout[-6000:]  # the seed, and the error
     assert "DONE" in fuzzed.stdout and inputs > 0, fuzzed.stdout[-2000:]
-
-
-def test_every_fuzzer_is_a_target():
-    assert sorted(path.name for path in FUZZERS.glob("*_fuzzer.cpp")) == [f"{t}_fuzzer.cpp" for t in TARGETS]
-    assert sorted(path.name for path in (FUZZERS / "corpus").iterdir()) == [f"{t}.zip" for t in TARGETS]

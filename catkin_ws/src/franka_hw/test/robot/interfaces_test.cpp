@@ -18,7 +18,7 @@ using hardware_interface::VelocityJointInterface;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
-class Interfaces : public testing::TestWithParam<std::string> {
+class Interfaces : public testing::Test {
  protected:
   void SetUp() override { ASSERT_TRUE(robot_.init(arm_.nh, arm_.robot_nh)); }
 
@@ -41,7 +41,7 @@ class Interfaces : public testing::TestWithParam<std::string> {
     return state;
   }
 
-  FakeArm arm_{GetParam()};
+  FakeArm arm_{"my_left_arm_2"};
   FrankaHW robot_;
 };
 
@@ -51,7 +51,7 @@ std::vector<std::string> sortedNames(FrankaHW& robot) {
   return interface == nullptr ? std::vector<std::string>() : interface->getNames();
 }
 
-TEST_P(Interfaces, AreEight) {
+TEST_F(Interfaces, AreEight) {
   const std::vector<std::string> joints = FakeArm::joints(arm_.arm_id);
   const std::vector<std::string> robot{arm_.arm_id + "_robot"};
   EXPECT_EQ(joints, sortedNames<hardware_interface::JointStateInterface>(robot_));
@@ -66,7 +66,7 @@ TEST_P(Interfaces, AreEight) {
   EXPECT_EQ(8u, robot_.getNames().size());
 }
 
-TEST_P(Interfaces, ShowTheState) {
+TEST_F(Interfaces, ShowTheState) {
   const franka::RobotState state = distinct();
   robot_.update(state);
   for (size_t i = 0; i < 7; i++) {
@@ -92,7 +92,7 @@ TEST_P(Interfaces, ShowTheState) {
   EXPECT_EQ(franka::RobotMode::kIdle, robot_.robotMode());
 }
 
-TEST_P(Interfaces, TakeCommands) {
+TEST_F(Interfaces, TakeCommands) {
   for (size_t i = 0; i < 7; i++) {
     const std::string name = FakeArm::joints(arm_.arm_id)[i];
     const double value = static_cast<double>(i) + 1.0;
@@ -108,7 +108,7 @@ TEST_P(Interfaces, TakeCommands) {
   EXPECT_EQ(hundred, robot_.getJointEffortCommand());
 }
 
-TEST_P(Interfaces, AnswerForTheModelWithTheStatesPose) {
+TEST_F(Interfaces, AnswerForTheModelWithTheStatesPose) {
   franka::RobotState state = robot_.get<franka_hw::FrankaStateInterface>()
                                  ->getHandle(arm_.arm_id + "_robot")
                                  .getRobotState();
@@ -127,7 +127,7 @@ TEST_P(Interfaces, AnswerForTheModelWithTheStatesPose) {
 
 // --- soft limits ---------------------------------------------------------------------------------
 
-TEST_P(Interfaces, CutCommandsToTheSoftLimits) {
+TEST_F(Interfaces, CutCommandsToTheSoftLimits) {
   const franka::RobotState state = distinct();
   robot_.update(state);
   robot_.reset();
@@ -156,13 +156,11 @@ TEST_P(Interfaces, CutCommandsToTheSoftLimits) {
   }
 }
 
-TEST_P(Interfaces, SoftLimitsAreLookedUpWithoutClaiming) {
+TEST_F(Interfaces, SoftLimitsAreLookedUpWithoutClaiming) {
   EXPECT_TRUE(robot_.get<PositionJointInterface>()->getClaims().empty());
   EXPECT_TRUE(robot_.get<VelocityJointInterface>()->getClaims().empty());
   EXPECT_TRUE(robot_.get<EffortJointInterface>()->getClaims().empty());
 }
-
-INSTANTIATE_TEST_SUITE_P(Arms, Interfaces, testing::Values("fr3", "my_left_arm_2"));
 
 TEST(Warnings, NameTheJointsNearTheirEnds) {
   FakeArm arm;

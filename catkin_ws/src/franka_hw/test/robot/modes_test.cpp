@@ -118,39 +118,28 @@ TEST_F(Modes, APartOfTheJointsIsRefused) {
   }
 }
 
-TEST_F(Modes, EachRequestsItsMotion) {
-  struct Expected {
-    const char* claims;
-    MotionGeneratorMode generator;
-    ControllerMode controller;
-  };
+TEST_F(Modes, RequestTheirMotionAndSendTheCommandsOfTheController) {
   const MotionGeneratorMode none = MotionGeneratorMode::kNone;
   const ControllerMode torque = ControllerMode::kExternalController;
   const ControllerMode inner = ControllerMode::kJointImpedance;
-  const std::vector<Expected> table{
-      {"JT", none, torque},
-      {"JP", MotionGeneratorMode::kJointPosition, inner},
-      {"JV", MotionGeneratorMode::kJointVelocity, inner},
-      {"CP", MotionGeneratorMode::kCartesianPosition, inner},
-      {"CV", MotionGeneratorMode::kCartesianVelocity, inner},
-      {"JT+JP", MotionGeneratorMode::kJointPosition, torque},
-      {"JT+JV", MotionGeneratorMode::kJointVelocity, torque},
-      {"JT+CP", MotionGeneratorMode::kCartesianPosition, torque},
-      {"JT+CV", MotionGeneratorMode::kCartesianVelocity, torque},
+  const std::map<std::string, std::pair<MotionGeneratorMode, ControllerMode>> requests{
+      {"JT", {none, torque}},
+      {"JP", {MotionGeneratorMode::kJointPosition, inner}},
+      {"JV", {MotionGeneratorMode::kJointVelocity, inner}},
+      {"CP", {MotionGeneratorMode::kCartesianPosition, inner}},
+      {"CV", {MotionGeneratorMode::kCartesianVelocity, inner}},
+      {"JT+JP", {MotionGeneratorMode::kJointPosition, torque}},
+      {"JT+JV", {MotionGeneratorMode::kJointVelocity, torque}},
+      {"JT+CP", {MotionGeneratorMode::kCartesianPosition, torque}},
+      {"JT+CV", {MotionGeneratorMode::kCartesianVelocity, torque}},
   };
-  for (const Expected& expected : table) {
-    run(expected.claims, 5);
-    EXPECT_EQ(expected.generator, lastMove().motion_generator_mode) << expected.claims;
-    EXPECT_EQ(expected.controller, lastMove().controller_mode) << expected.claims;
-  }
-}
-
-TEST_F(Modes, CommandsOfTheControllerReachTheRobot) {
   for (const std::string& claims : kModes) {
     TestController& controller = loop_->controller(claims);
     controller.torque = 1.5;
     controller.speed = 0.001;  // slow enough to end a motion without an interruption
     const auto exchanges = run(claims);
+    EXPECT_EQ(requests.at(claims).first, lastMove().motion_generator_mode) << claims;
+    EXPECT_EQ(requests.at(claims).second, lastMove().controller_mode) << claims;
     ASSERT_FALSE(exchanges.empty()) << claims;
     const auto& [state, command] = exchanges.back();
     if (claims.find("JT") != std::string::npos) {

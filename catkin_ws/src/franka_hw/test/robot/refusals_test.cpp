@@ -6,25 +6,11 @@
 #include <gtest/gtest.h>
 
 #include <cstdlib>
-#include <fstream>
-#include <sstream>
 
 #include "support.h"
 
 namespace franka_hw_test {
 namespace {
-
-/// The description of a Panda whose joints are named after this arm.
-std::string pandaOf(const std::string& arm_id) {
-  std::ifstream file(FRANKA_HW_TEST_DATA "/panda.urdf");
-  std::stringstream text;
-  text << file.rdbuf();
-  std::string urdf = text.str();
-  for (size_t at = 0; (at = urdf.find("panda_", at)) != std::string::npos; at += arm_id.size()) {
-    urdf.replace(at, 5, arm_id);
-  }
-  return urdf;
-}
 
 void expectWords(const std::string& text, const std::vector<std::string>& words) {
   for (const std::string& word : words) {
@@ -45,7 +31,7 @@ class Refusals : public testing::Test {
 };
 
 TEST_F(Refusals, AnFr3IsNotCommandedAsAPanda) {
-  arm_.nh.setParam("robot_description", pandaOf("fr3"));
+  arm_.nh.setParam("robot_description", urdfOf("fr3", "panda"));
   const LogCatcher log;
   ASSERT_TRUE(robot_.init(arm_.nh, arm_.robot_nh));
   const std::string parameter = arm_.robot_nh.resolveName("ignore_robot_mismatch");

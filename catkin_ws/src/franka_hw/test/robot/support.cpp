@@ -24,13 +24,13 @@ std::string nameOf(std::string claims) {
   return claims;
 }
 
-std::string urdfOf(const std::string& arm_id) {
-  std::ifstream file(FRANKA_HW_TEST_DATA "/fr3.urdf");
+std::string urdfOf(const std::string& arm_id, const std::string& robot) {
+  std::ifstream file(FRANKA_HW_TEST_DATA "/" + robot + "_hand.urdf");
   std::stringstream text;
   text << file.rdbuf();
   std::string urdf = text.str();
-  for (size_t at = 0; (at = urdf.find("fr3_", at)) != std::string::npos; at += arm_id.size()) {
-    urdf.replace(at, 3, arm_id);
+  for (size_t at = 0; (at = urdf.find(robot + "_", at)) != std::string::npos; at += arm_id.size()) {
+    urdf.replace(at, robot.size(), arm_id);
   }
   return urdf;
 }

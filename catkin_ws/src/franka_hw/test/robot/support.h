@@ -38,8 +38,8 @@ inline bool waitUntil(const std::function<bool()>& condition) {
 /// The name under which Loop loads the controller with these claims.
 std::string nameOf(std::string claims);
 
-/// The URDF of an FR3 whose joints and links have this arm_id.
-std::string urdfOf(const std::string& arm_id);
+/// The URDF of a robot ("fr3" or "panda") whose joints and links have this arm_id.
+std::string urdfOf(const std::string& arm_id, const std::string& robot = "fr3");
 
 /// A robot that follows its commands at once, and the parameters to find it.
 class FakeArm {

@@ -133,6 +133,12 @@ std::string requestBytes(const codec::Request& request, std::uint16_t version = 
   return std::string(reinterpret_cast<const char*>(message.data), message.size);
 }
 
+std::string handBytes(const franka_core::fci::gripper::Request& request) {
+  franka_core::fci::gripper::RequestMessage message;
+  franka_core::fci::gripper::encodeRequest(0, request, message);
+  return std::string(reinterpret_cast<const char*>(message.data), message.size);
+}
+
 std::string repeated(const std::string& text, int times) {
   std::string result;
   for (int i = 0; i < times; i++) {
@@ -211,18 +217,13 @@ class HostileClients : public ::testing::Test {
   }
 
   void floodTheHandAndTheControlInterface() {
-    namespace hand = franka_core::fci::gripper;
     Raw gripper(attacked_.hand.port());
     std::vector<std::unique_ptr<Raw>> controls;
     for (std::size_t i = 0; i < LineServer::kMaxClients; i++) {
       controls.push_back(std::make_unique<Raw>(lines_.port()));
     }
-    hand::RequestMessage message;
-    hand::encodeRequest(0, hand::ConnectRequest{3, 1}, message);
-    gripper.send(std::string(reinterpret_cast<const char*>(message.data), message.size));
-    hand::encodeRequest(1, hand::StopRequest{}, message);
-    const std::string stops =
-        repeated(std::string(reinterpret_cast<const char*>(message.data), message.size), 500);
+    gripper.send(handBytes(franka_core::fci::gripper::ConnectRequest{3, 1}));
+    const std::string stops = repeated(handBytes(franka_core::fci::gripper::StopRequest{}), 500);
     const std::string lines = repeated("echo something\n", 500);
     under([&] {
       gripper.send(stops);
@@ -295,10 +296,7 @@ TEST_F(HostileClients, AreReportedWithTheReasonWhyTheirConnectionWasClosed) {
   Raw noisy(attacked_.arm.port());
   noisy.send(std::string(40, 'x'));
   Raw owner(attacked_.hand.port());
-  namespace hand = franka_core::fci::gripper;
-  hand::RequestMessage message;
-  hand::encodeRequest(0, hand::ConnectRequest{3, 1}, message);
-  owner.send(std::string(reinterpret_cast<const char*>(message.data), message.size));
+  owner.send(handBytes(franka_core::fci::gripper::ConnectRequest{3, 1}));
   for (int i = 0; i < 1000 && !attacked_.hand.hasClient(); i++) {
     host_.tick();
   }

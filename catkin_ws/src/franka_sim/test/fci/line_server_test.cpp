@@ -118,6 +118,21 @@ TEST_F(LineServerTest, AnswersOnceTheEffectHasComeAbout) {
   EXPECT_EQ("error: Words are missing: act.\n", user.sees()) << "a refused line has no effect";
 }
 
+TEST_F(LineServerTest, AnswersWhateverACommandThrows) {
+  server.add("robot", [](const LineServer::Words& /*words*/) -> Reply {
+    throw std::out_of_range("There is no such robot.");
+  });
+  server.add("fall", [](const LineServer::Words& /*words*/) -> Reply { throw 7; });
+  Operator user(server);
+  user.type("robot\nfall\ncount\n");
+  tick();
+  EXPECT_EQ("error: There is no such robot.\n", user.sees());
+  tick();
+  EXPECT_EQ("error: The command failed for a reason that has no sentence.\n", user.sees());
+  tick();
+  EXPECT_EQ("ok 1\n", user.sees());
+}
+
 TEST_F(LineServerTest, AnswersAnEffectThatFailsWithASentence) {
   bool failed = false;
   server.add("grasp", [&failed](const LineServer::Words& /*words*/) {
@@ -309,16 +324,6 @@ TEST_F(LineServerTest, RefusesALineThatIsTooLong) {
   user.type(std::string(4500, 'x'));
   tick();
   EXPECT_EQ("error: A line is longer than 4000 characters.\n", user.sees());
-}
-
-TEST(LineServer, SendsTheLastAnswerWhenDestroyed) {
-  auto server = std::make_unique<LineServer>(kAddress, 0);
-  server->add("quit", [](const LineServer::Words& /*words*/) { return ""; });
-  Operator user(*server);
-  user.type("quit\n");
-  server->serve();
-  server.reset();
-  EXPECT_EQ("ok\n", user.sees());
 }
 
 }  // namespace

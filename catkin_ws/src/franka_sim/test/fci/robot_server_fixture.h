@@ -90,7 +90,6 @@ class RobotServerTest : public ::testing::Test {
     result.oldest_version = 3;
     result.newest_version = 10;
     result.model_library = {1, 2, 3};
-    result.urdfs = {{8, "<robot name='early'/>"}, {10, "<robot name='late'/>"}};
     return result;
   }
 

@@ -241,13 +241,5 @@ TEST_F(VacuumGripperOnTheNetwork, StopInterruptsACommandOfAnotherThread) {
   EXPECT_THROW(waiting.get(), franka::CommandException);
 }
 
-TEST_F(VacuumGripperOnTheNetwork, RefusesASecondClientUntilTheFirstLeaves) {
-  {
-    const franka::VacuumGripper first = client();
-    EXPECT_THROW(client(), franka::Exception);
-  }
-  EXPECT_NO_THROW(client());
-}
-
 }  // namespace
 }  // namespace franka_sim

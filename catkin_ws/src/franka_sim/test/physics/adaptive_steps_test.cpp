@@ -40,25 +40,7 @@ class AdaptiveStepsTest : public StoneInHandTest {
     return pose;
   }
 
-  bool robotTouches(const std::string& body) {
-    const auto contacts = world_.contacts();
-    return std::any_of(contacts.begin(), contacts.end(), [&](const Contact& contact) {
-      return contact.body1 == body || contact.body2 == body;
-    });
-  }
-
-  Eigen::Vector3d forceOn(const std::string& body) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Contact& contact : world_.contacts()) {
-      const Eigen::Vector3d force(contact.force.data());
-      if (contact.body2 == body) {
-        sum += force;
-      } else if (contact.body1 == body) {
-        sum -= force;
-      }
-    }
-    return sum;
-  }
+  bool robotTouches(const std::string& body) { return !world_.touches(body).robots.empty(); }
 
   int changes_{0};
 };
@@ -149,30 +131,43 @@ TEST_P(AdaptiveStepsTest, ASnapshotWithinContactContinuesBitForBit) {
   EXPECT_EQ(first, world_.stateHash());
 }
 
-/// What is decided for the next ticks is part of a snapshot: wherever it is taken, the world goes
-/// on in the same way, also if half of the next step was computed before.
+/// What is decided for the next ticks, and which objects are held, is part of a snapshot: wherever
+/// it is taken, the world goes on in the same way, also if half of the next step was computed
+/// before.
 TEST_P(AdaptiveStepsTest, SnapshotsInFreeMotionContinueBitForBit) {
   addWall();
   const auto swing = [this](int from, int ticks) {
     for (int k = from; k < from + ticks; ++k) {
       auto q_d = kHome;
       q_d[0] += 0.25 * std::sin(0.004 * k);
+      if (k == 900) {
+        world_.push("stone", {0.2, 0, 0.5}, {}, 20);
+      }
       tick(0.0, q_d);
     }
     return world_.stateHash();
   };
-  for (int k = 0; k < 3000; k += 150) {
+  const auto held = [this] { return world_.impl().object_rest.held(); };
+  int held_changes = 0;
+  for (int k = 0; k < 3000; k += 60) {
+    const bool before = held();
     const Snapshot snapshot = world_.snapshot();
-    const std::uint64_t first = swing(k, 150);
+    const std::uint64_t first = swing(k, 60);
+    const std::size_t contacts = world_.contacts().size();
+    const bool after = held();
     world_.restore(snapshot);
     world_.prepareStep();
     world_.restore(world_.snapshot());
-    ASSERT_EQ(first, swing(k, 150)) << "from tick " << k;
+    ASSERT_EQ(first, swing(k, 60)) << "from tick " << k;
+    ASSERT_EQ(contacts, world_.contacts().size()) << k;
+    ASSERT_EQ(after, held()) << k;
+    held_changes += before != after ? 1 : 0;
   }
   EXPECT_GE(changes_, 2) << "the swing comes near the wall and leaves it";
+  EXPECT_EQ(3, held_changes) << "held, pushed, held again";
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, AdaptiveStepsTest, ::testing::Values("panda", "fr3"));
+INSTANTIATE_TEST_SUITE_P(Robots, AdaptiveStepsTest, ::testing::Values("panda"));
 
 // --- against small steps throughout --------------------------------------------------------------
 
@@ -243,14 +238,6 @@ TEST_P(ScenarioTest, HasTheOutcomeOfSmallSteps) {
   world_.removeObject("wall");
   world_.reset();
   const Outcome small = play(Substeps::kSmall);
-  RecordProperty("slip_um", std::to_string(1e6 * adaptive.slip));
-  RecordProperty("slip_small_um", std::to_string(1e6 * small.slip));
-  RecordProperty("stone_um", std::to_string(1e6 * (adaptive.stone - small.stone).norm()));
-  RecordProperty("grip_N", std::to_string(adaptive.grip));
-  RecordProperty("grip_small_N", std::to_string(small.grip));
-  RecordProperty("press_N", std::to_string(adaptive.press));
-  RecordProperty("press_small_N", std::to_string(small.press));
-  RecordProperty("changes", adaptive.changes);
   EXPECT_NEAR(small.slip, adaptive.slip, 0.02 * small.slip);
   EXPECT_NEAR(0.0, (adaptive.stone - small.stone).norm(), 0.02 * small.stone.norm());
   EXPECT_NEAR(small.grip, adaptive.grip, 0.02 * small.grip);
@@ -262,7 +249,7 @@ TEST_P(ScenarioTest, HasTheOutcomeOfSmallSteps) {
   EXPECT_LE(adaptive.changes, 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, ScenarioTest, ::testing::Values("panda", "fr3"));
+INSTANTIATE_TEST_SUITE_P(Robots, ScenarioTest, ::testing::Values("fr3"));
 
 }  // namespace
 }  // namespace franka_sim::test

@@ -7,23 +7,13 @@
 #include <vector>
 
 #include "physics/world_impl.h"
-#include "test_support.h"
+#include "stone_in_hand.h"
 
 namespace franka_sim::test {
 namespace {
 
-class EqualitySolverTest : public ::testing::TestWithParam<const char*> {
+class EqualitySolverTest : public StoneInHandTest {
  protected:
-  EqualitySolverTest() : world_(test::world("stone")) {
-    RobotDescription description = robot(GetParam());
-    description.base.position = {-0.5, 0, 0.3};
-    description.initial_positions[std::string(GetParam()) + "_finger_joint1"] = 0.02;
-    world_.addRobot(description);
-    arm_ = &world_.arm(GetParam(), GetParam());
-    hand_ = &world_.hand(GetParam(), GetParam());
-    holder_ = std::make_unique<ArmHolder>(arm_, GetParam());
-  }
-
   /// The constraints of the present state, solved by both.
   void compare() {
     World::Impl& impl = world_.impl();
@@ -57,10 +47,6 @@ class EqualitySolverTest : public ::testing::TestWithParam<const char*> {
     }
   }
 
-  World world_;
-  ArmPlant* arm_;
-  HandPlant* hand_;
-  std::unique_ptr<ArmHolder> holder_;
   int rows_{0};
 };
 
@@ -96,7 +82,7 @@ TEST_P(EqualitySolverTest, ClosedBrakesAreAsWithMuJoCo) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, EqualitySolverTest, ::testing::Values("panda", "fr3"));
+INSTANTIATE_TEST_SUITE_P(Robots, EqualitySolverTest, ::testing::Values("panda"));
 
 }  // namespace
 }  // namespace franka_sim::test

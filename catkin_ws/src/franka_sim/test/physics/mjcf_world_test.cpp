@@ -74,26 +74,8 @@ TEST_F(MjcfWorldTest, UnitsAndDefaultsOfTheWorldDoNotAffectTheRobot) {
 }
 
 TEST_F(MjcfWorldTest, IncludesAndRelativeFilesWork) {
-  // A binary STL of a tetrahedron.
-  std::string stl(80, ' ');
-  const auto add = [&stl](const void* data, std::size_t size) {
-    stl.append(static_cast<const char*>(data), size);
-  };
-  const std::uint32_t faces = 4;
-  const float p[4][3] = {{0, 0, 0}, {.1F, 0, 0}, {0, .1F, 0}, {0, 0, .1F}};
-  const int corners[4][3] = {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
-  const float normal[3] = {0, 0, 0};
-  const std::uint16_t nothing = 0;
-  add(&faces, 4);
-  for (const auto& face : corners) {
-    add(normal, 12);
-    for (const int corner : face) {
-      add(p[corner], 12);
-    }
-    add(&nothing, 2);
-  }
-  write("rock.stl", stl);
-  write("rock.xml", R"(<mujoco><asset><mesh name="rock" file="rock.stl"/></asset><worldbody>
+  write("rock.obj", "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
+  write("rock.xml", R"(<mujoco><asset><mesh name="rock" file="rock.obj"/></asset><worldbody>
     <body name="rock" pos="2 0 0.5"><freejoint/><geom type="mesh" mesh="rock" mass="0.2"/></body>
     </worldbody></mujoco>)");
   World world(write("world.xml", R"(<mujoco><include file="rock.xml"/><worldbody>

@@ -108,8 +108,6 @@ TEST_P(RobotClearanceTest, RandomMotionsAmongBlocksAreTheSameBitForBit) {
     tick(target, k % 2000 < 1000 ? 2.0 : -2.0);
     ASSERT_FALSE(HasFatalFailure());
   }
-  RecordProperty("clear", clear_);
-  RecordProperty("touches", touches_);
   EXPECT_GT(clear_, 1000) << "of 12000 ticks";
   EXPECT_GT(touches_, 500) << "of 12000 ticks";
 }
@@ -137,7 +135,7 @@ TEST_P(RobotsOnlyTest, TwoArmsThatMeetAreTheSameBitForBit) {
   EXPECT_GT(touches_, 100) << "of 6000 ticks";
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, RobotsOnlyTest, ::testing::Values("panda", "fr3"));
+INSTANTIATE_TEST_SUITE_P(Robots, RobotsOnlyTest, ::testing::Values("fr3"));
 
 TEST_P(RobotClearanceTest, ChangesFromOutsideAreSeen) {
   add(kind(), -0.5, 0, 0.3);
@@ -199,7 +197,7 @@ TEST_P(RobotClearanceTest, NoPointMovesFartherThanTheBound) {
   EXPECT_LT(tightest, 5.0) << "a bound that is never near is useless";
 }
 
-INSTANTIATE_TEST_SUITE_P(Robots, RobotClearanceTest, ::testing::Values("panda", "fr3"));
+INSTANTIATE_TEST_SUITE_P(Robots, RobotClearanceTest, ::testing::Values("panda"));
 
 }  // namespace
 }  // namespace franka_sim::test

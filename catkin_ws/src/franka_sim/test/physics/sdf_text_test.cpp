@@ -6,6 +6,7 @@
 
 #include <gmock/gmock.h>
 
+#include <filesystem>
 #include <fstream>
 #include <sstream>
 
@@ -201,12 +202,14 @@ TEST_F(SdfTextTest, ExpandsNestedModelsAndIncludes) {
   write("crate/model.sdf",
         "<sdf version='1.6'><model name='crate'><link name='link'>" + std::string(kInertial) +
             "<collision name='c'><geometry><mesh><uri>meshes/tetra.obj</uri></mesh></geometry>"
-            "</collision></link></model></sdf>");
+            "</collision><collision name='d'><geometry><mesh><uri>model://crate/meshes/tetra.obj"
+            "</uri><scale>2 2 2</scale></mesh></geometry></collision></link></model></sdf>");
   write("crate/meshes/tetra.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\n");
   const SdfScene scene = both(
       world("<include><uri>model://sun</uri></include>"
             "<include><uri>model://ground_plane</uri></include>"
-            "<include><uri>model://crate</uri><name>first</name><pose>0 0 1 0 0 0</pose></include>"
+            "<include><uri>model://crate</uri><name>first</name><pose>0 0 1 0 0 0</pose>"
+            "<static>true</static></include>"
             "<model name='outer'><static>true</static><pose>1 0 0 0 0 1</pose><link name='plate'/>"
             "<model name='inner'><pose>0 1 0 0 0 0</pose><link name='l'/></model>"
             "<joint name='hold' type='fixed'><parent>plate</parent><child>inner::l</child></joint>"
@@ -214,7 +217,13 @@ TEST_F(SdfTextTest, ExpandsNestedModelsAndIncludes) {
             "1.8"));
   ASSERT_EQ(scene.models.size(), 3u);
   EXPECT_EQ(scene.links[1].name, "first::link");
-  EXPECT_EQ(scene.links[1].collisions.at(0).mesh.file, folder_ / "crate/meshes/tetra.obj");
+  EXPECT_TRUE(scene.links[1].is_static);
+  for (const auto& collision : scene.links[1].collisions) {
+    EXPECT_TRUE(
+        std::filesystem::equivalent(collision.mesh.file, folder_ / "crate/meshes/tetra.obj"))
+        << collision.mesh.file;
+  }
+  EXPECT_EQ(scene.links[1].collisions.size(), 2u);
   EXPECT_EQ(scene.links[3].name, "outer::inner::l");
   expectNear(scene.links[3].pose, poseFrom(1, 0, 0, 0, 0, 1) * poseFrom(0, 1, 0, 0, 0, 0), "l");
   EXPECT_EQ(scene.joints.at(0).child, 3);

@@ -51,6 +51,19 @@ class StoneInHandTest : public ::testing::TestWithParam<const char*> {
         .translation();
   }
 
+  /// Sum of the contact forces on a body, of those of one other body if it is named [N].
+  Eigen::Vector3d forceOn(const std::string& body, const std::string& other = "") {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Contact& c : world_.contacts()) {
+      if (c.body2 == body && (other.empty() || c.body1 == other)) {
+        sum += Eigen::Vector3d(c.force.data());
+      } else if (c.body1 == body && (other.empty() || c.body2 == other)) {
+        sum -= Eigen::Vector3d(c.force.data());
+      }
+    }
+    return sum;
+  }
+
   World world_;
   ArmPlant* arm_;
   HandPlant* hand_;

@@ -106,49 +106,37 @@ TEST(UrdfRobotTest, RefusesLoopsAndTwoParents) {
 }
 
 TEST(RobotModelTest, RefusesParametersThatDoNotFitTheUrdf) {
-  const auto refusesRobot = [](RobotDescription description,
-                               std::initializer_list<const char*> parts) {
+  using Robot = RobotDescription;
+  const auto refusesRobot = [](void (*change)(Robot&), std::initializer_list<const char*> parts) {
+    Robot description = robot("panda");
+    change(description);
     expectSentence([&] { physics::buildRobot(description); }, parts);
   };
-  RobotDescription d = robot("panda");
-  d.name = "";
-  refusesRobot(d, {"needs a name"});
-  d = robot("panda");
-  d.rotor_inertia["panda_joint9"] = 1;
-  refusesRobot(d, {"rotor inertia", "'panda_joint9'"});
-  d = robot("panda");
-  d.friction["panda_joint1"].viscous = -1;
-  refusesRobot(d, {"viscous friction", "-1"});
-  d = robot("panda");
-  d.friction["panda_joint9"].offset = 1;
-  refusesRobot(d, {"friction", "'panda_joint9'"});
-  d = robot("panda");
-  d.torque_offset["panda_joint2"] = NAN;
-  refusesRobot(d, {"torque sensor", "panda_joint2"});
-  d = robot("panda");
-  d.link_errors["panda_link3"].mass = -1;
-  refusesRobot(d, {"panda_link3", "no mass"});
-  d = robot("panda");
-  d.link_errors["panda_link9"].mass = 0.1;
-  refusesRobot(d, {"panda_link9"});
-  d = robot("panda");
-  d.initial_positions["panda_joint2"] = NAN;
-  refusesRobot(d, {"initial position", "panda_joint2"});
-  d = robot("panda");
-  d.stops["panda_joint2"] = {1, -1};
-  refusesRobot(d, {"stops", "panda_joint2"});
-  d = robot("panda");
-  d.initial_positions["panda_finger_joint1"] = 0.05;
-  refusesRobot(d, {"panda_finger_joint1", "cannot start at 0.05", "0.04"});
-  d = robot("panda");
-  d.base.orientation = {0, 0, 0, 0};
-  refusesRobot(d, {"base", "quaternion"});
-  d = robot("panda");
-  d.urdf = twoLinks(hinge(), "");
-  d.initial_positions.clear();
-  d.rotor_inertia.clear();
-  d.stops.clear();
-  refusesRobot(d, {"'arm'", "no mass", "gazebo:=true"});
+  refusesRobot([](Robot& d) { d.name = ""; }, {"needs a name"});
+  refusesRobot([](Robot& d) { d.rotor_inertia["panda_joint9"] = 1; },
+               {"rotor inertia", "'panda_joint9'"});
+  refusesRobot([](Robot& d) { d.friction["panda_joint1"].viscous = -1; },
+               {"viscous friction", "-1"});
+  refusesRobot([](Robot& d) { d.friction["panda_joint9"].offset = 1; },
+               {"friction", "'panda_joint9'"});
+  refusesRobot([](Robot& d) { d.torque_offset["panda_joint2"] = NAN; },
+               {"torque sensor", "panda_joint2"});
+  refusesRobot([](Robot& d) { d.link_errors["panda_link3"].mass = -1; },
+               {"panda_link3", "no mass"});
+  refusesRobot([](Robot& d) { d.link_errors["panda_link9"].mass = 0.1; }, {"panda_link9"});
+  refusesRobot([](Robot& d) { d.initial_positions["panda_joint2"] = NAN; },
+               {"initial position", "panda_joint2"});
+  refusesRobot([](Robot& d) { d.stops["panda_joint2"] = {1, -1}; }, {"stops", "panda_joint2"});
+  refusesRobot([](Robot& d) { d.initial_positions["panda_finger_joint1"] = 0.05; },
+               {"panda_finger_joint1", "cannot start at 0.05", "0.04"});
+  refusesRobot([](Robot& d) { d.base.orientation = {0, 0, 0, 0}; }, {"base", "quaternion"});
+  refusesRobot(
+      [](Robot& d) {
+        d = {};
+        d.name = "panda";
+        d.urdf = twoLinks(hinge(), "");
+      },
+      {"'arm'", "no mass", "gazebo:=true"});
 }
 
 TEST(RobotModelTest, FusesFixedLinks) {

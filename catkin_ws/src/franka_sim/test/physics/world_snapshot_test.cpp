@@ -108,21 +108,6 @@ TEST_P(WorldSnapshotTest, AnEqualWorldHoldsTheObjectsThatTheFirstOneHolds) {
   expectSame();
 }
 
-TEST_P(WorldSnapshotTest, IsRestoredAfterItsWorldHasGone) {
-  const auto second = worldOf(description());
-  Snapshot snapshot;
-  std::uint64_t then = 0;
-  {
-    const auto first = worldOf(description());
-    push(*first, 2.0, 40);
-    snapshot = first->snapshot();
-    then = first->stateHash();
-  }
-  second->restore(snapshot);
-  EXPECT_EQ(second->stateHash(), then);
-  push(*second, 1.0, 10);
-}
-
 TEST_P(WorldSnapshotTest, OfAnotherWorldIsRefusedAndChangesNothing) {
   const auto own = worldOf(description());
   push(*own, 2.0, 40);

@@ -1,8 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Low-pass filters of signals and of commands.
+// Low-pass filters of commands.
 #include <franka_sim/robot/command_filter.h>
-#include <franka_sim/robot/low_pass.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -10,17 +9,6 @@
 namespace franka_sim::test {
 
 namespace {
-
-TEST(LowPass, HasTheFirstOrderGainAndReachesItsInput) {
-  LowPass<1> filter(100.0);
-  EXPECT_NEAR(0.385869545, filter.update({{1.0}})[0], 1e-9);  // T / (T + 1 / (2 pi 100))
-  for (int i = 0; i < 100; i++) {
-    filter.update({{1.0}});
-  }
-  EXPECT_NEAR(1.0, filter.output()[0], 1e-12);
-  filter.restart();
-  EXPECT_EQ(0.0, filter.output()[0]);
-}
 
 // Like the client's filter: a pose that is not quite orthogonal counts as the nearest rotation.
 TEST(CommandFilter, TakesTheNearestRotationOfAPose) {

@@ -2,20 +2,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Torques of the control laws, against independent results.
 #include <franka_sim/robot/cartesian_impedance.h>
+#include <franka_sim/robot/configuration.h>
 #include <franka_sim/robot/control_laws.h>
 #include <franka_sim/robot/joint_impedance.h>
+#include <franka_sim/robot/state_estimator.h>
 
 #include <Eigen/Core>
 #include <random>
 
-#include "unit_without_facade.h"
+#include "fci_fixture.h"
 
 namespace franka_sim::test {
 
 namespace {
-
-using Joints = std::array<double, 7>;
-using ControlLawsTest = UnitWithoutFacade;
 
 class Laws : public FciTest {
  protected:
@@ -165,26 +164,13 @@ TEST(JointImpedance, IsSpringDamperAndCoriolis) {
   EXPECT_EQ(7.0, tau[3]);
 }
 
-TEST_F(ControlLawsTest, CompensateGravityAndSaturateTheCommand) {
-  measure(kReady);
-  ControlLaws laws(configuration);
-  ControlTask task;
-  task.mode = RobotMode::kMove;
-  task.controller = ControllerMode::kExternalController;
-  task.tau = {{1, -2, 3, 1000, 0, 0, 0}};
-  task.law_switch = LawSwitch::kFromZero;
-  const Estimate& estimate = estimator.estimate();
-  const Joints& torques = laws.torques(task, state, estimate);
-  const Joints expected{{1, -2, 3, 87, 0, 0, 0}};
-  EXPECT_EQ(expected, laws.law());
-  for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_NEAR(expected[i] + estimate.dynamics.gravity[i], torques[i], 1e-12) << i;
-  }
-  EXPECT_EQ(Joints{}, laws.rest());
-}
-
-TEST_F(ControlLawsTest, FadeFromOneLawToTheNext) {
-  measure(kReady);
+TEST(ControlLaws, FadeFromOneLawToTheNext) {
+  ControlUnitParameters parameters = pandaWithHand();
+  parameters.rules = InterfaceRules::kFci;
+  const Configuration configuration{parameters};
+  RobotState state;
+  StateEstimator estimator{configuration, state};
+  estimator.update({kReady}, parameters.nominal);
   ControlLaws laws(configuration);
   ControlTask task;
   task.mode = RobotMode::kMove;

@@ -106,10 +106,13 @@ class ErrorFlags : public FciTest {
 };
 
 TEST_F(ErrorFlags, JointPositionLimits) {
-  tickWith([](ArmMeasurement& m) { m.q[0] = 2.902; });
-  EXPECT_TRUE(raised().empty());
-  tickWith([](ArmMeasurement& m) { m.q[0] = 2.903; });
-  expectReflex(0);
+  for (const double sign : {1.0, -1.0}) {
+    standAt(kReady);
+    tickWith([&](ArmMeasurement& m) { m.q[0] = sign * 2.902; });
+    EXPECT_TRUE(raised().empty());
+    tickWith([&](ArmMeasurement& m) { m.q[0] = sign * 2.903; });
+    expectReflex(0);
+  }
 }
 
 TEST_F(ErrorFlags, VirtualWall) {
@@ -273,14 +276,29 @@ TEST_F(ErrorFlags, VelocityProfile) {
   expectReflex(10);
 }
 
-TEST_F(ErrorFlags, JointStartPose) {
-  moveJoints();
-  drive(2, [&](int, const RobotState&) {
-    RobotCommand command = still();
-    command.q_c[2] += 0.01;
-    return command;
-  });
-  expectReflex(11);
+TEST_F(ErrorFlags, FirstCommandOfAMotion) {
+  struct Row {
+    int flag;
+    MotionGeneratorMode generator;
+    std::function<void(RobotCommand&)> change;
+  };
+  constexpr auto kPose = MotionGeneratorMode::kCartesianPosition;
+  const Row rows[] = {
+      {11, MotionGeneratorMode::kJointPosition, [](RobotCommand& c) { c.q_c[2] += 0.01; }},
+      {16, kPose, [](RobotCommand& c) { c.O_T_EE_c[12] += 0.005; }},
+      {21, kPose, [](RobotCommand& c) { c.valid_elbow = true, c.elbow_c[1] = 1.0; }},
+      {22, kPose, [](RobotCommand& c) { c.valid_elbow = true, c.elbow_c[0] = 0.1; }},
+      {31, kPose, [](RobotCommand& c) { c.O_T_EE_c[0] *= 1.01; }}};
+  for (const Row& row : rows) {
+    standAt(kReady);
+    move(row.generator, ControllerMode::kJointImpedance);
+    drive(1, [&](int, const RobotState&) {
+      RobotCommand command = still();
+      row.change(command);
+      return command;
+    });
+    expectReflex(row.flag);
+  }
 }
 
 TEST_F(ErrorFlags, CommandedJointPosition) {
@@ -373,16 +391,6 @@ TEST_F(ErrorFlags, MeasuredLimitsRaiseTheirFlagsTogether) {
   expectReflex({0, 3, 26, 34});
 }
 
-TEST_F(ErrorFlags, CartesianStartPose) {
-  movePose();
-  drive(2, [&](int, const RobotState&) {
-    RobotCommand command = still();
-    command.O_T_EE_c[12] += 0.005;
-    return command;
-  });
-  expectReflex(16);
-}
-
 TEST_F(ErrorFlags, ElbowLimit) {
   moveTwist();
   drive(3000, [&](int i, const RobotState&) {
@@ -411,20 +419,6 @@ TEST_F(ErrorFlags, CartesianVelocity) {
   moveTwist();
   ramp(5, 3.0);  // about the vertical axis, which joint 7 alone does
   expectReflex(18);
-}
-
-TEST_F(ErrorFlags, ElbowSignAndStart) {
-  for (const int flag : {21, 22}) {
-    standAt(kReady);
-    movePose();
-    drive(2, [&](int, const RobotState&) {
-      RobotCommand command = still();
-      command.valid_elbow = true;
-      (flag == 21 ? command.elbow_c[1] : command.elbow_c[0]) = flag == 21 ? 1.0 : 0.1;
-      return command;
-    });
-    expectReflex(flag);
-  }
 }
 
 TEST_F(ErrorFlags, ForceTolerance) {
@@ -511,16 +505,6 @@ TEST(ErrorFlagArithmetic, AtTenTimesTheJerkTheFlagNeverComesAlone) {
   }
 }
 
-TEST_F(ErrorFlags, InvalidFrame) {
-  movePose();
-  drive(2, [&](int, const RobotState&) {
-    RobotCommand command = still();
-    command.O_T_EE_c[0] *= 1.01;
-    return command;
-  });
-  expectReflex(31);
-}
-
 TEST_F(ErrorFlags, TorqueDiscontinuity) {
   applyTorque();
   RobotCommand command;
@@ -543,28 +527,30 @@ TEST_F(ErrorFlags, TorqueRange) {
 }
 
 TEST_F(ErrorFlags, NonFiniteCommandsEndTheMotion) {
-  const double nan = std::nan("");
-  for (const MotionGeneratorMode generator :
-       {MotionGeneratorMode::kJointPosition, MotionGeneratorMode::kJointVelocity,
-        MotionGeneratorMode::kCartesianPosition, MotionGeneratorMode::kCartesianVelocity,
-        MotionGeneratorMode::kNone}) {
-    for (const double bad : {nan, static_cast<double>(INFINITY)}) {
-      standAt(kReady);
-      startMove(generator, generator == MotionGeneratorMode::kNone
-                               ? ControllerMode::kExternalController
-                               : ControllerMode::kJointImpedance);
-      drive(3, [&](int, const RobotState&) { return still(); });
-      drive(1, [&](int, const RobotState&) {
-        RobotCommand command = still();
-        command.q_c[3] = command.dq_c[3] = command.O_T_EE_c[12] = bad;
-        command.O_dP_EE_c[2] = command.tau_J_d[3] = bad;
-        return command;
-      });
-      EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode) << static_cast<int>(generator);
-      EXPECT_EQ(1u, raised().size());
-      run(300);
-      for (std::size_t i = 0; i < 7; i++) {
-        EXPECT_NEAR(kReady[i], arm.q()[i], 1e-3);
+  for (const auto& [generator, flag] : {std::pair{MotionGeneratorMode::kJointPosition, 13},
+                                        std::pair{MotionGeneratorMode::kJointVelocity, 13},
+                                        std::pair{MotionGeneratorMode::kCartesianPosition, 31},
+                                        std::pair{MotionGeneratorMode::kCartesianVelocity, 18},
+                                        std::pair{MotionGeneratorMode::kNone, 32}}) {
+    for (const double bad : {static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+      for (const int before : {0, 3}) {
+        standAt(kReady);
+        move(generator, generator == MotionGeneratorMode::kNone
+                            ? ControllerMode::kExternalController
+                            : ControllerMode::kJointImpedance);
+        drive(before, [&](int, const RobotState&) { return still(); });
+        drive(1, [&, bad = bad](int, const RobotState&) {
+          RobotCommand command = still();
+          command.q_c[3] = command.dq_c[3] = command.O_T_EE_c[12] = bad;
+          command.O_dP_EE_c[2] = command.tau_J_d[3] = bad;
+          return command;
+        });
+        SCOPED_TRACE(::testing::Message() << bad << " after " << before);
+        expectReflex(flag);
+        run(300);
+        for (std::size_t i = 0; i < 7; i++) {
+          EXPECT_NEAR(kReady[i], arm.q()[i], 1e-3);
+        }
       }
     }
   }

@@ -41,18 +41,6 @@ TEST(WidthRamp, MovesAtItsSpeedAndEndsExactly) {
   }
 }
 
-TEST(WidthRamp, WithoutSpeedStays) {
-  WidthRamp ramp;
-  ramp.start(0.03, 0.08, 0.0);
-  for (int i = 0; i < 1000; i++) {
-    ramp.step(1e-3);
-  }
-  EXPECT_EQ(0.03, ramp.width());
-  EXPECT_FALSE(ramp.arrived());
-  ramp.hold(0.05);
-  EXPECT_TRUE(ramp.arrived());
-}
-
 TEST(Standstill, CountsAfterTheFirstMotionOrTheTimeout) {
   Standstill standstill(3);
   standstill.restart();

@@ -9,28 +9,6 @@ namespace franka_sim::test {
 
 namespace {
 
-TEST(PendingAnswers, GivesEachAnswerOnce) {
-  PendingAnswers answers;
-  EXPECT_EQ(std::nullopt, answers.take(PendingAnswer::kRecovery));
-  answers.recoveryEnds(Status::kSuccess);
-  EXPECT_EQ(std::nullopt, answers.take(PendingAnswer::kMotion));
-  EXPECT_EQ(Status::kSuccess, answers.take(PendingAnswer::kRecovery));
-  EXPECT_EQ(std::nullopt, answers.take(PendingAnswer::kRecovery));
-}
-
-TEST(PendingAnswers, MotionAndStopWaitForRest) {
-  PendingAnswers answers;
-  answers.stopBegins();
-  answers.motionEndsAtRest(Status::kPreempted);
-  EXPECT_TRUE(answers.waitForRest());
-  EXPECT_EQ(std::nullopt, answers.take(PendingAnswer::kMotion));
-  EXPECT_EQ(std::nullopt, answers.take(PendingAnswer::kStop));
-  answers.atRest();
-  EXPECT_FALSE(answers.waitForRest());
-  EXPECT_EQ(Status::kPreempted, answers.take(PendingAnswer::kMotion));
-  EXPECT_EQ(Status::kSuccess, answers.take(PendingAnswer::kStop));
-}
-
 TEST(PendingAnswers, InterruptionReplacesSuccessOnly) {
   for (const Status own : {Status::kSuccess, Status::kPreempted}) {
     PendingAnswers answers;

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <vector>
 
 #include "arm_fixture.h"
@@ -27,151 +28,110 @@ void append(std::vector<double>& log, const franka_core::RobotState& s) {
   log.push_back(s.control_command_success_rate);
 }
 
-/// Idle, motion, a push, lost commands, a new load, the user stop and its release.
-template <typename AfterTick>
-void story(AfterTick&& after_tick) {
-  const ControlUnitParameters parameters = pandaWithHand();
-  ControlUnit unit(parameters);
-  FakeArm arm(parameters.model, kReady);
-  arm.payload = parameters.end_effector;
-  franka_core::Payload load;
-  load.mass = 0.1;
-  load.com = {{0, 0, 0.1}};
-  for (int i = 0; i < 4000; i++) {
-    if (i == 500) {
-      unit.request(torqueControl());
-    } else if (i == 1000) {
-      arm.push = {{5, -10, 20, 1, 0, -1}};
-    } else if (i == 1500) {
-      unit.request(loadRequest(load));
-      unit.request(codec::SetEEToKRequest{parameters.F_T_NE});
-    } else if (i == 2000) {
-      unit.request(codec::StopMoveRequest{});
-    } else if (i == 3000) {
-      unit.request(UserStop{true});
-    } else if (i == 3300) {
-      unit.request(UserStop{false});
-      unit.request(codec::AutomaticErrorRecoveryRequest{});
-    }
-    franka_core::RobotCommand command;
-    command.tau_J_d[i % 7] = 0.3 * std::sin(0.01 * i);
-    const bool lost = i % 11 == 0;
-    rt_guard::Scope scope;
-    const ArmMeasurement measurement = arm.measure();
-    const franka_core::RobotState& state = unit.observe(measurement);
-    arm.applyTorques(unit.actuate(lost ? nullptr : &command));
-    arm.setBrakes(unit.status().brakes_closed);
-    const bool clean = scope.allocations() == 0 && scope.locks() == 0;
-    arm.step();
-    after_tick(state, clean);
-  }
-}
-
-TEST(Repeatability, SameInputsGiveTheSameBits) {
+/// Runs a story twice: the same bits, and neither a tick nor a request allocates or locks.
+/// @param story appends to a log and adds up what the real-time guard counts
+void expectRepeatableAndRealTimeSafe(
+    const std::function<void(std::vector<double>& log, std::size_t& dirty)>& story) {
   std::vector<double> runs[2];
+  std::size_t dirty = 0;
   for (std::vector<double>& log : runs) {
-    story([&](const franka_core::RobotState& state, bool) { append(log, state); });
+    story(log, dirty);
   }
   ASSERT_EQ(runs[0].size(), runs[1].size());
   EXPECT_EQ(0, std::memcmp(runs[0].data(), runs[1].data(), runs[0].size() * sizeof(double)));
+  EXPECT_EQ(0u, dirty);
 }
 
-TEST(Repeatability, ControlUnitTickNeitherAllocatesNorLocks) {
-  int dirty = 0;
-  story([&](const franka_core::RobotState&, bool clean) { dirty += clean ? 0 : 1; });
-  EXPECT_EQ(0, dirty);
-}
-
-/// Over the FCI: a Cartesian motion, a collision, its reflex, recovery, and joints again.
-template <typename AfterTick>
-void fciStory(AfterTick&& after_tick) {
-  ControlUnitParameters parameters = pandaWithHand();
-  parameters.rules = InterfaceRules::kFci;
-  parameters.protocol_version = 5;
-  ControlUnit unit(parameters);
-  FakeArm arm(parameters.model, kReady);
-  arm.payload = parameters.end_effector;
-  franka_core::fci::MoveRequest move;
-  franka_core::RobotCommand command;
-  for (int i = 0; i < 4000; i++) {
-    rt_guard::Scope scope;
-    if (i == 10) {
-      move.motion_generator_mode = franka_core::MotionGeneratorMode::kCartesianVelocity;
-      move.controller_mode = franka_core::ControllerMode::kCartesianImpedance;
-      unit.request(move);
-    } else if (i == 1000) {
-      arm.push = {{0, -80, 0, 0, 0, 0}};
-    } else if (i == 1200) {
-      arm.push.fill(0.0);
-    } else if (i == 1500) {
-      unit.request(codec::AutomaticErrorRecoveryRequest{});
-    } else if (i == 2500) {
-      move.motion_generator_mode = franka_core::MotionGeneratorMode::kJointVelocity;
-      move.controller_mode = franka_core::ControllerMode::kJointImpedance;
-      unit.request(move);
-    }
-    command.O_dP_EE_c[1] = i < 1000 ? 2e-5 * (i - 10) : 0.0;
-    command.dq_c[0] = i > 2500 ? 1e-4 * (i - 2500) : 0.0;
-    const franka_core::RobotState& state = unit.observe(arm.measure());
-    arm.applyTorques(unit.actuate(i % 11 == 0 ? nullptr : &command));
-    arm.setBrakes(unit.status().brakes_closed);
-    const bool clean = scope.allocations() == 0 && scope.locks() == 0;
-    arm.step();
-    after_tick(state, clean);
-  }
-}
-
-TEST(Repeatability, MotionReflexAndRecoveryAreRepeatableAndRealTimeSafe) {
-  std::vector<double> runs[2];
-  int dirty = 0;
-  std::array<int, 7> modes{};
-  for (std::vector<double>& log : runs) {
-    fciStory([&](const franka_core::RobotState& state, bool clean) {
+// A push, lost commands, a new load, the user stop and its release, a restart.
+TEST(Repeatability, TorqueControlAndRequestsAreRepeatableAndRealTimeSafe) {
+  expectRepeatableAndRealTimeSafe([](std::vector<double>& log, std::size_t& dirty) {
+    const ControlUnitParameters parameters = pandaWithHand();
+    ControlUnit unit(parameters);
+    FakeArm arm(parameters.model, kReady);
+    arm.payload = parameters.end_effector;
+    franka_core::Payload load;
+    load.mass = 0.1;
+    load.com = {{0, 0, 0.1}};
+    for (int i = 0; i < 4000; i++) {
+      rt_guard::Scope scope;
+      if (i == 500) {
+        unit.request(torqueControl());
+      } else if (i == 1000) {
+        arm.push = {{5, -10, 20, 1, 0, -1}};
+      } else if (i == 1500) {
+        unit.request(loadRequest(load));
+        unit.request(codec::SetEEToKRequest{parameters.F_T_NE});
+        unit.request(codec::SetNEToEERequest{parameters.NE_T_EE});
+        unit.request(collisionRequest(parameters.acceleration, parameters.nominal));
+      } else if (i == 2000) {
+        unit.request(codec::StopMoveRequest{});
+      } else if (i == 3000) {
+        unit.request(UserStop{true});
+      } else if (i == 3300) {
+        unit.request(UserStop{false});
+        unit.request(codec::AutomaticErrorRecoveryRequest{});
+      } else if (i == 3900) {
+        unit.restart();
+      }
+      franka_core::RobotCommand command;
+      command.tau_J_d[i % 7] = 0.3 * std::sin(0.01 * i);
+      const franka_core::RobotState& state = unit.observe(arm.measure());
+      arm.applyTorques(unit.actuate(i % 11 == 0 ? nullptr : &command));
+      arm.setBrakes(unit.status().brakes_closed);
+      dirty += scope.allocations() + scope.locks();
+      arm.step();
       append(log, state);
-      dirty += clean ? 0 : 1;
+    }
+  });
+}
+
+// Over the FCI: a Cartesian motion, a collision, its reflex, recovery, and joints again.
+TEST(Repeatability, MotionReflexAndRecoveryAreRepeatableAndRealTimeSafe) {
+  std::array<int, 7> modes{};
+  expectRepeatableAndRealTimeSafe([&](std::vector<double>& log, std::size_t& dirty) {
+    ControlUnitParameters parameters = pandaWithHand();
+    parameters.rules = InterfaceRules::kFci;
+    parameters.protocol_version = 5;
+    ControlUnit unit(parameters);
+    FakeArm arm(parameters.model, kReady);
+    arm.payload = parameters.end_effector;
+    franka_core::fci::MoveRequest move;
+    franka_core::RobotCommand command;
+    for (int i = 0; i < 4000; i++) {
+      rt_guard::Scope scope;
+      if (i == 10) {
+        move.motion_generator_mode = franka_core::MotionGeneratorMode::kCartesianVelocity;
+        move.controller_mode = franka_core::ControllerMode::kCartesianImpedance;
+        unit.request(move);
+      } else if (i == 1000) {
+        arm.push = {{0, -80, 0, 0, 0, 0}};
+      } else if (i == 1200) {
+        arm.push.fill(0.0);
+      } else if (i == 1500) {
+        unit.request(codec::AutomaticErrorRecoveryRequest{});
+      } else if (i == 2500) {
+        move.motion_generator_mode = franka_core::MotionGeneratorMode::kJointVelocity;
+        move.controller_mode = franka_core::ControllerMode::kJointImpedance;
+        unit.request(move);
+      }
+      command.O_dP_EE_c[1] = i < 1000 ? 2e-5 * (i - 10) : 0.0;
+      command.dq_c[0] = i > 2500 ? 1e-4 * (i - 2500) : 0.0;
+      const franka_core::RobotState& state = unit.observe(arm.measure());
+      arm.applyTorques(unit.actuate(i % 11 == 0 ? nullptr : &command));
+      arm.setBrakes(unit.status().brakes_closed);
+      dirty += scope.allocations() + scope.locks();
+      arm.step();
+      append(log, state);
       modes[static_cast<std::size_t>(state.robot_mode)]++;
-    });
-  }
-  ASSERT_EQ(runs[0].size(), runs[1].size());
-  EXPECT_EQ(0, std::memcmp(runs[0].data(), runs[1].data(), runs[0].size() * sizeof(double)));
-  EXPECT_EQ(0, dirty);
+    }
+  });
   EXPECT_GT(modes[static_cast<std::size_t>(franka_core::RobotMode::kMove)], 2 * 2000);
   EXPECT_GT(modes[static_cast<std::size_t>(franka_core::RobotMode::kReflex)], 2 * 200);
   EXPECT_GT(modes[static_cast<std::size_t>(franka_core::RobotMode::kAutomaticErrorRecovery)], 2);
 }
 
-TEST(Repeatability, RequestsNeitherAllocateNorLock) {
-  ControlUnit unit(pandaWithHand());
-  ArmMeasurement m;
-  m.q = kReady;
-  unit.observe(m);
-  const ControlUnitParameters p = unit.configuration();
-  rt_guard::Scope scope;
-  unit.request(torqueControl());
-  unit.request(codec::SetNEToEERequest{p.NE_T_EE});
-  unit.request(codec::SetEEToKRequest{p.EE_T_K});
-  unit.request(loadRequest(p.load));
-  unit.request(collisionRequest(p.acceleration, p.nominal));
-  unit.request(UserStop{true});
-  unit.request(codec::AutomaticErrorRecoveryRequest{});
-  unit.request(UserStop{false});
-  unit.restart();
-  EXPECT_EQ(0u, scope.allocations());
-  EXPECT_EQ(0u, scope.locks());
-}
-
-TEST(Repeatability, GuardCountsAllocationsAndLocks) {
-  rt_guard::Scope scope;
-  std::vector<double>* leak = new std::vector<double>(100);
-  const std::size_t counted = scope.allocations();
-  delete leak;
-  EXPECT_TRUE(counted >= 2 || !rt_guard::kActive);
-}
-
 TEST(Repeatability, GripperIsRepeatableAndRealTimeSafe) {
-  std::vector<double> runs[2];
-  std::size_t dirty = 0;
-  for (std::vector<double>& log : runs) {
+  expectRepeatableAndRealTimeSafe([](std::vector<double>& log, std::size_t& dirty) {
     GripperUnit gripper{GripperParameters{}};
     FakeHand hand;
     for (int i = 0; i < 3000; i++) {
@@ -188,9 +148,15 @@ TEST(Repeatability, GripperIsRepeatableAndRealTimeSafe) {
       hand.step();
       log.push_back(hand.width());
     }
-  }
-  EXPECT_EQ(0, std::memcmp(runs[0].data(), runs[1].data(), runs[0].size() * sizeof(double)));
-  EXPECT_EQ(0u, dirty);
+  });
+}
+
+TEST(Repeatability, GuardCountsAllocationsAndLocks) {
+  rt_guard::Scope scope;
+  std::vector<double>* leak = new std::vector<double>(100);
+  const std::size_t counted = scope.allocations();
+  delete leak;
+  EXPECT_TRUE(counted >= 2 || !rt_guard::kActive);
 }
 
 }  // namespace

@@ -14,21 +14,6 @@ using Joints = std::array<double, 7>;
 const Joints kSwing{{0.3, 0, 0, 0, 0, 0, 0}};
 const Joints kRate{{10, 10, 10, 10, 10, 10, 10}};  // [rad/s^2]: kSwing stops within 30 ms
 
-TEST(RestSequence, BrakesAtTheGivenRateAndStops) {
-  RestSequence rest;
-  EXPECT_EQ(RestSequence::Step::kNone, rest.step(false, kReady, {}, kRate));
-  rest.brake(kReady, kSwing, kRate);
-  int ticks = 1;
-  while (rest.step(false, kReady, {}, kRate) == RestSequence::Step::kBrakes) {
-    ASSERT_TRUE(rest.isBraking());
-    ASSERT_LT(++ticks, 1000);
-  }
-  EXPECT_TRUE(rest.isFinished());
-  EXPECT_NEAR(30, ticks, 1);
-  EXPECT_NEAR(kReady[0] + 0.3 * 0.3 / 20.0, rest.braking().q()[0], 2e-4);
-  EXPECT_EQ(Joints{}, rest.braking().dq());
-}
-
 TEST(RestSequence, YieldsForTwoHundredTicksAfterAReflex) {
   RestSequence rest;
   rest.brake(kReady, {}, kRate);

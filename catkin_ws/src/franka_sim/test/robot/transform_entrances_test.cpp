@@ -85,6 +85,10 @@ TEST(TransformFault, DescribesEveryRefusedMatrix) {
     const std::string fault = franka_core::transformFault(row.matrix);
     EXPECT_NE(std::string::npos, fault.find(row.part)) << fault;
   }
+  std::array<double, 16> four_digits = identity;
+  four_digits[0] = four_digits[4] = four_digits[5] = 0.7071;
+  four_digits[1] = -0.7071;
+  EXPECT_TRUE(franka_core::isRigidTransform(four_digits));
   EXPECT_TRUE(franka_core::isRigidTransform(identity));
   EXPECT_EQ("", franka_core::transformFault(identity));
 }

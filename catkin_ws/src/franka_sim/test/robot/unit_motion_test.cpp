@@ -4,6 +4,7 @@
 #include <franka_sim/robot/mode_machine.h>
 
 #include <algorithm>
+#include <iterator>
 #include <tuple>
 
 #include "fci_fixture.h"
@@ -238,13 +239,21 @@ TEST_F(UnitMotion, StopMoveBrakesAndAnswersAtRest) {
     EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kStop));
     EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kMotion));
     ASSERT_LT(ticks++, 200);
+    const double desired = unit.state().dq_d[0];
     test::tick(unit, arm);
+    EXPECT_NEAR(desired, unit.state().O_dP_EE_d[5], 1e-9) << "joint 1 turns about z of O";
   }
   EXPECT_NEAR(speed / 15.0, 1e-3 * ticks, 2e-3);
   EXPECT_NEAR(speed * speed / 30.0, unit.state().q_d[0] - from, 1e-3 * speed);
   EXPECT_EQ(Status::kSuccess, unit.takeAnswer(PendingAnswer::kStop));
   EXPECT_EQ(Status::kPreempted, unit.takeAnswer(PendingAnswer::kMotion));
   EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(codec::StopMoveRequest{}));
+  const std::array<double, 7> held = unit.state().q_d;
+  run(1000);
+  EXPECT_EQ(held, unit.state().q_d);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(held[i], arm.q()[i], 1e-4);
+  }
   startSwing();
 }
 
@@ -342,9 +351,26 @@ TEST_F(UnitMotion, RecoveryNeedsTheUserBeyondJointLimits) {
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
 }
 
+TEST_F(UnitMotion, RecoveryFailsIfTheArmDoesNotComeToRest) {
+  reflex();
+  ASSERT_FALSE(unit.request(codec::AutomaticErrorRecoveryRequest{}));
+  std::optional<Status> end;
+  int ticks = 0;
+  while (!end && ticks < 6000) {
+    tickWith([](ArmMeasurement& m) { m.dq[6] = 0.02; });
+    end = unit.takeAnswer(PendingAnswer::kRecovery);
+    ticks++;
+  }
+  EXPECT_EQ(Status::kAborted, end);
+  EXPECT_EQ(5000, ticks);
+  EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
+}
+
 TEST_F(UnitMotion, UserStopEndsMotionAndRecovery) {
   startSwing();
   drive(300, [&](int i, const RobotState&) { return swing(i); });
+  EXPECT_EQ(Status::kCommandNotPossibleRejected,
+            unit.request(codec::AutomaticErrorRecoveryRequest{}));
   unit.request(UserStop{true});
   EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
   EXPECT_EQ(Status::kEmergencyAborted, unit.takeAnswer(PendingAnswer::kMotion));
@@ -395,6 +421,8 @@ TEST_F(UnitMotion, OpeningBrakesKeepsAPressedUserStop) {
   unit.request(Brakes{true});
   unit.request(UserStop{true});
   EXPECT_EQ(RobotMode::kOther, unit.state().robot_mode);
+  EXPECT_EQ(Status::kCommandNotPossibleRejected,
+            unit.request(codec::AutomaticErrorRecoveryRequest{}));
   unit.request(Brakes{false});
   EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
 }
@@ -424,36 +452,39 @@ TEST_F(UnitMotion, GuidingFollowsPushesAlongFreeAxesOnly) {
 }
 
 TEST_F(UnitMotion, SettersAreRefusedInMoveAndChecked) {
-  EXPECT_EQ(Status::kInvalidArgumentRejected,
-            unit.request(codec::SetJointImpedanceRequest{{{-1, 0, 0, 0, 0, 0, 0}}}));
-  EXPECT_EQ(Status::kInvalidArgumentRejected,
-            unit.request(codec::SetJointImpedanceRequest{{{14251, 0, 0, 0, 0, 0, 0}}}));
+  const std::array<double, 7> stiffness = unit.configuration().joint_stiffness;
+  const UnitRequest invalid[] = {
+      codec::SetJointImpedanceRequest{{{-1, 0, 0, 0, 0, 0, 0}}},
+      codec::SetJointImpedanceRequest{{{14251, 0, 0, 0, 0, 0, 0}}},
+      codec::SetCartesianImpedanceRequest{{{3000, 3000, 9.9, 300, 300, 300}}},
+      codec::SetCartesianImpedanceRequest{{{3000, 3000, 10, 300, 301, 300}}},
+      codec::SetFiltersRequest{0.5, 1000, 1000, 1000, 1000},
+      codec::SetFiltersRequest{1000, 1000, 1000, 1000, std::nan("")},
+      SetVirtualWall{8, {}},
+      SetProtocolVersion{2},
+      SetProtocolVersion{11}};
+  for (std::size_t i = 0; i < std::size(invalid); i++) {
+    EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(invalid[i])) << i;
+  }
+  EXPECT_EQ(stiffness, unit.configuration().joint_stiffness);
+  EXPECT_EQ(5u, unit.configuration().protocol_version);
+  EXPECT_EQ(nullptr, unit.virtualWall(-1));
   EXPECT_EQ(Status::kSuccess,
             unit.request(codec::SetJointImpedanceRequest{{{14250, 0, 0, 0, 0, 0, 0}}}));
-  EXPECT_EQ(Status::kInvalidArgumentRejected,
-            unit.request(codec::SetCartesianImpedanceRequest{{{3000, 3000, 9.9, 300, 300, 300}}}));
-  EXPECT_EQ(Status::kInvalidArgumentRejected,
-            unit.request(codec::SetCartesianImpedanceRequest{{{3000, 3000, 10, 300, 301, 300}}}));
   EXPECT_EQ(Status::kSuccess,
             unit.request(codec::SetCartesianImpedanceRequest{{{10, 3000, 10, 1, 300, 1}}}));
-  EXPECT_EQ(Status::kInvalidArgumentRejected,
-            unit.request(codec::SetFiltersRequest{0.5, 1000, 1000, 1000, 1000}));
-  EXPECT_EQ(Status::kInvalidArgumentRejected,
-            unit.request(codec::SetFiltersRequest{1000, 1000, 1000, 1000, std::nan("")}));
-  EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(SetVirtualWall{8, {}}));
-  EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(SetProtocolVersion{2}));
-  EXPECT_EQ(nullptr, unit.virtualWall(-1));
   startSwing();
-  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(codec::SetJointImpedanceRequest{{}}));
-  EXPECT_EQ(Status::kCommandNotPossibleRejected,
-            unit.request(codec::SetCartesianImpedanceRequest{{{10, 10, 10, 1, 1, 1}}}));
-  EXPECT_EQ(Status::kCommandNotPossibleRejected,
-            unit.request(codec::SetGuidingModeRequest{{}, true}));
-  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(codec::SetFiltersRequest{}));
-  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(SetVirtualWall{0, {}}));
-  EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(SetProtocolVersion{5}));
-  EXPECT_EQ(Status::kCommandNotPossibleRejected,
-            unit.request(codec::SetNEToEERequest{franka_core::kIdentityTransform}));
+  const UnitRequest refused_in_move[] = {
+      codec::SetJointImpedanceRequest{},
+      codec::SetCartesianImpedanceRequest{{{10, 10, 10, 1, 1, 1}}},
+      codec::SetGuidingModeRequest{{}, true},
+      codec::SetFiltersRequest{},
+      SetVirtualWall{0, {}},
+      SetProtocolVersion{5},
+      codec::SetNEToEERequest{franka_core::kIdentityTransform}};
+  for (std::size_t i = 0; i < std::size(refused_in_move); i++) {
+    EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(refused_in_move[i])) << i;
+  }
 }
 
 TEST_F(UnitMotion, FiltersSmoothTheCommands) {

@@ -59,21 +59,17 @@ struct Worlds {
   std::vector<Simulation*> all;
 };
 
-class BatchTest : public ::testing::TestWithParam<const char*> {};
-INSTANTIATE_TEST_SUITE_P(Robots, BatchTest, ::testing::Values("panda", "fr3"),
-                         [](const auto& param) { return std::string(param.param); });
-
-TEST_P(BatchTest, EachWorldEqualsASingleRunForAnyNumberOfThreads) {
+TEST(Batch, EachWorldEqualsASingleRunForAnyNumberOfThreads) {
   constexpr int kWorlds = 5;
   std::vector<std::uint64_t> alone;
   for (int i = 0; i < kWorlds; i++) {
-    const auto simulation = simulationOf(GetParam(), i + 1);
+    const auto simulation = simulationOf("fr3", i + 1);
     begin(*simulation, i);
     simulation->step(600);
     alone.push_back(simulation->world().stateHash() ^ simulation->robots().front().units().hash());
   }
   for (const int threads : {1, 2, 7}) {
-    const Worlds worlds(GetParam(), kWorlds);
+    const Worlds worlds("fr3", kWorlds);
     SimulationBatch batch(worlds.all, threads, Observer::defaultNames(*worlds.all[0]));
     for (int i = 0; i < kWorlds; i++) {
       begin(*worlds.all[i], i);
@@ -89,9 +85,9 @@ TEST_P(BatchTest, EachWorldEqualsASingleRunForAnyNumberOfThreads) {
   }
 }
 
-TEST_P(BatchTest, ObservationsAreRowsOfTheWorldsPresentValues) {
-  const Worlds worlds(GetParam(), 3);
-  const std::string robot = GetParam();
+TEST(Batch, ObservationsAreRowsOfTheWorldsPresentValues) {
+  const Worlds worlds("fr3", 3);
+  const std::string robot = "fr3";
   SimulationBatch batch(
       worlds.all, 2,
       {"stone.twist", robot + ".O_T_EE", "time", robot + ".width", "stone.pose", robot + ".q"});
@@ -120,9 +116,9 @@ TEST_P(BatchTest, ObservationsAreRowsOfTheWorldsPresentValues) {
   EXPECT_EQ(0.0, batch.observations()[22]);
 }
 
-TEST_P(BatchTest, AnotherSimulationTakesTheRowOfOne) {
-  const Worlds worlds(GetParam(), 2);
-  const auto other = simulationOf(GetParam(), 9);
+TEST(Batch, AnotherSimulationTakesTheRowOfOne) {
+  const Worlds worlds("fr3", 2);
+  const auto other = simulationOf("fr3", 9);
   begin(*other, 0);
   other->step(30);
   SimulationBatch batch(worlds.all, 2, {"stone.pose", "time"});

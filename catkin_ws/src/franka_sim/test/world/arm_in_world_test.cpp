@@ -14,9 +14,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <sstream>
 #include <string>
+
+#include "../physics/test_support.h"
 
 namespace franka_sim {
 namespace {
@@ -38,13 +38,6 @@ Array7 array(const Vector7& vector) {
   return result;
 }
 
-std::string read(const std::string& name) {
-  std::ifstream file(std::string(FRANKA_SIM_ROBOTS) + "/" + name);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 class ArmInWorld : public testing::TestWithParam<const char*> {
  protected:
   void SetUp() override { build(0.0); }
@@ -52,8 +45,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
   // `extra_hand_mass`: difference to the hand's mass in the control unit [kg].
   void build(double extra_hand_mass) {
     const std::string id = GetParam();
-    std::string urdf = read(id + ".urdf");
-    ASSERT_FALSE(urdf.empty());
+    std::string urdf = test::urdfOf(id);
     model_ = std::make_unique<franka_core::ArmModel>(franka_core::ArmModel::fromUrdf(urdf, id));
     ControlUnitParameters parameters{*model_};
     parameters.F_T_NE = kHandF_T_NE;

@@ -126,25 +126,6 @@ TEST_F(Managed, SwitchesReachTheMembersWithoutAnAllocationInTheLoop) {
   EXPECT_EQ(0u, calls_) << "allocations and locks in " << steps_ << " cycles";
 }
 
-TEST_F(Managed, ConflictsOfOneMemberRefuseTheSwitch) {
-  ASSERT_TRUE(switched({"left"}, {}));
-  EXPECT_FALSE(switched({"both"}, {}));
-  EXPECT_TRUE(runs("left") && !runs("both"));
-  left_.lenient = true;
-  EXPECT_TRUE(switched({"both"}, {})) << "the left arm's own rule allows it";
-}
-
-TEST_F(Managed, RefusalOfAMemberChangesNothing) {
-  ASSERT_TRUE(switched({"left"}, {}));
-  right_.agrees = false;
-  EXPECT_FALSE(switched({"both"}, {"left"}));
-  EXPECT_TRUE(runs("left") && !runs("both"));
-  EXPECT_EQ(1, left_.switches);
-  ASSERT_EQ(3u, left_.prepared.size());
-  EXPECT_EQ("both", left_.prepared[1].first.front().name);
-  EXPECT_EQ("left", left_.prepared[2].first.front().name) << "the way back";
-}
-
 TEST_F(Managed, ControllersWaitForTheSlowestMember) {
   right_.result = State::ONGOING;
   int waited = 0;
@@ -156,12 +137,5 @@ TEST_F(Managed, ControllersWaitForTheSlowestMember) {
   }));
   EXPECT_EQ(5, waited);
   EXPECT_TRUE(runs("both"));
-  EXPECT_EQ(0u, calls_);
-}
-
-TEST_F(Managed, AnErrorOfOneMemberAbortsTheStart) {
-  left_.result = State::ERROR;
-  switched({"both"}, {});
-  EXPECT_TRUE(manager_.getControllerByName("both")->isAborted());
   EXPECT_EQ(0u, calls_);
 }

@@ -62,19 +62,11 @@ void expectTransition(bool (ControllerBase::*request)(const ros::Time&), const c
 
 }  // namespace
 
-TEST(ControllerBase, StartsAfterConstruction) {
-  Recorder controller;
-  EXPECT_EQ(State::CONSTRUCTED, controller.state_.load());
-  EXPECT_FALSE(controller.isInitialized());
-  EXPECT_FALSE(controller.isRunning());
-  EXPECT_FALSE(controller.isStopped());
-  EXPECT_FALSE(controller.isWaiting());
-  EXPECT_FALSE(controller.isAborted());
-}
-
 TEST(ControllerBase, QueriesMatchOneStateEach) {
   Recorder controller;
-  for (const State state : kReadyStates) {
+  EXPECT_EQ(State::CONSTRUCTED, controller.state_.load());
+  for (const State state : {State::CONSTRUCTED, State::INITIALIZED, State::RUNNING, State::STOPPED,
+                            State::WAITING, State::ABORTED}) {
     controller.state_ = state;
     EXPECT_EQ(state == State::INITIALIZED, controller.isInitialized());
     EXPECT_EQ(state == State::RUNNING, controller.isRunning());

@@ -27,11 +27,6 @@ TEST_F(LoadTest, KeepsControllersInTheOrderOfLoading) {
   EXPECT_EQ(nullptr, manager_->getControllerByName("unknown"));
 }
 
-TEST_F(LoadTest, CallsALoaderOncePerLoad) {
-  load({"a", "c"});
-  EXPECT_EQ(2, loader_->listings_);
-}
-
 TEST_F(LoadTest, FailuresAreLoggedAndKeepTheList) {
   describe("refusing", "dummy/Refusing", {});
   describe("throwing", "dummy/Throwing", {});
@@ -41,23 +36,16 @@ TEST_F(LoadTest, FailuresAreLoggedAndKeepTheList) {
   nh_.setParam("number/type", 3);
   load({"a"});
   const std::vector<std::pair<std::string, std::string>> cases = {
-      {"a", "A controller named 'a' was already loaded inside the controller manager"},
-      {"nobody",
-       "Could not load controller 'nobody' because the type was not specified. Did you load the "
-       "controller configuration on the parameter server (namespace: '/manager_test/nobody')?"},
-      {"number", "Could not load controller 'number' because the type was not specified."},
+      {"a", "already loaded"},
+      {"nobody", "namespace: '/manager_test/nobody'"},
+      {"number", "type was not specified"},
       {"refusing", "Initializing controller 'refusing' failed"},
-      {"throwing", "Exception thrown while initializing controller 'throwing'.\nno such joint"},
-      {"no_joint",
-       "Exception thrown while initializing controller 'no_joint'.\nCould not find resource "
-       "'elbow' in 'hardware_interface::EffortJointInterface'."},
-      {"broken", "Could not load class 'dummy/Broken': the library is broken"},
-      {"typo",
-       "Could not load controller 'typo' because controller type 'dummy/God' does not exist.\n"
-       "Use 'rosservice call controller_manager/list_controller_types' to get the available "
-       "types"},
-      {"bad name!", "Could not load controller 'bad name!' because the name cannot be used"},
-      {"", "because the type was not specified"},
+      {"throwing", "no such joint"},
+      {"no_joint", "'elbow' in 'hardware_interface::EffortJointInterface'"},
+      {"broken", "'dummy/Broken': the library is broken"},
+      {"typo", "'dummy/God' does not exist"},
+      {"bad name!", "name cannot be used"},
+      {"", "type was not specified"},
   };
   for (const auto& one : cases) {
     LogCatcher log;
@@ -83,37 +71,14 @@ TEST_F(LoadTest, EarlierLoadersAreSearchedFirst) {
   EXPECT_EQ(0, second->listings_);
 }
 
-TEST_F(LoadTest, DeclaredTypesNameTheirLoader) {
-  int dummies_found = 0;
-  for (const auto& declared : manager_->getDeclaredTypes()) {
-    if (declared.base_class == "dummies::DummyController") {
-      ++dummies_found;
-    } else {
-      EXPECT_EQ("controller_interface::ControllerBase", declared.base_class);
-    }
-  }
-  EXPECT_EQ(5, dummies_found);
-}
-
-TEST_F(LoadTest, UnloadsAndDestroys) {
-  load({"a", "c"});
-  EXPECT_EQ(2, DummyController::living());
-  step();
-  EXPECT_TRUE(manager_->unloadController("a"));
-  EXPECT_EQ(1, DummyController::living());
-  EXPECT_THAT(loaded(), ElementsAre("c"));
-}
-
 TEST_F(LoadTest, RefusesToUnloadRunningAndUnknownControllers) {
   load({"a"});
   ASSERT_TRUE(doSwitch({"a"}, {}));
   LogCatcher log;
   EXPECT_FALSE(manager_->unloadController("a"));
   EXPECT_FALSE(manager_->unloadController("z"));
-  EXPECT_THAT(log.text(),
-              HasSubstr("Could not unload controller with name 'a' because it is still running"));
-  EXPECT_THAT(log.text(), HasSubstr("Could not unload controller with name 'z' because no "
-                                    "controller with this name exists"));
+  EXPECT_THAT(log.text(), HasSubstr("name 'a' because it is still running"));
+  EXPECT_THAT(log.text(), HasSubstr("name 'z' because no controller"));
   ASSERT_TRUE(doSwitch({}, {"a"}));
   EXPECT_TRUE(manager_->unloadController("a"));
   EXPECT_THAT(loaded(), IsEmpty());
@@ -124,8 +89,7 @@ TEST_F(LoadTest, ReloadOfLoadedControllersRequiresForce) {
   load({"a", "c"});
   LogCatcher log;
   EXPECT_FALSE(manager_->reloadControllerLibraries(false));
-  EXPECT_THAT(log.text(), HasSubstr("Controller manager: Cannot reload controller libraries "
-                                    "because there are still 2 controllers running"));
+  EXPECT_THAT(log.text(), HasSubstr("still 2 controllers"));
   EXPECT_EQ(0, loader_->reloads_);
   EXPECT_TRUE(manager_->reloadControllerLibraries(true)) << "nothing runs, so no loop is needed";
   EXPECT_EQ(1, loader_->reloads_);
@@ -141,10 +105,4 @@ TEST_F(LoadTest, ForcedReloadStopsRunningControllers) {
                                    [this] { return manager_->reloadControllerLibraries(true); })));
   EXPECT_EQ(0, DummyController::living());
   EXPECT_EQ(1, loader_->reloads_);
-}
-
-TEST_F(LoadTest, DestructorDestroysAllControllers) {
-  load({"a", "c"});
-  manager_.reset();
-  EXPECT_EQ(0, DummyController::living());
 }

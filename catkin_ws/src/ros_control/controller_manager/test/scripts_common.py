@@ -13,12 +13,15 @@ import rospy
 from controller_manager_msgs.srv import (
     ListControllers,
     LoadController,
+    ReloadControllerLibraries,
     SwitchController,
+    SwitchControllerRequest,
     UnloadController,
 )
 from std_srvs.srv import SetBool
 
 DEADLINE = 60.0  # [s]
+STRICT = SwitchControllerRequest.STRICT
 
 
 def wait_until(condition, message):
@@ -41,6 +44,7 @@ class Manager:
         self.load = proxy("controller_manager/load_controller", LoadController)
         self.unload = proxy("controller_manager/unload_controller", UnloadController)
         self.switch = proxy("controller_manager/switch_controller", SwitchController)
+        self.reload = proxy("controller_manager/reload_controller_libraries", ReloadControllerLibraries)
         self.run_loop = proxy("run_loop", SetBool)
 
     def halt_loop(self):
@@ -48,6 +52,10 @@ class Manager:
         before = rospy.get_param("prepared_switches", 0)
         self.run_loop(False)
         return lambda: rospy.get_param("prepared_switches", 0) > before
+
+    def spawn(self, *names):
+        assert all([self.load(name).ok for name in names])
+        assert self.switch(start_controllers=names, strictness=STRICT).ok
 
     def states(self):
         return {controller.name: controller.state for controller in self.list().controller}

@@ -11,14 +11,8 @@ import unittest
 
 import rospy
 import rostest
-from controller_manager_msgs.srv import (
-    ListControllerTypes,
-    ReloadControllerLibraries,
-    SwitchControllerRequest,
-)
-from scripts_common import DEADLINE, Manager, wait_until
-
-STRICT = SwitchControllerRequest.STRICT
+from controller_manager_msgs.srv import ListControllerTypes
+from scripts_common import DEADLINE, STRICT, Manager, wait_until
 
 
 class ServicesTest(unittest.TestCase):
@@ -28,10 +22,7 @@ class ServicesTest(unittest.TestCase):
 
     def tearDown(self):
         self.manager.run_loop(True)
-        reload = rospy.ServiceProxy(
-            "controller_manager/reload_controller_libraries", ReloadControllerLibraries
-        )
-        self.assertTrue(reload(True).ok)
+        self.assertTrue(self.manager.reload(True).ok)
         self.assertEqual({}, self.manager.states())
 
     def test_types_name_their_base_class(self):

@@ -61,8 +61,7 @@ TEST_F(StandStillTest, LoadUnloadAndListWorkWithoutTheLoop) {
 TEST_F(StandStillTest, SwitchFailsAfterItsTimeout) {
   LogCatcher log;
   EXPECT_FALSE(manager_->switchController({"a"}, {}, kStrict, false, 0.2));
-  EXPECT_THAT(log.text(), HasSubstr("Could not switch controllers, because the control loop did "
-                                    "not run for 0.2"));
+  EXPECT_THAT(log.text(), HasSubstr("did not run for 0.2"));
   step();
   EXPECT_TRUE(controller("a").isInitialized()) << "a withdrawn switch never happens";
   EXPECT_EQ(0, robot_.switches_);
@@ -78,11 +77,9 @@ TEST_F(StandStillTest, OtherRequestsAreServedDuringASwitch) {
   EXPECT_TRUE(manager_->unloadController("c"));
   LogCatcher log;
   EXPECT_FALSE(manager_->unloadController("a")) << "the switch still needs it";
-  EXPECT_THAT(log.text(), HasSubstr("Could not unload controller with name 'a' because it takes "
-                                    "part in a switch that has not finished"));
+  EXPECT_THAT(log.text(), HasSubstr("'a' because it takes part in a switch"));
   EXPECT_FALSE(manager_->switchController({}, {}, kStrict, false, 0.1)) << "one after the other";
-  EXPECT_THAT(log.text(), HasSubstr("Could not switch controllers, because the switch before this "
-                                    "one has not finished after "));
+  EXPECT_THAT(log.text(), HasSubstr("the switch before this one has not finished after "));
   EXPECT_FALSE(isReady(answer)) << "without a timeout it waits for ever";
   EXPECT_TRUE(stepUntil(std::move(answer)));
   EXPECT_TRUE(controller("a").isRunning());
@@ -126,6 +123,5 @@ TEST_F(StandStillTest, CallsFromTheLoopAreRefused) {
   step();
   EXPECT_TRUE(meddler.meddled_);
   EXPECT_FALSE(meddler.answers_);
-  EXPECT_THAT(log.text(), HasSubstr("Could not switch controllers from a callback of the control "
-                                    "loop"));
+  EXPECT_THAT(log.text(), HasSubstr("from a callback of the control loop"));
 }

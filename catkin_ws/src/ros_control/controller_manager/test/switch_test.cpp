@@ -66,13 +66,10 @@ TEST_F(SwitchTest, StrictRefusesAnyError) {
   EXPECT_FALSE(doSwitch({}, {"c"}));
   EXPECT_FALSE(doSwitch({"a"}, {}));
   EXPECT_FALSE(doSwitch({"c"}, {"c"})) << "a restart needs something that runs";
-  const std::string text = log.text();
-  EXPECT_THAT(text, HasSubstr("Could not start controller with name 'z' because no controller with "
-                              "this name exists"));
-  EXPECT_THAT(text, HasSubstr("Could not stop controller with name 'y' because no controller with "
-                              "this name exists"));
-  EXPECT_THAT(text, HasSubstr("Could not stop controller 'c' since it is not running"));
-  EXPECT_THAT(text, HasSubstr("Controller 'a' is already running"));
+  for (const char* const text : {"start controller with name 'z'", "stop controller with name 'y'",
+                                 "'c' since it is not running", "'a' is already running"}) {
+    EXPECT_THAT(log.text(), HasSubstr(text));
+  }
   EXPECT_EQ(1, robot_.switches_);
 }
 
@@ -120,7 +117,6 @@ TEST_F(SwitchTest, RefusesConflicts) {
   ASSERT_TRUE(doSwitch({"a"}, {}));
   EXPECT_FALSE(doSwitch({"b"}, {}));
   EXPECT_TRUE(doSwitch({"b"}, {"a"})) << "stopped controllers do not count";
-  EXPECT_THAT(log.text(), HasSubstr("Could not switch controllers, due to resource conflict"));
   EXPECT_THAT(log.text(), HasSubstr("Resource conflict on [j0].  Controllers = [a, b, ]"));
 }
 
@@ -128,8 +124,7 @@ TEST_F(SwitchTest, RefusesASwitchThatTheRobotRefuses) {
   robot_.feasible_ = false;
   LogCatcher log;
   EXPECT_FALSE(doSwitch({"a"}, {}));
-  EXPECT_THAT(log.text(), HasSubstr("Could not switch controllers. The hardware interface "
-                                    "combination for the requested controllers is unfeasible."));
+  EXPECT_THAT(log.text(), HasSubstr("unfeasible"));
   EXPECT_EQ(0, robot_.switches_);
 }
 
@@ -157,16 +152,6 @@ TEST_F(SwitchTest, StartsEachWhenTheRobotIsReadyForIt) {
   EXPECT_EQ(2, controller("a").waits_);
   EXPECT_EQ(0, controller("c").waits_);
   EXPECT_EQ(1, controller("c").starts_);
-}
-
-TEST_F(SwitchTest, TwoControllersMakeTheCallsOfTheOriginal) {
-  robot_.script_ = ongoing(10);
-  EXPECT_TRUE(doSwitch({"a", "c"}, {}, kStrict, true));
-  // Two controllers: two cycles of four calls, one cycle in which the first waits (two calls) and
-  // the second is started, and one that starts the first.
-  EXPECT_EQ(12, robot_.result_calls_);
-  EXPECT_TRUE(controller("a").isRunning());
-  EXPECT_TRUE(controller("c").isRunning());
 }
 
 TEST_F(SwitchTest, RestartsOnceWhileOthersWait) {
@@ -209,6 +194,7 @@ TEST_F(SwitchTest, TimeoutUsesTheClockOfTheLoop) {
   for (const bool asap : {false, true}) {
     robot_.after_script_ = RobotHW::SwitchState::ONGOING;
     const int waits_before = controller("a").waits_;
+    LogCatcher log;
     auto answer = beginSwitch({"a"}, {}, kStrict, asap, 50.5);
     for (int i = 0; i < 50; ++i) {
       time_ += ros::Duration(0.999);
@@ -220,19 +206,11 @@ TEST_F(SwitchTest, TimeoutUsesTheClockOfTheLoop) {
     EXPECT_TRUE(controller("a").isAborted());
     EXPECT_EQ(waits_before + 51, controller("a").waits_);
     EXPECT_TRUE(answer.get());
+    EXPECT_THAT(
+        log.text(),
+        HasSubstr("'a' was not started, because the robot was not ready for it after 50.5 s"));
   }
   EXPECT_EQ(2, controller("a").aborts_);
-}
-
-TEST_F(SwitchTest, TimeoutIsLoggedAndReturnsTrue) {
-  robot_.after_script_ = RobotHW::SwitchState::ONGOING;
-  LogCatcher log;
-  auto answer = beginSwitch({"a"}, {}, kStrict, false, 50.5);
-  time_ += ros::Duration(51.0);
-  step();
-  EXPECT_TRUE(answer.get());
-  EXPECT_THAT(log.text(), HasSubstr("Controller 'a' was not started, because the robot was not "
-                                    "ready for it after 50.5 s"));
 }
 
 TEST_F(SwitchTest, ResetRestartsRunningControllers) {
@@ -244,11 +222,4 @@ TEST_F(SwitchTest, ResetRestartsRunningControllers) {
   EXPECT_EQ(updates, controller("a").updates_at_start_) << "restarted before the update";
   EXPECT_EQ(updates + 1, controller("a").updates_);
   EXPECT_EQ(0, controller("c").starts_);
-}
-
-TEST_F(SwitchTest, UpdatesInTheOrderOfLoading) {
-  ASSERT_TRUE(doSwitch({"d", "c", "a"}, {}));
-  step();
-  step();
-  EXPECT_EQ(controller("a").updates_, controller("d").updates_);
 }

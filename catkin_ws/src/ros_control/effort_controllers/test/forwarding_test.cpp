@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Controllers that forward commands, of all three interfaces.
 #include <rt_guard/rt_guard.h>
-#include <std_msgs/Float64.h>
 #include <std_msgs/Float64MultiArray.h>
 
 #include <cmath>
@@ -22,11 +21,6 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class Forwarding : public three_joints::ControllerTest {
  protected:
-  static std_msgs::Float64 one(double value) {
-    std_msgs::Float64 message;
-    message.data = value;
-    return message;
-  }
   static std_msgs::Float64MultiArray several(const std::vector<double>& values) {
     std_msgs::Float64MultiArray message;
     message.data = values;
@@ -114,8 +108,7 @@ TEST_F(Forwarding, GroupRefusesWrongSizesAndNonFiniteCommands) {
   LogCatcher log;
   publisher.publish(several({1.0, 2.0, 3.0}));
   ASSERT_TRUE(stepsUntil([&] { return !log.text().empty(); }));
-  EXPECT_THAT(log.text(), HasSubstr("Dimension of command (3) does not match number of joints (2)! "
-                                    "Not executing!"));
+  EXPECT_THAT(log.text(), HasSubstr("Dimension of command (3)"));
   publisher.publish(several({7.0, std::numeric_limits<double>::infinity()}));
   ASSERT_TRUE(stepsUntil([&] { return log.text().find("joint 'wheel'") != std::string::npos; }));
   EXPECT_EQ(1.0, robot_.velocity_command_[kArm]);
@@ -137,27 +130,18 @@ TEST_F(Forwarding, GroupOfEffortsStartsAtZero) {
   EXPECT_EQ(2.0, robot_.effort_command_[kWheel]);
 }
 
-TEST_F(Forwarding, NamesTheMissingJointParameter) {
+TEST_F(Forwarding, RefusesMissingUnknownAndDuplicateJoints) {
+  LogCatcher log;
   nh_.setParam("c/type", "effort_controllers/JointEffortController");
-  LogCatcher log;
   EXPECT_FALSE(manager_.loadController("c"));
-  EXPECT_THAT(log.text(),
-              HasSubstr("No joint given (namespace: /NamesTheMissingJointParameter/c)"));
-}
-
-TEST_F(Forwarding, NamesAnUnknownJoint) {
-  LogCatcher log;
+  EXPECT_THAT(log.text(), HasSubstr("No joint given (namespace: /RefusesMissing"));
   EXPECT_FALSE(load("velocity_controllers/JointVelocityController", "leg"));
   EXPECT_THAT(log.text(), HasSubstr("leg"));
-}
-
-TEST_F(Forwarding, RefusesEmptyAndDuplicateJointLists) {
-  LogCatcher log;
-  nh_.setParam("c/type", "position_controllers/JointGroupPositionController");
+  const std::string group = "position_controllers/JointGroupPositionController";
+  nh_.setParam("c/type", group);
   EXPECT_FALSE(manager_.loadController("c"));
   EXPECT_THAT(log.text(), HasSubstr("Failed to getParam 'joints'"));
-  EXPECT_FALSE(
-      load("position_controllers/JointGroupPositionController", three_joints::Names{"arm", "arm"}));
+  EXPECT_FALSE(load(group, three_joints::Names{"arm", "arm"}));
   EXPECT_THAT(log.text(), HasSubstr("stands twice"));
 }
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Controllers that hold positions and velocities by a PID.
 #include <control_msgs/JointControllerState.h>
-#include <std_msgs/Float64.h>
 #include <std_msgs/Float64MultiArray.h>
 
 #include <cmath>
@@ -26,12 +25,6 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 class PidControllers : public three_joints::ControllerTest {
  protected:
-  static std_msgs::Float64 one(double value) {
-    std_msgs::Float64 message;
-    message.data = value;
-    return message;
-  }
-
   template <class Controller>
   Controller& controller() {
     return dynamic_cast<Controller&>(*manager_.getControllerByName("c"));
@@ -139,8 +132,7 @@ TEST_F(PidControllers, GroupHoldsEachJointByItsType) {
   message.data = {0.0};
   publisher.publish(message);
   ASSERT_TRUE(stepsUntil([&] { return !log.text().empty(); }));
-  EXPECT_THAT(log.text(),
-              HasSubstr("Dimension of command (1) does not match number of joints (3)"));
+  EXPECT_THAT(log.text(), HasSubstr("Dimension of command (1)"));
   EXPECT_NEAR(1.0 * (0.0 - 0.3), robot_.effort_command_[kArm], 1e-12);
   stop();
   EXPECT_THAT(robot_.effort_command_, testing::Each(0.0));

@@ -13,6 +13,7 @@
 #include <ros/ros.h>
 #include <ros_test/eventually.h>
 #include <ros_test/log_catcher.h>
+#include <std_msgs/Float64.h>
 
 #include <array>
 #include <chrono>
@@ -90,6 +91,11 @@ class ControllerTest : public testing::Test {
     nh_.setParam("c/type", type);
     nh_.setParam("c/joints", joints);
     return manager_.loadController("c");
+  }
+  static std_msgs::Float64 one(double value) {
+    std_msgs::Float64 message;
+    message.data = value;
+    return message;
   }
   void setGains(const std::string& where, double p, double i = 0.0, double d = 0.0) {
     nh_.setParam(where + "/p", p);

@@ -1,16 +1,18 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <gmock/gmock.h>
+#include <hardware_interface/actuator_command_interface.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <rt_guard/rt_guard.h>
 
+#include <stdexcept>
 #include <string>
 
 #include "refusal.h"
 
 using namespace hardware_interface;
-using hardware_interface_test::textOf;
+using hardware_interface_test::refusal;
 using testing::ElementsAre;
 using testing::IsEmpty;
 
@@ -18,72 +20,87 @@ namespace {
 
 class HandlesTest : public testing::Test {
  protected:
-  double pos_{1.0}, vel_{2.0}, eff_{3.0}, abs_{4.0}, torque_{5.0}, cmd_{6.0};
+  double pos_{1.0}, vel_{2.0}, eff_{3.0}, cmd_{6.0};
   JointStateHandle state_{"joint", &pos_, &vel_, &eff_};
 };
 
+/// The states of joints and of actuators.
+template <class Handle>
+class StateHandles : public testing::Test {
+ protected:
+  double v_[5] = {1.0, 2.0, 3.0, 4.0, 5.0};
+  const Handle plain_{"j", v_, v_ + 1, v_ + 2};
+  const Handle both_{"j", v_, v_ + 1, v_ + 2, v_ + 3, v_ + 4};
+  const Handle absolute_{"j", v_, v_ + 1, v_ + 2, v_ + 3};
+  const Handle torque_{"j", v_, v_ + 1, v_ + 2, v_ + 4, true};
+};
+using StateHandleTypes = testing::Types<JointStateHandle, ActuatorStateHandle>;
+TYPED_TEST_SUITE(StateHandles, StateHandleTypes);
+
 }  // namespace
 
-TEST_F(HandlesTest, StateHandleReadsWhatTheRobotWrites) {
-  EXPECT_EQ("joint", state_.getName());
-  EXPECT_EQ(1.0, state_.getPosition());
-  EXPECT_EQ(2.0, state_.getVelocity());
-  EXPECT_EQ(3.0, state_.getEffort());
-  const JointStateHandle copy = state_;
-  pos_ = 7.0;
+TYPED_TEST(StateHandles, ReadWhatTheRobotWrites) {
+  const TypeParam copy = this->plain_;
+  this->v_[0] = 7.0;
+  EXPECT_EQ("j", copy.getName());
   EXPECT_EQ(7.0, copy.getPosition());
-  EXPECT_EQ(&pos_, state_.getPositionPtr());
-  EXPECT_EQ(&vel_, state_.getVelocityPtr());
-  EXPECT_EQ(&eff_, state_.getEffortPtr());
+  EXPECT_EQ(2.0, copy.getVelocity());
+  EXPECT_EQ(3.0, copy.getEffort());
+  EXPECT_EQ(this->v_, copy.getPositionPtr());
+  EXPECT_EQ(this->v_ + 1, copy.getVelocityPtr());
+  EXPECT_EQ(this->v_ + 2, copy.getEffortPtr());
 }
 
-TEST_F(HandlesTest, ConstructorDefinesOptionalSensors) {
-  const JointStateHandle both("j", &pos_, &vel_, &eff_, &abs_, &torque_);
-  EXPECT_TRUE(both.hasAbsolutePosition());
-  EXPECT_TRUE(both.hasTorqueSensor());
-  EXPECT_EQ(4.0, both.getAbsolutePosition());
-  EXPECT_EQ(5.0, both.getTorqueSensor());
-  EXPECT_EQ(&abs_, both.getAbsolutePositionPtr());
-  EXPECT_EQ(&torque_, both.getTorqueSensorPtr());
-
-  const JointStateHandle absolute("j", &pos_, &vel_, &eff_, &abs_);
-  EXPECT_TRUE(absolute.hasAbsolutePosition());
-  EXPECT_FALSE(absolute.hasTorqueSensor());
-
-  const JointStateHandle torque("j", &pos_, &vel_, &eff_, &torque_, true);
-  EXPECT_FALSE(torque.hasAbsolutePosition());
-  EXPECT_TRUE(torque.hasTorqueSensor());
-  EXPECT_EQ(5.0, torque.getTorqueSensor());
+TYPED_TEST(StateHandles, ConstructorDefinesOptionalSensors) {
+  for (const TypeParam* handle : {&this->both_, &this->absolute_}) {
+    EXPECT_TRUE(handle->hasAbsolutePosition());
+    EXPECT_EQ(4.0, handle->getAbsolutePosition());
+    EXPECT_EQ(this->v_ + 3, handle->getAbsolutePositionPtr());
+  }
+  for (const TypeParam* handle : {&this->both_, &this->torque_}) {
+    EXPECT_TRUE(handle->hasTorqueSensor());
+    EXPECT_EQ(5.0, handle->getTorqueSensor());
+    EXPECT_EQ(this->v_ + 4, handle->getTorqueSensorPtr());
+  }
+  for (const TypeParam* handle : {&this->plain_, &this->torque_}) {
+    EXPECT_FALSE(handle->hasAbsolutePosition());
+    EXPECT_THROW(handle->getAbsolutePosition(), std::runtime_error);
+    EXPECT_THROW(handle->getAbsolutePositionPtr(), std::runtime_error);
+  }
+  for (const TypeParam* handle : {&this->plain_, &this->absolute_}) {
+    EXPECT_FALSE(handle->hasTorqueSensor());
+    EXPECT_THROW(handle->getTorqueSensor(), std::runtime_error);
+    EXPECT_THROW(handle->getTorqueSensorPtr(), std::runtime_error);
+  }
 }
 
-TEST_F(HandlesTest, MissingSensorsThrow) {
-  EXPECT_EQ("Joint state handle does not contain absolute encoder position information",
-            textOf<std::runtime_error>([&] { state_.getAbsolutePosition(); }));
-  EXPECT_EQ("Joint state handle does not contain absolute position sensor information",
-            textOf<std::runtime_error>([&] { state_.getAbsolutePositionPtr(); }));
-  EXPECT_EQ("Joint state handle does not contain torque sensor information",
-            textOf<std::runtime_error>([&] { state_.getTorqueSensor(); }));
-  EXPECT_EQ("Joint state handle does not contain torque sensor information",
-            textOf<std::runtime_error>([&] { state_.getTorqueSensorPtr(); }));
-}
-
-TEST_F(HandlesTest, NullPointersAreRefusedByName) {
-  using E = HardwareInterfaceException;
+TYPED_TEST(StateHandles, NullPointersAreRefusedByName) {
   const double* const none = nullptr;
-  EXPECT_EQ("Cannot create handle 'j'. Position data pointer is null.",
-            textOf<E>([&] { JointStateHandle("j", none, &vel_, &eff_); }));
-  EXPECT_EQ("Cannot create handle 'j'. Velocity data pointer is null.",
-            textOf<E>([&] { JointStateHandle("j", &pos_, none, &eff_); }));
-  EXPECT_EQ("Cannot create handle 'j'. Effort data pointer is null.",
-            textOf<E>([&] { JointStateHandle("j", &pos_, &vel_, none); }));
-  EXPECT_EQ("Cannot create handle 'j'. Absolute data pointer is null.",
-            textOf<E>([&] { JointStateHandle("j", &pos_, &vel_, &eff_, none); }));
-  EXPECT_EQ("Cannot create handle 'j'. Torque sensor data pointer is null.",
-            textOf<E>([&] { JointStateHandle("j", &pos_, &vel_, &eff_, &abs_, none); }));
-  EXPECT_EQ("Cannot create handle 'j'. Torque sensor data pointer is null.",
-            textOf<E>([&] { JointStateHandle("j", &pos_, &vel_, &eff_, none, true); }));
-  EXPECT_EQ("Cannot create handle 'joint'. Command data pointer is null.",
-            textOf<E>([&] { JointHandle(state_, nullptr); }));
+  const double* const p = this->v_;
+  const std::string lead = "Cannot create handle 'j'. ";
+  EXPECT_EQ(lead + "Position data pointer is null.", refusal([&] { TypeParam("j", none, p, p); }));
+  EXPECT_EQ(lead + "Velocity data pointer is null.", refusal([&] { TypeParam("j", p, none, p); }));
+  EXPECT_EQ(lead + "Effort data pointer is null.", refusal([&] { TypeParam("j", p, p, none); }));
+  EXPECT_EQ(lead + "Absolute data pointer is null.",
+            refusal([&] { TypeParam("j", p, p, p, none); }));
+  const std::string torque = lead + "Torque sensor data pointer is null.";
+  EXPECT_EQ(torque, refusal([&] { TypeParam("j", p, p, p, p, none); }));
+  EXPECT_EQ(torque, refusal([&] { TypeParam("j", p, p, p, none, true); }));
+}
+
+TEST_F(HandlesTest, CommandsOfActuatorsClaimNothing) {
+  const ActuatorStateHandle motor("m", &pos_, &vel_, &eff_);
+  ActuatorHandle handle(motor, &cmd_);
+  handle.setCommand(7.0);
+  EXPECT_EQ(7.0, cmd_);
+  *handle.getCommandPtr() = 8.0;
+  EXPECT_EQ(8.0, handle.getCommand());
+  EffortActuatorInterface efforts;
+  efforts.registerHandle(handle);
+  EXPECT_EQ(8.0, efforts.getHandle("m").getCommand());
+  EXPECT_THAT(efforts.getClaims(), IsEmpty());
+  EXPECT_EQ("Cannot create handle 'm'. Command data pointer is null.",
+            refusal([&] { ActuatorHandle(motor, nullptr); }));
 }
 
 TEST_F(HandlesTest, CommandHandleWritesWhatTheRobotReads) {
@@ -93,6 +110,8 @@ TEST_F(HandlesTest, CommandHandleWritesWhatTheRobotReads) {
   EXPECT_EQ(8.0, cmd_);
   EXPECT_EQ(&cmd_, handle.getCommandPtr());
   EXPECT_EQ("joint", handle.getName());
+  EXPECT_EQ("Cannot create handle 'joint'. Command data pointer is null.",
+            refusal([&] { JointHandle(state_, nullptr); }));
 }
 
 TEST_F(HandlesTest, AccessInTheLoopNeitherAllocatesNorLocks) {
@@ -111,6 +130,8 @@ TEST(HandlesDeathTest, DefaultConstructedHandlesMustNotBeUsed) {
   EXPECT_DEATH(JointStateHandle().getEffort(), ".*");
   EXPECT_DEATH(JointHandle().getCommand(), ".*");
   EXPECT_DEATH(JointHandle().setCommand(1.0), ".*");
+  EXPECT_DEATH(ActuatorStateHandle().getPosition(), ".*");
+  EXPECT_DEATH(ActuatorHandle().setCommand(1.0), ".*");
 }
 
 TEST_F(HandlesTest, OnlyCommandInterfacesClaim) {
@@ -132,7 +153,7 @@ TEST_F(HandlesTest, FailedLookUpThrowsAndClaimsNothing) {
   PositionJointInterface positions;
   positions.registerHandle(JointHandle(state_, &cmd_));
   EXPECT_EQ("Could not find resource 'elbow' in 'hardware_interface::PositionJointInterface'.",
-            textOf<HardwareInterfaceException>([&] { positions.getHandle("elbow"); }));
+            refusal([&] { positions.getHandle("elbow"); }));
   EXPECT_THAT(positions.getClaims(), IsEmpty());
 }
 

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Every header of the original's ros_control exists and compiles alone, with every class and signature.
 
-Each header is compiled in its own file, which includes it twice; each file in `signatures/` uses the classes
-of the package with the same name.
+Each header is compiled in its own file, which includes it twice; each file in `signatures/` uses what no
+test of the package with the same name calls.
 """
 
 import hashlib

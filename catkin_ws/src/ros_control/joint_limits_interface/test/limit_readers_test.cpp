@@ -106,33 +106,6 @@ TEST(UrdfLimits, ReadsTheSafetyController) {
   EXPECT_EQ(6.0, soft.k_velocity);
 }
 
-// The values of the Panda's first joint, from a complete description.
-TEST(UrdfLimits, ReadsARobotDescription) {
-  urdf::Model model;
-  ASSERT_TRUE(model.initString(R"(
-      <robot name="panda"><link name="a"/><link name="b"/>
-        <joint name="panda_joint1" type="revolute"><parent link="a"/><child link="b"/>
-          <axis xyz="0 0 1"/>
-          <limit lower="-2.8973" upper="2.8973" velocity="2.1750" effort="87"/>
-          <safety_controller k_position="100" k_velocity="40" soft_lower_limit="-2.8973"
-                             soft_upper_limit="2.8973"/>
-        </joint>
-      </robot>)"));
-  JointLimits limits;
-  SoftJointLimits soft;
-  ASSERT_TRUE(getJointLimits(model.getJoint("panda_joint1"), limits));
-  ASSERT_TRUE(getSoftJointLimits(model.getJoint("panda_joint1"), soft));
-  EXPECT_EQ(-2.8973, limits.min_position);
-  EXPECT_EQ(2.8973, limits.max_position);
-  EXPECT_EQ(2.175, limits.max_velocity);
-  EXPECT_EQ(87.0, limits.max_effort);
-  EXPECT_EQ(-2.8973, soft.min_position);
-  EXPECT_EQ(2.8973, soft.max_position);
-  EXPECT_EQ(100.0, soft.k_position);
-  EXPECT_EQ(40.0, soft.k_velocity);
-  EXPECT_FALSE(getJointLimits(model.getJoint("panda_joint9"), limits));
-}
-
 TEST_F(ParamLimits, MissingLimitsReturnFalse) {
   JointLimits limits = marked();
   SoftJointLimits soft;

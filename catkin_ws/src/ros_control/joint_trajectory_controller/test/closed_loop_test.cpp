@@ -241,16 +241,6 @@ TEST_F(ClosedLoop, WaitsForTheGoalToleranceAndThenFails) {
   EXPECT_GE((time_ - before).toSec(), 0.999);
 }
 
-TEST_F(ClosedLoop, FailsAtOnceWithoutGoalTime) {
-  nh_.setParam(name_ + "/constraints/goal_time", 0.0);
-  start();
-  Goal goal = goalTo(target_);
-  goal.goal_time_tolerance = ros::Duration(5.0);
-  Client::GoalHandle handle = send(goal);
-  untilActive(handle);
-  EXPECT_EQ(Result::SUCCESSFUL, end(handle).error_code);
-}
-
 TEST_F(ClosedLoop, AnotherGoalPreempts) {
   start();
   Client::GoalHandle first = send(goalTo(target_));

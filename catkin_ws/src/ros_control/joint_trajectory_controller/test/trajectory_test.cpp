@@ -137,21 +137,15 @@ TEST_F(SplineTest, ZeroLengthGivesTheStartState) {
 }
 
 TEST_F(SplineTest, RefusesInvalidArguments) {
-  const auto refused = [](double begin, Spline::State from, double end, Spline::State to) {
-    try {
-      Spline segment(begin, from, end, to);
-      return std::string();
-    } catch (const std::invalid_argument& error) {
-      return std::string(error.what());
-    }
+  const auto expectRefusal = [](double begin, Spline::State from, double end, Spline::State to) {
+    EXPECT_THROW(Spline(begin, from, end, to), std::invalid_argument);
   };
-  const std::string prefix = "Quintic spline segment can't be constructed: ";
-  EXPECT_EQ(0u, refused(1, stateOf({0}), 0, stateOf({0})).find(prefix));
-  EXPECT_EQ(0u, refused(0, stateOf({}), 1, stateOf({0})).find(prefix));
-  EXPECT_EQ(0u, refused(0, stateOf({0}), 1, stateOf({0, 1})).find(prefix));
-  EXPECT_EQ(0u, refused(0, stateOf({0}, {1, 2}), 1, stateOf({0})).find(prefix));
-  EXPECT_EQ(0u, refused(0, stateOf({0}), 1, stateOf({0}, {1}, {1, 2})).find(prefix));
-  EXPECT_EQ(0u, refused(0, stateOf({0}), std::nan(""), stateOf({0})).find(prefix));
+  expectRefusal(1, stateOf({0}), 0, stateOf({0}));
+  expectRefusal(0, stateOf({}), 1, stateOf({0}));
+  expectRefusal(0, stateOf({0}), 1, stateOf({0, 1}));
+  expectRefusal(0, stateOf({0}, {1, 2}), 1, stateOf({0}));
+  expectRefusal(0, stateOf({0}), 1, stateOf({0}, {1}, {1, 2}));
+  expectRefusal(0, stateOf({0}), std::nan(""), stateOf({0}));
 }
 
 trajectory_msgs::JointTrajectoryPoint pointOf(double time, std::vector<double> p,
@@ -312,10 +306,7 @@ TEST_F(SpliceTest, DropsPastPoints) {
   EXPECT_NEAR(2.0, at(result[0], 4.5).position[0], 1e-9);
   msg_.header.stamp = ros::Time(90.0);
   EXPECT_TRUE(convert().empty());
-  EXPECT_EQ(
-      "Dropping all 2 trajectory point(s), as they occur before the current time.\n"
-      "Last point is 8.000000s in the past.",
-      error_);
+  EXPECT_NE(std::string::npos, error_.find("8.000000s in the past")) << error_;
 }
 
 TEST_F(SpliceTest, NeedsTwoPointsWithoutACurrentTrajectory) {
@@ -377,7 +368,7 @@ TEST_F(SpliceTest, RefusesBadMessagesWithASentence) {
   const trajectory_msgs::JointTrajectory good = msg_;
   msg_.points.clear();
   EXPECT_TRUE(convert().empty());
-  EXPECT_EQ("Trajectory message contains empty trajectory. Nothing to convert.", error_);
+  EXPECT_NE(std::string::npos, error_.find("empty trajectory"));
 
   msg_ = good;
   msg_.points[1].time_from_start = msg_.points[0].time_from_start;
@@ -419,15 +410,6 @@ TEST_F(SpliceTest, ThrowsOnPointsOfTheWrongSize) {
   msg_ = good;
   msg_.points[0].positions.clear();
   EXPECT_THROW(convert(), std::invalid_argument);
-}
-
-TEST(Mapping, OrdersAndRefuses) {
-  const std::vector<std::string> all{"a", "b", "c"};
-  typedef std::vector<std::string> Names;
-  EXPECT_EQ((std::vector<unsigned int>{2, 0}), jtc::internal::mapping(Names{"c", "a"}, all));
-  EXPECT_TRUE(jtc::internal::mapping(Names{"c", "d"}, all).empty());
-  EXPECT_TRUE(jtc::internal::mapping(Names{"c", "c"}, all).empty());
-  EXPECT_TRUE(jtc::internal::mapping(all, Names{"a"}).empty());
 }
 
 TEST(Messages, PointsAreFoundByTime) {
@@ -578,6 +560,9 @@ TEST(Tolerances, CheckAndOverride) {
   EXPECT_EQ(0.0, all.state_tolerance[1].velocity);
   EXPECT_EQ(3.0, all.state_tolerance[1].acceleration);
   EXPECT_EQ(0.0, all.goal_time_tolerance);
+  goal.goal_time_tolerance = ros::Duration(5.0);
+  jtc::updateSegmentTolerances(goal, {"a", "b"}, all);
+  EXPECT_EQ(5.0, all.goal_time_tolerance);
 }
 
 }  // namespace

@@ -53,17 +53,6 @@ class Handles : public testing::Test {
 
 }  // namespace
 
-TEST_F(Handles, StateOfActuatorsReachesJoints) {
-  ActuatorToJointStateHandle handle("gear", &gear_, actuators(), joints());
-  EXPECT_EQ("gear", handle.getName());
-  handle.propagate();
-  EXPECT_DOUBLE_EQ(0.6, joint_.position);
-  EXPECT_DOUBLE_EQ(0.2, joint_.velocity);
-  EXPECT_DOUBLE_EQ(30.0, joint_.effort);
-  EXPECT_DOUBLE_EQ(0.9, joint_.absolute);
-  EXPECT_DOUBLE_EQ(50.0, joint_.torque);
-}
-
 TEST_F(Handles, SensorsMissingOnOneSideAreIgnored) {
   ActuatorData without = actuators();
   without.absolute_position.clear();
@@ -90,13 +79,6 @@ TEST_F(Handles, SensorsThatTheTransmissionCannotMapAreIgnored) {
   ActuatorToJointStateHandle("bars", &four_bar, a, j).propagate();
   EXPECT_EQ(0.0, j2.position);
   EXPECT_EQ(4.0, j2.absolute);
-}
-
-TEST_F(Handles, StateOfJointsReachesActuators) {
-  JointToActuatorStateHandle("gear", &gear_, actuators(), joints()).propagate();
-  EXPECT_DOUBLE_EQ(5.0, actuator_.position);
-  EXPECT_DOUBLE_EQ(20.0, actuator_.velocity);
-  EXPECT_DOUBLE_EQ(0.3, actuator_.effort);
 }
 
 TEST_F(Handles, EachCommandIsMappedAlone) {

@@ -56,10 +56,13 @@ TEST(AsyncJointGenerator, ReachesATargetExactlyInTrapezoidTime) {
     const RobotCommand command = jointPositions(target);
     motion.step(&command);
     int ticks = 1;
+    double fastest = 0.0;
     while (motion.generator.desired().q_d != target) {
       ASSERT_LT(ticks++, 5000);
       EXPECT_FALSE(motion.step(nullptr).finished);
+      fastest = std::max(fastest, motion.generator.desired().dq_d[0]);
     }
+    EXPECT_NEAR(0.999, fastest, 1e-9) << "a thousandth below the given speed";
     const double expected = 0.8 / 1.0 + 1.0 / arm.ddq[0];  // way / v + v / a
     EXPECT_NEAR(expected / kTick, ticks, 8);
     const RobotCommand last = finished(command);

@@ -43,36 +43,6 @@ TEST(Elbow, MustKeepItsSignAndBeFinite) {
             motion.step(withElbow(pose(startPose()), NAN)).errors);
 }
 
-TEST(SolvedJoints, RaiseTheirOwnFlags) {
-  // Slow enough for the hand, too fast for the joints: near its reach the elbow must open quickly.
-  const auto flagOf = [](unsigned protocol, const Joints& q, const Twist& way,
-                         double acceleration) {
-    Motion motion(protocol, MotionGeneratorMode::kCartesianVelocity, q);
-    double v = 0.0;
-    double a = 0.0;
-    ErrorSet fault;
-    for (int tick = 0; tick < 4000 && !fault; tick++) {
-      a = std::min(a + 0.5, acceleration);
-      v += a * kTick;
-      Twist command = way;
-      for (double& value : command) {
-        value *= v;
-      }
-      fault = motion.step(twist(command)).errors;
-    }
-    return fault;
-  };
-  EXPECT_EQ(RobotError::kCartesianMotionGeneratorJointVelocityLimitsViolation,
-            flagOf(5, kReady, {{0, 1, 0, 0, 0, 0}}, 1.0));
-  EXPECT_EQ(RobotError::kCartesianMotionGeneratorJointVelocityDiscontinuity,
-            flagOf(5, kReady, {{1, 0, 0, 0, 0, 0}}, 3.0));
-  Joints close_to_end = kReady;
-  close_to_end[6] = 2.85;
-  const Twist turn{{0, 0, 0, 0, 0, -1}};
-  EXPECT_EQ(RobotError::kCartesianMotionGeneratorJointPositionLimitsViolation,
-            flagOf(5, close_to_end, turn, 0.1));
-}
-
 TEST(SolvedJoints, HaveThreeAndAHalfTimesTheJerkLimit) {
   for (const auto& [acceleration, fault] :
        {std::pair{12.5, ErrorSet()},

@@ -14,21 +14,6 @@ typedef std::list<ControllerInfo> Infos;
 
 EXPECT_BASE(hardware_interface::RobotHW, CombinedRobotHW);
 struct Combined : CombinedRobotHW {
-  bool init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) override {
-    return CombinedRobotHW::init(root_nh, robot_hw_nh);
-  }
-  bool prepareSwitch(const Infos& start, const Infos& stop) override {
-    return CombinedRobotHW::prepareSwitch(start, stop);
-  }
-  void doSwitch(const Infos& start, const Infos& stop) override {
-    CombinedRobotHW::doSwitch(start, stop);
-  }
-  void read(const ros::Time& time, const ros::Duration& period) override {
-    CombinedRobotHW::read(time, period);
-  }
-  void write(const ros::Time& time, const ros::Duration& period) override {
-    CombinedRobotHW::write(time, period);
-  }
   bool loadRobotHW(const std::string& name) override {
     Infos filtered;
     filterControllerList(Infos(), filtered, robot_hw_list_.front());

@@ -16,7 +16,6 @@ using namespace controller_interface;
 using hardware_interface::EffortJointInterface;
 using hardware_interface::JointStateInterface;
 using hardware_interface::RobotHW;
-typedef ControllerBase::ControllerState State;
 
 // The base.
 static_assert(std::is_default_constructible<Controller<EffortJointInterface>>::value == false, "");
@@ -26,35 +25,9 @@ static_assert(std::has_virtual_destructor<ControllerBase>::value, "");
 EXPECT_TYPE(ControllerBaseSharedPtr, std::shared_ptr<ControllerBase>());
 EXPECT_TYPE(ControllerBase::ClaimedResources,
             std::vector<hardware_interface::InterfaceResources>());
-struct Direct : ControllerBase {
-  void starting(const ros::Time&) override {}
-  void update(const ros::Time&, const ros::Duration&) override {}
-  void stopping(const ros::Time&) override {}
-  void waiting(const ros::Time&) override {}
-  void aborting(const ros::Time&) override {}
-  bool initRequest(RobotHW*, ros::NodeHandle&, ros::NodeHandle&, ClaimedResources&) override {
-    state_ = ControllerState::INITIALIZED;
-    return state_ == State::INITIALIZED;
-  }
-};
-EXPECT_TYPE(bool, of<const ControllerBase>().isInitialized());
-EXPECT_TYPE(bool, of<const ControllerBase>().isRunning());
-EXPECT_TYPE(bool, of<const ControllerBase>().isStopped());
-EXPECT_TYPE(bool, of<const ControllerBase>().isWaiting());
-EXPECT_TYPE(bool, of<const ControllerBase>().isAborted());
-EXPECT_TYPE(void, of<ControllerBase>().updateRequest(ros::Time(), ros::Duration()));
-EXPECT_TYPE(bool, of<ControllerBase>().startRequest(ros::Time()));
-EXPECT_TYPE(bool, of<ControllerBase>().stopRequest(ros::Time()));
-EXPECT_TYPE(bool, of<ControllerBase>().waitRequest(ros::Time()));
-EXPECT_TYPE(bool, of<ControllerBase>().abortRequest(ros::Time()));
-constexpr State kStates[] = {State::CONSTRUCTED, State::INITIALIZED, State::RUNNING,
-                             State::STOPPED,     State::WAITING,     State::ABORTED};
-static_assert(sizeof(kStates) > 0, "");  // NOLINT(bugprone-sizeof-expression)  uses the names
 
 // Controllers of one interface.
 struct Single : Controller<EffortJointInterface> {
-  bool init(EffortJointInterface*, ros::NodeHandle&) override { return true; }
-  bool init(EffortJointInterface*, ros::NodeHandle&, ros::NodeHandle&) override { return true; }
   void update(const ros::Time&, const ros::Duration&) override {}
 
  protected:
@@ -74,8 +47,6 @@ struct Mixed : MixIn, Single {
 typedef MultiInterfaceController<EffortJointInterface, JointStateInterface> Two;
 struct Multi : Two {
   Multi() : MultiInterfaceController(true) {}
-  bool init(RobotHW*, ros::NodeHandle&) override { return true; }
-  bool init(RobotHW*, ros::NodeHandle&, ros::NodeHandle&) override { return true; }
   void update(const ros::Time&, const ros::Duration&) override {}
 
  protected:
@@ -96,8 +67,6 @@ struct One : MultiInterfaceController<EffortJointInterface> {
   void update(const ros::Time&, const ros::Duration&) override {}
 };
 
-EXPECT_TYPE(std::string, internal::enumerateElements(std::vector<std::string>(), std::string(),
-                                                     std::string(), std::string()));
 EXPECT_TYPE(bool,
             internal::hasInterfaces<EffortJointInterface, JointStateInterface>(of<RobotHW*>()));
 EXPECT_TYPE(void, internal::clearClaims<EffortJointInterface>(of<RobotHW*>()));

@@ -15,41 +15,16 @@
 #include <transmission_interface/simple_transmission_loader.h>
 #include <transmission_interface/transmission_interface.h>
 #include <transmission_interface/transmission_interface_loader.h>
-#include <transmission_interface/transmission_parser.h>
 #include <transmission_interface/velocity_joint_interface_provider.h>
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "signature.h"
 
 using namespace transmission_interface;
-typedef std::vector<double> Doubles;
 
-// Descriptions.
-EXPECT_TYPE(std::string&, (of<JointInfo>().name_));
-EXPECT_TYPE(std::string&, (of<JointInfo>().role_));
-EXPECT_TYPE(std::string&, (of<JointInfo>().xml_element_));
-EXPECT_TYPE(std::string&, (of<ActuatorInfo>().name_));
-EXPECT_TYPE(std::string&, (of<ActuatorInfo>().xml_element_));
-EXPECT_TYPE(std::string&, (of<TransmissionInfo>().name_));
-EXPECT_TYPE(std::string&, (of<TransmissionInfo>().type_));
-EXPECT_TYPE(std::vector<std::string>&, (of<JointInfo>().hardware_interfaces_));
-EXPECT_TYPE(std::vector<std::string>&, (of<ActuatorInfo>().hardware_interfaces_));
-EXPECT_TYPE(std::vector<JointInfo>&, (of<TransmissionInfo>().joints_));
-EXPECT_TYPE(std::vector<ActuatorInfo>&, (of<TransmissionInfo>().actuators_));
-EXPECT_TYPE(bool, TransmissionParser::parse(std::string(), of<std::vector<TransmissionInfo>>()));
-
-// Transmissions.
-template <class Data>
-void useData(Data& data) {
-  for (auto* member : {&data.position, &data.velocity, &data.effort, &data.absolute_position,
-                       &data.torque_sensor}) {
-    EXPECT_TYPE(std::vector<double*>*, member + 0);
-  }
-}
-template void useData(ActuatorData&);
-template void useData(JointData&);
 struct Own : Transmission {
   void actuatorToJointEffort(const ActuatorData&, JointData&) override {}
   void actuatorToJointVelocity(const ActuatorData&, JointData&) override {}
@@ -66,24 +41,11 @@ struct Own : Transmission {
 };
 EXPECT_TYPE(TransmissionSharedPtr, std::shared_ptr<Transmission>());
 EXPECT_BASE(Transmission, SimpleTransmission);
-SimpleTransmission made_from_a_list = {10.0, 1.0};
-EXPECT_TYPE(double, SimpleTransmission(1.0).getActuatorReduction());
-EXPECT_TYPE(double, SimpleTransmission(1.0, 0.0).getJointOffset());
-template <class T>
-constexpr bool isPair() {
-  EXPECT_BASE(Transmission, T);
-  EXPECT_TYPE(const Doubles&, T(Doubles(), Doubles()).getActuatorReduction());
-  EXPECT_TYPE(const Doubles&, T(Doubles(), Doubles(), Doubles()).getJointReduction());
-  EXPECT_TYPE(const Doubles&, of<const T>().getJointOffset());
-  return true;
-}
-static_assert(isPair<DifferentialTransmission>(), "");
-static_assert(isPair<FourBarLinkageTransmission>(), "");
-EXPECT_TYPE(DifferentialTransmission, DifferentialTransmission(Doubles(), Doubles(), true));
+EXPECT_BASE(Transmission, DifferentialTransmission);
+EXPECT_BASE(Transmission, FourBarLinkageTransmission);
 EXPECT_TYPE(DifferentialTransmission,
-            DifferentialTransmission(Doubles(), Doubles(), true, Doubles()));
+            DifferentialTransmission(std::vector<double>(), std::vector<double>(), true));
 EXPECT_BASE(std::exception, TransmissionInterfaceException);
-EXPECT_TYPE(const char*, TransmissionInterfaceException(std::string()).what());
 
 // Handles and their interfaces.
 template <class Handle, class Interface>
@@ -91,12 +53,6 @@ constexpr bool isMap() {
   EXPECT_BASE(TransmissionHandle, Handle);
   EXPECT_BASE(TransmissionInterface<Handle>, Interface);
   EXPECT_BASE(hardware_interface::ResourceManager<Handle>, Interface);
-  EXPECT_TYPE(std::string, Handle(std::string(), static_cast<Transmission*>(nullptr),
-                                  of<const ActuatorData>(), of<const JointData>())
-                               .getName());
-  EXPECT_TYPE(void, of<Handle>().propagate());
-  EXPECT_TYPE(void, of<Interface>().propagate());
-  EXPECT_TYPE(Handle, of<Interface>().getHandle(std::string()));
   return true;
 }
 static_assert(isMap<ActuatorToJointStateHandle, ActuatorToJointStateInterface>(), "");
@@ -134,16 +90,6 @@ EXPECT_BASE(JointStateInterfaceProvider, EffortJointInterfaceProvider);
 EXPECT_BASE(RequisiteProvider, BiDirectionalPositionJointInterfaceProvider);
 EXPECT_BASE(RequisiteProvider, BiDirectionalVelocityJointInterfaceProvider);
 EXPECT_BASE(RequisiteProvider, BiDirectionalEffortJointInterfaceProvider);
-typedef TransmissionInterfaceLoader Loader;
-EXPECT_TYPE(bool, Loader(static_cast<hardware_interface::RobotHW*>(nullptr),
-                         static_cast<RobotTransmissions*>(nullptr))
-                      .load(std::string()));
-EXPECT_TYPE(bool, of<Loader>().load(std::vector<TransmissionInfo>()));
-EXPECT_TYPE(bool, of<Loader>().load(TransmissionInfo()));
-EXPECT_TYPE(TransmissionLoaderData*, of<Loader>().getData());
-EXPECT_TYPE(double&, (of<RawJointData>().position));
-EXPECT_TYPE(double&, (of<RawJointData>().velocity));
-EXPECT_TYPE(double&, (of<RawJointData>().effort));
 EXPECT_TYPE(double&, (of<RawJointData>().position_cmd));
 EXPECT_TYPE(double&, (of<RawJointData>().velocity_cmd));
 EXPECT_TYPE(double&, (of<RawJointData>().effort_cmd));

@@ -1,0 +1,34 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+//
+// Numbers in texts; that the locale changes nothing is shown by python/test/test_locale.py.
+#include <franka_core/numbers.h>
+#include <gtest/gtest.h>
+
+#include <limits>
+
+namespace franka_core {
+namespace {
+
+TEST(Numbers, TheWholeTextIsRead) {
+  EXPECT_EQ(0.5, readNumber("0.5"));
+  EXPECT_EQ(-1e-05, readNumber(" -1e-05\n"));
+  EXPECT_EQ(3.0, readNumber("+3."));
+  for (const char* text : {"", " ", "0,5", "1 2", "1.5x", "+-1", "+", "nan", "inf", "1e999", "x"}) {
+    EXPECT_FALSE(readNumber(text)) << "'" << text << "'";
+  }
+}
+
+TEST(Numbers, TextsHaveTheRequestedDigits) {
+  EXPECT_EQ("0.3333", numberText(1.0 / 3.0, 4));
+  EXPECT_EQ("-20", numberText(-20.0));
+  EXPECT_EQ("1e+20", numberText(1e20));
+  EXPECT_EQ("0.250", fixedText(0.25, 3));
+  EXPECT_EQ("-3", fixedText(-2.75, 0));
+  const double largest = std::numeric_limits<double>::max();
+  EXPECT_EQ(largest, readNumber(numberText(largest, 17)));
+  EXPECT_EQ(largest, readNumber(fixedText(-largest, 30).substr(1)));
+}
+
+}  // namespace
+}  // namespace franka_core
