@@ -78,6 +78,12 @@ def run(*arguments: str, monkeypatch) -> int:
             LICENCE + "const auto number = readNumber(text);\n",
             LICENCE + "const double number = std::stod(text);\n",
         ),
+        (
+            "text",
+            "a.cpp",
+            LICENCE + 'std::snprintf(a, n, "%i", i);\nstd::printf("%g", x);\n',
+            LICENCE + 'std::snprintf(a, n,\n              "%i %.3f", i, x);\n',
+        ),
         ("ruff", "a.py", "import os\n\nprint(os.name)\n", "import os\n"),
         ("ruff", "program", "#!/usr/bin/env python3\nprint(1)\n", "#!/usr/bin/env python3\nprint( 1 )\n"),
         ("clang-format", "a.cpp", "int a = 1;\n", "int a=1;\n"),

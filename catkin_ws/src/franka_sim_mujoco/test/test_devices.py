@@ -101,6 +101,13 @@ def lift_to(robot, height):
     )
 
 
+def gives(states):
+    """How far the arm's joints, held by springs, yield at most when the lift starts and stops [rad]: until
+    the springs hold the kinetic energy of the whole load at the lift's speed. Then they return."""
+    weakest = 2000.0  # [Nm/rad], of the joints' default stiffness
+    return np.sqrt(sum(masses()) * max(state["lift"][1] for state in states) ** 2 / weakest)
+
+
 def test_all_joints_are_published(robot):
     state = robot.when(lambda _: True, "A state")[-1]
     assert {*ARM, *FINGERS, "lift", "head", "tilt", "fan"} == set(state)
@@ -119,12 +126,8 @@ def test_the_lift_raises_the_arm_within_its_speed_limit(robot, arm):
     assert max(speeds) == pytest.approx(0.2, abs=1e-3)  # the URDF's limit
     base = call("/gazebo/get_body_pose", GetBodyPose, body="panda_link0").pose
     assert base.position.z == pytest.approx(0.2 + 0.3, abs=2e-4)
-    # When the lift starts and stops, the joints, held by springs, yield: at most until the springs hold
-    # the kinetic energy of the whole load at that speed. Then they return to their positions.
-    weakest = 2000.0  # [Nm/rad], of the joints' default stiffness
-    gives = np.sqrt(sum(masses()) * max(speeds) ** 2 / weakest)
     for state in arm[arm.index(before) :]:
-        assert np.abs(np.array(state.q) - before.q).max() < gives
+        assert np.abs(np.array(state.q) - before.q).max() < gives(states)
         assert state.current_errors == type(state.current_errors)()
     robot.when(lambda _: np.abs(np.array(arm[-1].q) - before.q).max() < 1e-3, "The arm to stand again")
 
@@ -143,16 +146,15 @@ def test_the_lift_effort_is_the_weight_above_it(robot):
 
 def test_an_arm_controller_runs_beside_the_lift(robot, arm):
     assert robot.switch(start=["joint_position_example_controller"])
-    begin = len(arm)
-    lift_to(robot, 0.1)
-    lift_to(robot, 0.2)
+    begin, at = len(arm), arm[-1].q_d[0]
+    moves = lift_to(robot, 0.1) + lift_to(robot, 0.2)
+    robot.when(lambda _: abs(arm[-1].q_d[0] - at) > 0.01, "The motion of joint 1 by its controller")
     states = [state for state in arm[begin:] if state.robot_mode == MOVE]
     assert robot.switch(stop=["joint_position_example_controller"])
     assert len(states) > 10
-    for state in states:
-        # The control unit does not know the lift's accelerations at start and stop.
-        assert np.abs(np.array(state.q) - state.q_d).max() < 5e-3
-    assert np.ptp([state.q_d[0] for state in states]) > 0.01
+    # The control unit does not know the lift's accelerations at start and stop.
+    deviations = [np.abs(np.array(state.q) - state.q_d).max() for state in states]
+    assert max(deviations) < gives(moves) and np.median(deviations) < 1e-3
     # It reports them as external forces, at least at the end; at rest it reports 1e-6 N.
     assert max(abs(state.O_F_ext_hat_K[2]) for state in states) > 1e-3
 

@@ -5,11 +5,11 @@
 #include <pthread.h>
 #include <ros/console.h>
 
-#include <array>
 #include <atomic>
 #include <chrono>
-#include <cstdio>
 #include <optional>
+#include <sstream>
+#include <string>
 #include <thread>
 
 #include "interpreter.h"
@@ -240,11 +240,10 @@ std::string ScriptRunner::reason() const {
   if (!shared_->late) {
     return shared_->failure;
   }
-  std::array<char, 128> text;
-  std::snprintf(text.data(), text.size(),
-                "The script did not answer within the %.3g ms that it is allowed.",
-                1e3 * shared_->limit);
-  return text.data();
+  std::ostringstream text;
+  text << "The script did not answer within the " << 1e3 * shared_->limit
+       << " ms that it is allowed.";
+  return text.str();
 }
 
 void ScriptRunner::interrupt() {

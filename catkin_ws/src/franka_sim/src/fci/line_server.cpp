@@ -75,7 +75,7 @@ Reply LineServer::execute(const std::string& line) const {
   } catch (const std::exception& failure) {
     return error(failure.what());
   } catch (...) {
-    return error("The command failed for a reason that has no sentence.");
+    return error("The command failed with an unknown error.");
   }
 }
 

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/xml_util.h"
 
+#include <franka_core/numbers.h>
+
 #include <charconv>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
-#include <system_error>
 
 namespace franka_sim::physics {
 
@@ -38,15 +40,12 @@ std::vector<double> toNumbers(const std::string& text, const std::string& where)
   std::size_t begin = text.find_first_not_of(kBlanks);
   while (begin != std::string::npos) {
     const std::size_t end = std::min(text.find_first_of(kBlanks, begin), text.size());
-    // from_chars rejects a leading plus sign, XML authors write it.
-    const char* first = text.data() + begin + (text[begin] == '+' ? 1 : 0);
-    double value = 0;
-    const auto result = std::from_chars(first, text.data() + end, value);
-    if (result.ec != std::errc() || result.ptr != text.data() + end || !std::isfinite(value)) {
-      throw std::runtime_error(where + ": '" + text.substr(begin, end - begin) +
-                               "' is not a finite number.");
+    const std::string word = text.substr(begin, end - begin);
+    const std::optional<double> value = franka_core::readNumber(word);
+    if (!value) {
+      throw std::runtime_error(where + ": '" + word + "' is not a finite number.");
     }
-    values.push_back(value);
+    values.push_back(*value);
     begin = text.find_first_not_of(kBlanks, end);
   }
   return values;

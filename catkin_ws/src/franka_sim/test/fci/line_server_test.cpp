@@ -128,7 +128,7 @@ TEST_F(LineServerTest, AnswersWhateverACommandThrows) {
   tick();
   EXPECT_EQ("error: There is no such robot.\n", user.sees());
   tick();
-  EXPECT_EQ("error: The command failed for a reason that has no sentence.\n", user.sees());
+  EXPECT_EQ("error: The command failed with an unknown error.\n", user.sees());
   tick();
   EXPECT_EQ("ok 1\n", user.sees());
 }

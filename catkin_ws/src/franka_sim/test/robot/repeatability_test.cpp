@@ -28,14 +28,14 @@ void append(std::vector<double>& log, const franka_core::RobotState& s) {
   log.push_back(s.control_command_success_rate);
 }
 
-/// Runs a story twice: the same bits, and neither a tick nor a request allocates or locks.
-/// @param story appends to a log and adds up what the real-time guard counts
+/// Runs a scenario twice: the same bits, and neither a tick nor a request allocates or locks.
+/// @param scenario appends to a log and adds up what the real-time guard counts
 void expectRepeatableAndRealTimeSafe(
-    const std::function<void(std::vector<double>& log, std::size_t& dirty)>& story) {
+    const std::function<void(std::vector<double>& log, std::size_t& dirty)>& scenario) {
   std::vector<double> runs[2];
   std::size_t dirty = 0;
   for (std::vector<double>& log : runs) {
-    story(log, dirty);
+    scenario(log, dirty);
   }
   ASSERT_EQ(runs[0].size(), runs[1].size());
   EXPECT_EQ(0, std::memcmp(runs[0].data(), runs[1].data(), runs[0].size() * sizeof(double)));
@@ -75,11 +75,8 @@ TEST(Repeatability, TorqueControlAndRequestsAreRepeatableAndRealTimeSafe) {
       }
       franka_core::RobotCommand command;
       command.tau_J_d[i % 7] = 0.3 * std::sin(0.01 * i);
-      const franka_core::RobotState& state = unit.observe(arm.measure());
-      arm.applyTorques(unit.actuate(i % 11 == 0 ? nullptr : &command));
-      arm.setBrakes(unit.status().brakes_closed);
+      const franka_core::RobotState& state = tick(unit, arm, i % 11 == 0 ? nullptr : &command);
       dirty += scope.allocations() + scope.locks();
-      arm.step();
       append(log, state);
     }
   });
@@ -116,11 +113,8 @@ TEST(Repeatability, MotionReflexAndRecoveryAreRepeatableAndRealTimeSafe) {
       }
       command.O_dP_EE_c[1] = i < 1000 ? 2e-5 * (i - 10) : 0.0;
       command.dq_c[0] = i > 2500 ? 1e-4 * (i - 2500) : 0.0;
-      const franka_core::RobotState& state = unit.observe(arm.measure());
-      arm.applyTorques(unit.actuate(i % 11 == 0 ? nullptr : &command));
-      arm.setBrakes(unit.status().brakes_closed);
+      const franka_core::RobotState& state = tick(unit, arm, i % 11 == 0 ? nullptr : &command);
       dirty += scope.allocations() + scope.locks();
-      arm.step();
       append(log, state);
       modes[static_cast<std::size_t>(state.robot_mode)]++;
     }

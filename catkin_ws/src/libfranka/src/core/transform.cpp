@@ -1,12 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/finite.h>
+#include <franka_core/numbers.h>
 #include <franka_core/transform.h>
 
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdio>
+#include <string>
 
 namespace franka_core {
 
@@ -51,11 +52,9 @@ double determinant(const Matrix& m) noexcept {
 }
 
 std::string lengthFault(const char* what, std::size_t i, double length) {
-  char text[120];
-  std::snprintf(text, sizeof(text),
-                "%s %zu of its rotation has the length %.9g and must have the length 1 within %g",
-                what, i + 1, length, kTransformTolerance);
-  return text;
+  return std::string(what) + " " + std::to_string(i + 1) + " of its rotation has the length " +
+         numberText(length, 9) + " and must have the length 1 within " +
+         numberText(kTransformTolerance);
 }
 
 }  // namespace
@@ -78,21 +77,17 @@ bool isRigidTransform(const Matrix& matrix) noexcept {
 }
 
 std::string transformFault(const Matrix& matrix) {
-  char text[160];
   for (std::size_t i = 0; i < matrix.size(); i++) {
     if (!std::isfinite(matrix[i])) {
-      std::snprintf(text, sizeof(text),
-                    "its entry in row %zu and column %zu is %g and must be a finite number",
-                    i % 4 + 1, i / 4 + 1, matrix[i]);
-      return text;
+      return "its entry in row " + std::to_string(i % 4 + 1) + " and column " +
+             std::to_string(i / 4 + 1) + " is " + numberText(matrix[i]) +
+             " and must be a finite number";
     }
   }
   if (!hasExactBottomRow(matrix)) {
-    std::snprintf(text, sizeof(text),
-                  "its bottom row (entries 4, 8, 12 and 16 of a column-major matrix) is %g %g %g "
-                  "%.17g and must be exactly 0 0 0 1",
-                  matrix[3], matrix[7], matrix[11], matrix[15]);
-    return text;
+    return "its bottom row (entries 4, 8, 12 and 16 of a column-major matrix) is " +
+           numberText(matrix[3]) + " " + numberText(matrix[7]) + " " + numberText(matrix[11]) +
+           " " + numberText(matrix[15], 17) + " and must be exactly 0 0 0 1";
   }
   for (std::size_t i = 0; i < 3; i++) {
     if (!isUnit(columnLength(matrix, i))) {
@@ -105,11 +100,10 @@ std::string transformFault(const Matrix& matrix) {
   for (std::size_t i = 0; i < 3; i++) {
     const std::size_t j = (i + 1) % 3;
     if (!areRight(matrix, i, j)) {
-      std::snprintf(text, sizeof(text),
-                    "columns %zu and %zu of its rotation are not at right angles: their product is "
-                    "%.9g and must be 0 within %g",
-                    i + 1, j + 1, productOfColumns(matrix, i, j), kTransformTolerance);
-      return text;
+      return "columns " + std::to_string(i + 1) + " and " + std::to_string(j + 1) +
+             " of its rotation are not at right angles: their product is " +
+             numberText(productOfColumns(matrix, i, j), 9) + " and must be 0 within " +
+             numberText(kTransformTolerance);
     }
   }
   return determinant(matrix) > 0.0 ? "" : "it mirrors: the determinant of its rotation is -1";
