@@ -33,6 +33,9 @@ function(franka_compile_several_sources_at_once)
     get_target_property(type ${target} TYPE)
     if(type MATCHES "^(SHARED_LIBRARY|MODULE_LIBRARY|EXECUTABLE)$" AND NOT target MATCHES "_(test|bench)")
       set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+      # CMake includes the sources by absolute paths. As __FILE__ they would reach the binaries, and a clone in another
+      # folder would find nothing in the compiler's cache.
+      target_compile_options(${target} PRIVATE "-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=")
     endif()
   endforeach()
 endfunction()
