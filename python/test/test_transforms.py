@@ -13,6 +13,7 @@ from transform_sweep import check, raised
 UNLIMITED = {"limit_rate": False, "cutoff_frequency": 1000.0}
 FRAME = np.eye(4)
 FRAME[:3, 3] = 0.01, -0.02, 0.03
+TURNED = np.array([[0.0, -1.0, 0.0, 0.01], [1.0, 0.0, 0.0, 0.02], [0.0, 0.0, 1.0, 0.1], [0.0, 0.0, 0.0, 1.0]])
 
 
 @pytest.mark.parametrize("options", [{}, UNLIMITED], ids=["limited", "unlimited"])
@@ -66,14 +67,11 @@ def test_the_line_end_effector(robot, served, name):
 
 def test_a_matrix_and_its_columns_set_the_same_end_effector(robot, served, name):
     before = robot.read_once()
-    turned = np.array(
-        [[0.0, -1.0, 0.0, 0.01], [1.0, 0.0, 0.0, 0.02], [0.0, 0.0, 1.0, 0.1], [0.0, 0.0, 0.0, 1.0]]
-    )
     body = (0.5, [0.0, 0.0, 0.03], 1e-3 * np.eye(3))
-    for given in (turned, turned.tolist(), turned.T.ravel()):
+    for given in (TURNED, TURNED.tolist(), TURNED.T.ravel()):
         served[name].remote.end_effector(*body, np.eye(4))
         served[name].remote.end_effector(*body, given)
-        np.testing.assert_allclose(robot.read_once().F_T_NE, turned, atol=1e-12)
+        np.testing.assert_allclose(robot.read_once().F_T_NE, TURNED, atol=1e-12)
     with pytest.raises(ValueError, match="4x4"):
         served[name].remote.end_effector(*body, np.ones((2, 8)))
     served[name].remote.end_effector(before.m_ee, before.F_x_Cee, before.I_ee, before.F_T_NE)
@@ -94,6 +92,15 @@ def simulated(simulation):
 @pytest.mark.parametrize("setter", ["set_EE", "set_K"])
 def test_setters_in_a_simulation(simulated, setter):
     check(FRAME, lambda perturbed: raised(lambda: getattr(simulated, setter)(perturbed.matrix), ValueError))
+
+
+@pytest.mark.parametrize("setter, field", [("set_EE", "NE_T_EE"), ("set_K", "EE_T_K")])
+def test_a_matrix_and_its_columns_set_the_same_frame_in_a_simulation(simulation, simulated, setter, field):
+    for given in (TURNED, TURNED.tolist(), TURNED.T.ravel()):
+        getattr(simulated, setter)(np.eye(4))
+        getattr(simulated, setter)(given)
+        simulation.step(1)
+        np.testing.assert_allclose(getattr(simulated.state, field), TURNED, atol=1e-12)
 
 
 def test_impedance_targets_in_a_simulation(simulation, simulated):

@@ -257,6 +257,13 @@ def test_a_grasp_of_another_width_reports_another_object(hand_with_stone, expect
     assert "another one than expected" in text
 
 
+@pytest.mark.parametrize("expected, grasped", [(0.04, True), (0.02, False)])
+def test_a_grasp_allows_the_inner_epsilon_below_and_the_outer_above(hand_with_stone, expected, grasped):
+    """The stone is 0.03 m wide."""
+    epsilon = GraspEpsilon(inner=0.015, outer=0.002)
+    assert hand_with_stone.grasp(expected, epsilon=epsilon).result()[:2] == (SUCCEEDED, grasped)
+
+
 def test_a_blocked_move_ends_and_reports_the_width(hand_with_stone):
     state, success, text = hand_with_stone.move(0.0, 0.05).result()
     assert (state, success) == (SUCCEEDED, False)

@@ -146,6 +146,14 @@ TEST_P(ModelKDLTest, AgreesWithTheIndependentArmModel) {
     ASSERT_LT(difference(model.gravity(s.q, s.mass, s.com, s.gravity),
                          other.gravity(s.q, payload, s.gravity)),
               1e-11);
+    // A payload belongs to its call only.
+    ASSERT_LT(difference(model.coriolis(s.q, s.dq, {}, 0.0, {}), other.coriolis(s.q, s.dq, {})),
+              1e-11);
+    model.coriolis(s.q, s.dq, s.inertia, s.mass, s.com);
+    ASSERT_LT(difference(model.mass(s.q, {}, 0.0, {}), other.mass(s.q, {})), 1e-11);
+    model.coriolis(s.q, s.dq, s.inertia, s.mass, s.com);
+    ASSERT_LT(difference(model.gravity(s.q, 0.0, {}, s.gravity), other.gravity(s.q, {}, s.gravity)),
+              1e-11);
   }
 }
 

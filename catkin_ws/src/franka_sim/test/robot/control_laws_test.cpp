@@ -8,6 +8,8 @@
 #include <franka_sim/robot/state_estimator.h>
 
 #include <Eigen/Core>
+#include <Eigen/LU>
+#include <cmath>
 #include <random>
 
 #include "fci_fixture.h"
@@ -145,6 +147,46 @@ TEST_F(Laws, BothControllersAreStableAtEveryStiffness) {
   }
   EXPECT_EQ(0, unstable[0]) << "joint impedance";
   EXPECT_EQ(0, unstable[1]) << "Cartesian impedance";
+}
+
+TEST(CartesianImpedance, DampsEachAxisByItsOwnStiffness) {
+  const ControlUnitParameters parameters = pandaWithHand();
+  CartesianImpedanceInput in;
+  in.q = in.q_d = kReady;
+  in.dq = {{0.3, -0.2, 0.5, 0.1, -0.4, 0.2, 0.6}};
+  franka_core::ArmDynamics d;
+  parameters.model.computeDynamics(franka_core::ArmFrame::kEndEffector, in.q, in.dq,
+                                   parameters.F_T_NE, franka_core::kIdentityTransform,
+                                   parameters.end_effector, parameters.gravity, d);
+  in.O_T_EE_d = in.O_T_EE = d.pose;
+  in.EE_T_K = franka_core::kIdentityTransform;
+  in.O_dP_EE_d = {};
+  in.O_J_EE = d.zero_jacobian;
+  in.mass = d.mass;
+  in.coriolis = {};
+  in.rotor_inertia = parameters.rotor_inertia;
+  in.nullspace_stiffness = 0.0;
+  in.K = {{300, 900, 2000, 20, 40, 80}};
+
+  // The formula of the header, by an inverse of the whole matrix.
+  Eigen::Matrix<double, 7, 7> M = Eigen::Map<const Eigen::Matrix<double, 7, 7>>(d.mass.data());
+  M.diagonal() += Eigen::Map<const Eigen::Matrix<double, 7, 1>>(in.rotor_inertia.data());
+  const Eigen::Matrix3d R = Eigen::Map<const Eigen::Matrix4d>(d.pose.data()).topLeftCorner<3, 3>();
+  Eigen::Matrix<double, 6, 7> J =
+      Eigen::Map<const Eigen::Matrix<double, 6, 7>>(d.zero_jacobian.data());
+  J.topRows<3>() = (R.transpose() * J.topRows<3>()).eval();
+  J.bottomRows<3>() = (R.transpose() * J.bottomRows<3>()).eval();
+  const Eigen::Matrix<double, 6, 6> mobility = J * M.inverse() * J.transpose();
+  Eigen::Matrix<double, 6, 1> wrench =
+      -J * Eigen::Map<const Eigen::Matrix<double, 7, 1>>(in.dq.data());
+  for (int i = 0; i < 6; i++) {
+    wrench[i] *= 1.4 * std::sqrt(in.K[static_cast<std::size_t>(i)] / mobility(i, i));
+  }
+  const Eigen::Matrix<double, 7, 1> expected = J.transpose() * wrench;
+  const std::array<double, 7> tau = cartesianImpedance(in);
+  for (std::size_t i = 0; i < 7; i++) {
+    EXPECT_NEAR(expected[static_cast<int>(i)], tau[i], 1e-9) << i;
+  }
 }
 
 TEST(JointImpedance, IsSpringDamperAndCoriolis) {

@@ -172,6 +172,16 @@ TEST_P(SafetyTest, GuidingOnlyWhereItIsAllowed) {
   safety.guide(false);
   if (fr3) {
     ASSERT_EQ(Refusal::kNone, safety.setOperatingMode(OperatingMode::kProgramming));
+    for (const SafetyInput stop : {SafetyInput::kX32, SafetyInput::kX33}) {
+      safety.press(stop, true);
+      tick(5);
+      EXPECT_EQ(Refusal::kWrongOperatingMode, safety.guide(true));
+      tick(5);
+      EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
+      safety.guide(false);
+      safety.press(stop, false);
+      settle();
+    }
   } else {
     EXPECT_EQ(Light::kPink, safety.light().color);  // until the activation device is pressed
     safety.press(SafetyInput::kX4, true);
