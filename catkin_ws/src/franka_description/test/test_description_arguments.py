@@ -6,6 +6,7 @@ import re
 
 import pytest
 import xacro
+import yaml
 from description_robot import ROBOTS, expand, expand_text, numbers
 
 NAMES = ["panda", "fr3"]
@@ -76,6 +77,53 @@ def test_parent():
     body = """<xacro:franka_robot arm_id="p" parent="" gazebo="true"
         joint_limits="${panda_limits}"/>"""
     assert expand_text(body).root() == "p_link0"
+
+
+ROBOT = '<xacro:franka_robot arm_id="p" joint_limits="${panda_limits}" %s/>'
+
+
+def test_macro_without_arguments_takes_those_of_the_description():
+    where = dict(xyz="1 2 3", rpy="0.1 0.2 0.3")
+    robot = expand_text(ROBOT % "", hand="true", gazebo="true", tcp_xyz="0 0 0.2", tcp_rpy="0 0 1", **where)
+    assert robot.xml.find("transmission") is not None
+    assert robot.links["p_link1"].find("inertial") is not None
+    assert robot.joints["world_joint"].find("origin").attrib == where
+    tcp = robot.joints["p_hand_tcp_joint"].find("origin").attrib
+    assert tcp == dict(xyz="0 0 0.2", rpy="0 0 1")
+
+
+def test_macro_with_arguments_ignores_those_of_the_description():
+    robot = expand_text(ROBOT % 'hand="false"', hand="true", gazebo="true", xyz="1 2 3")
+    assert robot.text == expand_text(ROBOT % "").text
+    assert "p_hand" not in robot.links and robot.root() == "p_link0"
+
+
+@pytest.mark.parametrize("gazebo", ["true", "false"])
+def test_macro_mounts_the_arm_on_its_parent(gazebo):
+    body = '<link name="stand"/>' + ROBOT % f'parent="stand" xyz="0 0 0.95" rpy="0 0 1" gazebo="{gazebo}"'
+    robot = expand_text(body)
+    assert robot.root() == "stand"
+    assert robot.joints["stand_joint"].find("origin").attrib == dict(xyz="0 0 0.95", rpy="0 0 1")
+    assert expand_text(ROBOT % f'xyz="0 0 0.95" gazebo="{gazebo}"').root() == "world"
+
+
+@pytest.mark.parametrize("parent", ["world", "stand"])
+def test_two_arms_share_a_parent(parent):
+    arms = [
+        f'<xacro:franka_robot arm_id="{arm}" parent="{parent}" xyz="0 {y} 0" gazebo="true"'
+        ' joint_limits="${panda_limits}"/>'
+        for arm, y in (("left", "0.5"), ("right", "-0.5"))
+    ]
+    robot = expand_text("".join(arms) + ('<link name="stand"/>' if parent == "stand" else ""))
+    assert robot.root() == parent
+    assert robot.pose("left_link0")[1, 3] == 0.5 and robot.pose("right_link0")[1, 3] == -0.5
+
+
+@pytest.mark.parametrize("name", [*(f"{robot}/{robot}" for robot in NAMES), "dual_panda/dual_panda_example"])
+def test_descriptions_are_plain_text_of_yaml(name):
+    """So that `rosparam set robot_description "$(xacro ...)"` stores them."""
+    arguments = dict(hand="true", gazebo="true") if name.split("/")[0] in NAMES else {}
+    assert isinstance(yaml.safe_load(expand(name, **arguments).text), str)
 
 
 @pytest.mark.parametrize("name, true, false", [("panda", "True", "False"), ("fr3", "1", "0")])
