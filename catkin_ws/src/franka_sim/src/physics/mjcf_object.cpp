@@ -7,7 +7,10 @@
 #include <stdexcept>
 
 #include "physics/compile.h"
+#include "physics/degree.h"
 #include "physics/mjcf_files.h"
+#include "physics/mjcf_inertial.h"
+#include "physics/urdf_object.h"
 #include "physics/xml_util.h"
 
 namespace franka_sim::physics {
@@ -30,24 +33,50 @@ void checkSections(const XMLElement& root, const std::string& title) {
   }
 }
 
-void checkAngles(const XMLElement& root, double unit, const std::string& title) {
-  bool radian = false;
+/// The unit of the text's angles [rad]; refuses settings that would act on the whole world.
+double readAngleUnit(const XMLElement& root, const std::string& title) {
+  double unit = kDegree;
   for (auto* e = root.FirstChildElement("compiler"); e != nullptr;
        e = e->NextSiblingElement("compiler")) {
-    radian = radian || optional(*e, "angle") == "radian";
     for (auto* a = e->FirstAttribute(); a != nullptr; a = a->Next()) {
       const std::string name = a->Name();
-      if (name != "angle" && name != "meshdir" && name != "texturedir") {
+      if (name == "angle") {
+        unit = optional(*e, "angle") == "radian" ? 1 : kDegree;
+      } else if (name != "meshdir" && name != "texturedir" && name != "autolimits") {
         throw std::runtime_error(title + ": the compiler setting '" + name +
                                  "' would change the whole world; remove it.");
       }
     }
   }
-  if (radian != (unit == 1)) {
-    throw std::runtime_error(title + ": its angles are in " + (radian ? "radians" : "degrees") +
-                             ", those of the world file in " + (radian ? "degrees" : "radians") +
-                             "; write the object with <compiler angle=\"" +
-                             (radian ? "degree" : "radian") + "\"/>.");
+  return unit;
+}
+
+void scale(XMLElement* element, const char* attribute, std::size_t first, double factor,
+           const std::string& title) {
+  const char* text = element->Attribute(attribute);
+  if (text == nullptr) {
+    return;
+  }
+  std::vector<double> values =
+      toNumbers(text, title + ": '" + attribute + "' of <" + element->Name() + ">");
+  for (std::size_t i = first; i < values.size(); ++i) {
+    values[i] *= factor;
+  }
+  element->SetAttribute(attribute, toText(values.data(), values.size()).c_str());
+}
+
+/// Multiplies all angles below an element.
+void scaleAngles(XMLElement* parent, double factor, const std::string& title) {
+  for (auto* e = parent->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    scale(e, "euler", 0, factor, title);
+    scale(e, "axisangle", 3, factor, title);
+    const std::string type = optional(*e, "type");
+    if (std::string(e->Name()) == "joint" && type != "slide" && type != "free") {
+      for (const char* attribute : {"range", "ref", "springref"}) {
+        scale(e, attribute, 0, factor, title);
+      }
+    }
+    scaleAngles(e, factor, title);
   }
 }
 
@@ -117,15 +146,29 @@ void readMjcf(const std::string& text, double angle_unit, const std::string& tit
     object->document.DeepCopy(&lone);
     object->document.Clear();
     root = append(&object->document, "mujoco");
-    append(root, "compiler")->SetAttribute("angle", angle_unit == 1 ? "radian" : "degree");
     append(root, "worldbody")->InsertEndChild(lone.RootElement()->DeepClone(&object->document));
   } else if (std::string(root->Name()) != "mujoco") {
-    throw std::runtime_error(title + ": its root element is <" + root->Name() +
-                             ">; an object is an SDF model (<sdf>), MJCF (<mujoco>) or a <body>.");
+    throw std::runtime_error(
+        title + ": its root element is <" + root->Name() +
+        ">; an object is an SDF model (<sdf>), MJCF (<mujoco>), a <body>, or a "
+        "URDF (<robot>) without an arm.");
   }
+  object->unsupported = dropKeyframes(root);
   checkSections(*root, title);
-  checkAngles(*root, angle_unit, title);
+  repairInertias(root, title, &object->unsupported);
+  const double own_unit = readAngleUnit(*root, title);
+  if (own_unit != angle_unit) {
+    scaleAngles(root, own_unit / angle_unit, title);
+  }
   makeFilesAbsolute(root, "");
+  XMLElement* compiler = root->FirstChildElement("compiler");
+  while (compiler != nullptr) {
+    root->DeleteChild(compiler);
+    compiler = root->FirstChildElement("compiler");
+  }
+  compiler = append(root, "compiler");
+  compiler->SetAttribute("angle", angle_unit == 1 ? "radian" : "degree");
+  compiler->SetAttribute("autolimits", "true");
   int bodies = 0, geoms = 0;
   for (auto* e = root->FirstChildElement("worldbody"); e != nullptr;
        e = e->NextSiblingElement("worldbody")) {
@@ -140,6 +183,15 @@ void readMjcf(const std::string& text, double angle_unit, const std::string& tit
 }
 
 }  // namespace
+
+std::set<std::string> dropKeyframes(XMLElement* root) {
+  std::set<std::string> notes;
+  while (XMLElement* keyframe = root->FirstChildElement("keyframe")) {
+    root->DeleteChild(keyframe);
+    notes.insert("<keyframe> (it fits no world with robots)");
+  }
+  return notes;
+}
 
 void nameGeoms(XMLElement* body, const std::string& prefix, int* count) {
   for (auto* e = body->FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
@@ -161,8 +213,9 @@ std::shared_ptr<const MjcfObject> readObject(const std::string& name, const std:
   }
   auto object = std::make_shared<MjcfObject>();
   object->name = name;
-  if (looksLikeSdf(text)) {
-    SdfScene scene = readSdf(text, "", title, resolve, name);
+  if (looksLikeSdf(text) || rootName(text) == "robot") {
+    SdfScene scene = looksLikeSdf(text) ? readSdf(text, "", title, resolve, name)
+                                        : readUrdfObject(text, name, resolve);
     object->aliases = writeSdf(&scene, angle_unit, false, &object->document).aliases;
     object->unsupported = scene.unsupported;
     int geoms = 0;

@@ -23,14 +23,18 @@ struct MjcfObject {
   std::set<std::string> unsupported;
 };
 
-/// Reads an object: an SDF text with one model, an MJCF text with bodies, or a lone <body>.
+/// Reads an object: an SDF text with one model, an MJCF text with bodies, a lone <body>, or the
+/// URDF of an object.
 /// @param pose of the text's origin
-/// @param angle_unit of the world [rad]; an MJCF text must use the same
+/// @param angle_unit of the world [rad], to which other angles are converted
 /// @throws std::runtime_error with a sentence: broken text, sections that would change the whole
 /// world, errors of MuJoCo.
 std::shared_ptr<const MjcfObject> readObject(const std::string& name, const std::string& text,
                                              const Pose& pose, double angle_unit,
                                              const ResourceResolver& resolve);
+
+/// Removes the <keyframe> sections: their states lack those of robots. @returns a note about them
+std::set<std::string> dropKeyframes(tinyxml2::XMLElement* root);
 
 /// Names unnamed geoms "<prefix>/geom_<n>".
 void nameGeoms(tinyxml2::XMLElement* body, const std::string& prefix, int* count);

@@ -58,6 +58,10 @@ class Writer {
   Writer(const RobotModel& robot, const MjcfTarget& target) : robot_(robot), target_(target) {}
 
   void write() {
+    const UrdfLink& root = robot_.urdf.links[robot_.urdf.root];
+    if (root.name == "world") {  // not a segment
+      writeCameras(root, Eigen::Isometry3d::Identity(), target_.worldbody);
+    }
     std::vector<XMLElement*> bodies;
     for (const Segment& segment : robot_.segments) {
       XMLElement* parent = segment.parent < 0 ? target_.worldbody : bodies[segment.parent];
@@ -69,6 +73,7 @@ class Writer {
       writeJoint(segment, body);
       for (const auto& [link, pose] : segment.links) {
         writeShapes(robot_.urdf.links[link], pose, body);
+        writeCameras(robot_.urdf.links[link], pose, body);
       }
     }
     writeEqualities();
@@ -81,6 +86,12 @@ class Writer {
  private:
   const std::string& nameOf(const Segment& segment) const {
     return robot_.urdf.links[segment.link].name;
+  }
+
+  static void writeCameras(const UrdfLink& link, const Eigen::Isometry3d& pose, XMLElement* body) {
+    for (const CameraSensor& camera : link.cameras) {
+      writeCamera(camera, pose, body);
+    }
   }
 
   void writeJoint(const Segment& segment, XMLElement* body) {

@@ -16,6 +16,7 @@
 #include "physics/contact_settings.h"
 #include "physics/degree.h"
 #include "physics/mjcf_files.h"
+#include "physics/mjcf_inertial.h"
 #include "physics/xml_util.h"
 
 namespace franka_sim::physics {
@@ -108,8 +109,8 @@ void setContactCapacity(XMLElement* root, int robots) {
 void checkCompiler(const XMLElement& root, const std::string& title) {
   for (auto* e = root.FirstChildElement("compiler"); e != nullptr;
        e = e->NextSiblingElement("compiler")) {
-    for (const char* attribute : {"boundmass", "boundinertia", "settotalmass", "balanceinertia",
-                                  "inertiafromgeom", "strippath", "coordinate", "fusestatic"}) {
+    for (const char* attribute : {"boundmass", "boundinertia", "settotalmass", "inertiafromgeom",
+                                  "strippath", "coordinate", "fusestatic"}) {
       if (e->Attribute(attribute) != nullptr) {
         throw std::runtime_error(title + ": the compiler setting '" + attribute + "' in line " +
                                  std::to_string(e->GetLineNum()) +
@@ -258,7 +259,10 @@ void MjcfWorld::normalise(const std::string& folder) {
   XMLElement* root = document_.RootElement();
   angle_unit_ = angleUnit(*root);
   makeFilesAbsolute(root, folder);
-  setEverywhere(root, "compiler", "balanceinertia", "false");
+  unsupported_.merge(dropKeyframes(root));
+  repairInertias(root, title_, &unsupported_);
+  // As since MuJoCo 3; robots say of every joint whether it is limited.
+  setEverywhere(root, "compiler", "autolimits", "true");
   setEverywhere(root, "option", "timestep", kTimestep);
   setEverywhere(root, "option", "integrator", "Euler");
   setEverywhere(root, "option", "cone", "elliptic");

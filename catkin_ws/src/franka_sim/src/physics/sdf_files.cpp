@@ -58,6 +58,27 @@ std::vector<std::string> searchedFolders() {
   return folders;
 }
 
+/// As Gazebo does, reads also a text that lacks its last end tag, and a model or world without
+/// <sdf>.
+void parse(const std::string& text, const std::string& title, tinyxml2::XMLDocument* document) {
+  const auto reads = [document](const std::string& xml) {
+    return document->Parse(xml.c_str(), xml.size()) == tinyxml2::XML_SUCCESS &&
+           document->RootElement() != nullptr;
+  };
+  if (!reads(text)) {
+    const std::string error = document->ErrorStr();
+    if (!reads(text + "</" + rootName(text) + ">")) {
+      throw std::runtime_error(title + ": it is not well-formed XML: " + error);
+    }
+  }
+  XMLElement* root = document->RootElement();
+  if (std::string(root->Name()) == "model" || std::string(root->Name()) == "world") {
+    XMLElement* sdf = append(document, "sdf");
+    sdf->SetAttribute("version", "1.6");
+    sdf->InsertEndChild(root);
+  }
+}
+
 }  // namespace
 
 std::string SdfFiles::find(const std::string& uri, const std::string& folder) const {
@@ -126,10 +147,7 @@ void takeOver(const XMLElement& include, XMLElement* model) {
 std::string withStandardModels(const std::string& text, const SdfFiles& files,
                                const std::string& title, const std::string& model_name) {
   tinyxml2::XMLDocument document;
-  if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS ||
-      document.RootElement() == nullptr) {
-    throw std::runtime_error(title + ": it is not well-formed XML: " + document.ErrorStr());
-  }
+  parse(text, title, &document);
   XMLElement* model = document.RootElement()->FirstChildElement("model");
   if (model != nullptr && !model_name.empty()) {
     model->SetAttribute("name", model_name.c_str());

@@ -76,7 +76,9 @@ class SdfWriter {
       writeLight(light);
     }
     for (const SdfCamera& camera : scene_.cameras) {
-      writeCamera(camera);
+      Eigen::Isometry3d link_pose;
+      XMLElement* body = holder(camera.link, &link_pose);
+      writeCamera(camera, link_pose, body);
     }
     return result_;
   }
@@ -366,24 +368,6 @@ class SdfWriter {
     // OpenGL's cones have up to a right angle; beyond, light to all sides (180).
     e->SetAttribute("cutoff",
                     toText({spot ? std::clamp(light.cutoff / kDegree, 1.0, 90.0) : 180.0}).c_str());
-  }
-
-  void writeCamera(const SdfCamera& camera) {
-    Eigen::Isometry3d pose;
-    XMLElement* e = append(holder(camera.link, &pose), "camera");
-    // SDF's cameras look along x with z up, MuJoCo's along -z with y up.
-    Eigen::Matrix3d turn;
-    turn << 0, 0, -1, -1, 0, 0, 0, 1, 0;
-    Eigen::Isometry3d looking = pose * camera.pose;
-    looking.linear() = looking.linear() * turn;
-    setPose(e, looking);
-    const double ratio = static_cast<double>(camera.height) / camera.width;
-    const double vertical = 2 * std::atan(std::tan(camera.horizontal_view / 2) * ratio);
-    e->SetAttribute("name", camera.name.c_str());
-    e->SetAttribute("fovy", toText({vertical / kDegree}).c_str());
-    e->SetAttribute("user", toText({static_cast<double>(camera.width),
-                                    static_cast<double>(camera.height), camera.rate})
-                                .c_str());
   }
 
   SdfScene& scene_;

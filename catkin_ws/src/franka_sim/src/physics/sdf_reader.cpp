@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
 #include <stdexcept>
 
+#include "physics/mjcf_inertial.h"
 #include "physics/sdf_files.h"
 #include "physics/sdf_frames.h"
 #include "physics/sdf_scene.h"
@@ -20,8 +20,6 @@ namespace {
 using tinyxml2::XMLElement;
 
 constexpr double kNoLimit = 1e15;  ///< SDF writes "unlimited" as 1e16
-/// Of the sum of the moments of inertia: rounding in the text.
-constexpr double kInertiaTolerance = 1e-6;
 
 /// Calls `act` for each child of a name.
 template <typename Act>
@@ -113,7 +111,7 @@ class Reader {
     }
   }
 
-  UrdfInertial readInertial(const XMLElement& link, const std::string& name) const {
+  UrdfInertial readInertial(const XMLElement& link, const std::string& name) {
     UrdfInertial result;
     result.mass = 1;
     result.com = Eigen::Vector3d::Zero();
@@ -134,11 +132,10 @@ class Reader {
       moments(0, 2) = moments(2, 0) = entry("ixz", 0);
       moments(1, 2) = moments(2, 1) = entry("iyz", 0);
     }
-    const Eigen::Vector3d principal = moments.selfadjointView<Eigen::Upper>().eigenvalues();
-    if (!(result.mass > 0) || !(principal.minCoeff() >= 0) ||
-        principal.sum() * (1 + kInertiaTolerance) < 2 * principal.maxCoeff()) {
-      throw std::runtime_error(where + ": no body has this mass and these moments of inertia.");
+    if (!(result.mass > 0)) {
+      throw std::runtime_error(where + ": its mass must be greater than zero.");
     }
+    moments = possibleInertia(moments, where, &scene_.unsupported);
     const Eigen::Isometry3d pose = writtenPose(*element, where);
     result.com = pose.translation();
     result.inertia = pose.linear() * moments * pose.linear().transpose();
@@ -203,23 +200,9 @@ class Reader {
   void readSensor(const XMLElement& sensor, const Eigen::Isometry3d& pose, int link) {
     const std::string name =
         scene_.links[static_cast<std::size_t>(link)].name + "::" + optional(sensor, "name");
-    const XMLElement* camera = sensor.FirstChildElement("camera");
-    if (camera == nullptr) {
-      note("sensor '" + name + "' of type " + optional(sensor, "type"));
-      return;
+    for (const CameraSensor& camera : readCameras(sensor, pose, name, &scene_.unsupported)) {
+      scene_.cameras.emplace_back(camera, link);
     }
-    SdfCamera result;
-    result.name = name;
-    result.link = link;
-    result.pose = pose * writtenPose(*camera, title_ + ": camera '" + name + "'");
-    result.horizontal_view = childNumbers(*camera, "horizontal_fov", {1.047}, name)[0];
-    if (const XMLElement* image = camera->FirstChildElement("image")) {
-      result.width = static_cast<int>(childNumbers(*image, "width", {320}, name)[0]);
-      result.height = static_cast<int>(childNumbers(*image, "height", {240}, name)[0]);
-    }
-    const double rate = childNumbers(sensor, "update_rate", {0}, name)[0];
-    result.rate = rate > 0 ? rate : result.rate;
-    scene_.cameras.push_back(result);
   }
 
   /// @param pose in the link, or in the world
@@ -345,16 +328,8 @@ class Reader {
 }  // namespace
 
 bool looksLikeSdf(const std::string& text) {
-  std::size_t at = 0;
-  while ((at = text.find('<', at)) != std::string::npos) {
-    if (text.compare(at, 4, "<!--") == 0) {
-      at = text.find("-->", at);
-    } else if (text[at + 1] != '?' && text[at + 1] != '!') {
-      return text.compare(at, 4, "<sdf") == 0 || text.compare(at, 7, "<gazebo") == 0;
-    }
-    at = at == std::string::npos ? at : at + 1;
-  }
-  return false;
+  const std::string root = rootName(text);
+  return root == "sdf" || root == "gazebo" || root == "model" || root == "world";
 }
 
 SdfScene readExpandedSdf(const std::string& text, const std::string& title, bool world) {

@@ -9,8 +9,10 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "physics/camera_sensor.h"
 #include "physics/mesh_loader.h"
 #include "physics/urdf_robot.h"
 
@@ -54,13 +56,9 @@ struct SdfLight {
   bool shadows{false};
 };
 
-struct SdfCamera {
-  std::string name;
-  int link{-1};
-  Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};  ///< in the link; looks along x, z is up
-  double horizontal_view{1.047};                          ///< [rad]
-  int width{640}, height{480};
-  double rate{30};  ///< [Hz]
+struct SdfCamera : CameraSensor {
+  SdfCamera(CameraSensor camera, int of) : CameraSensor(std::move(camera)), link(of) {}
+  int link;
 };
 
 struct SdfLink {
@@ -104,7 +102,8 @@ struct SdfScene {
   std::set<std::string> unsupported;  ///< elements of the text that are not simulated
 };
 
-/// Whether a text's root element is <sdf> (or <gazebo>, as in old versions).
+/// Whether a text's root element is <sdf> (or <gazebo>, as in old versions), or a <model> or
+/// <world> without it.
 bool looksLikeSdf(const std::string& text);
 
 /// Reads an SDF text with a world, or with one model. If Debian has sdformat (Debian 12), that

@@ -37,8 +37,11 @@ std::string expandSdf(const std::string& text, const SdfFiles& files, const std:
   config.SetFindCallback([&files](const std::string& uri) { return files.find(uri); });
   sdf::Root root;
   const sdf::Errors errors = root.LoadSdfString(text, config);
-  if (!errors.empty()) {
-    throw std::runtime_error(title + ": " + errors.front().Message());
+  for (const sdf::Error& error : errors) {
+    // The reader of the expanded text repairs inertias that are only rounded.
+    if (error.Code() != sdf::ErrorCode::LINK_INERTIA_INVALID) {
+      throw std::runtime_error(title + ": " + error.Message());
+    }
   }
   makeUrisAbsolute(root.Element(), files);
   return root.Element()->ToString("");

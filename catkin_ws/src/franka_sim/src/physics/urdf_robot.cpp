@@ -4,10 +4,11 @@
 
 #include <franka_core/rotations.h>
 
-#include <Eigen/Eigenvalues>
 #include <map>
 #include <stdexcept>
 
+#include "physics/mjcf_inertial.h"
+#include "physics/sdf_frames.h"
 #include "physics/xml_util.h"
 
 namespace franka_sim::physics {
@@ -97,7 +98,8 @@ std::optional<std::array<double, 4>> readMaterial(const XMLElement& parent,
   return known == materials.end() ? std::nullopt : std::make_optional(known->second);
 }
 
-UrdfInertial readInertial(const XMLElement& element, const std::string& where) {
+UrdfInertial readInertial(const XMLElement& element, const std::string& where,
+                          std::set<std::string>* notes) {
   UrdfInertial result;
   const Eigen::Isometry3d origin = readOrigin(element, where);
   result.com = origin.translation();
@@ -116,22 +118,18 @@ UrdfInertial readInertial(const XMLElement& element, const std::string& where) {
   if (result.mass < 0) {
     fail(where, "the mass is negative.");
   }
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(result.inertia);
-  const Eigen::Vector3d& principal = solver.eigenvalues();
-  if (principal.x() < 0 || principal.x() + principal.y() < principal.z() * (1 - 1e-9)) {
-    fail(where, "no body has this inertia: the principal moments " + toText(principal) +
-                    " must be positive and the largest at most the sum of the others.");
-  }
+  result.inertia = possibleInertia(result.inertia, where, notes);
   result.inertia = origin.linear() * result.inertia * origin.linear().transpose();
   return result;
 }
 
-UrdfLink readLink(const XMLElement& element, const Materials& materials, const std::string& robot) {
+UrdfLink readLink(const XMLElement& element, const Materials& materials, const std::string& robot,
+                  std::set<std::string>* notes) {
   UrdfLink link;
   link.name = required(element, "name", robot);
   const std::string where = robot + ", link '" + link.name + "'";
   if (const XMLElement* inertial = element.FirstChildElement("inertial")) {
-    link.inertial = readInertial(*inertial, where);
+    link.inertial = readInertial(*inertial, where, notes);
   }
   for (auto* e = element.FirstChildElement("collision"); e != nullptr;
        e = e->NextSiblingElement("collision")) {
@@ -164,13 +162,10 @@ void readLimits(const XMLElement& element, const std::string& where, UrdfJoint* 
   if (joint->type != UrdfJoint::Type::kRevolute && joint->type != UrdfJoint::Type::kPrismatic) {
     return;
   }
-  const XMLElement* limit = element.FirstChildElement("limit");
-  if (limit == nullptr) {
-    fail(where, "a revolute or prismatic joint needs <limit>.");
-  }
+  const XMLElement* limit = element.FirstChildElement("limit");  // holdJoints() fixed those without
   joint->lower = numbers(*limit, "lower", {0}, where)[0];
   joint->upper = numbers(*limit, "upper", {0}, where)[0];
-  if (joint->lower >= joint->upper) {
+  if (joint->lower > joint->upper) {
     fail(where, "the lower limit " + toText({joint->lower}) + " is not below the upper limit " +
                     toText({joint->upper}) + ".");
   }
@@ -242,25 +237,69 @@ const XMLElement* findFriction(const XMLElement& element) {
   return nullptr;
 }
 
-void readFrictions(const XMLElement& root, const std::string& context, UrdfRobot* robot) {
+void readFriction(const XMLElement& gazebo, const std::string& context, UrdfLink* link) {
+  const XMLElement* mu = findFriction(gazebo);
+  if (mu == nullptr) {
+    return;
+  }
+  const std::string where = context + ", friction of link '" + link->name + "'";
+  const auto values = toNumbers(mu->GetText() != nullptr ? mu->GetText() : "", where);
+  if (values.size() != 1 || values[0] < 0) {
+    fail(where, "<mu> needs one number that is not negative.");
+  }
+  link->friction = values[0];
+}
+
+/// @param link null if the element refers to none
+void readSensors(const XMLElement& gazebo, UrdfRobot* robot, UrdfLink* link) {
+  const std::string of =
+      robot->name + "::" + (link != nullptr ? link->name : optional(gazebo, "reference"));
+  for (auto* sensor = gazebo.FirstChildElement("sensor"); sensor != nullptr;
+       sensor = sensor->NextSiblingElement("sensor")) {
+    const std::string name = of + "::" + optional(*sensor, "name");
+    if (link == nullptr) {
+      robot->notes.insert("sensor '" + name + "' of type " + optional(*sensor, "type"));
+      continue;
+    }
+    const auto cameras =
+        readCameras(*sensor, writtenPose(*sensor, "Sensor '" + name + "'"), name, &robot->notes);
+    link->cameras.insert(link->cameras.end(), cameras.begin(), cameras.end());
+  }
+}
+
+/// That of ros_control is loaded; no other plugin is.
+void readPlugins(const XMLElement& gazebo, UrdfRobot* robot) {
+  for (auto* plugin = gazebo.FirstChildElement("plugin"); plugin != nullptr;
+       plugin = plugin->NextSiblingElement("plugin")) {
+    const std::string library = optional(*plugin, "filename");
+    if (plugin->FirstChildElement("robotSimType") != nullptr ||
+        library.find("gazebo_ros_control") != std::string::npos) {
+      robot->has_control_plugin = true;
+    } else {
+      robot->notes.insert("plugin '" + optional(*plugin, "name") + "' (" + library + ")");
+    }
+  }
+}
+
+/// The <gazebo> elements.
+void readExtensions(const XMLElement& root, const std::string& context, UrdfRobot* robot) {
   for (auto* e = root.FirstChildElement("gazebo"); e != nullptr;
        e = e->NextSiblingElement("gazebo")) {
     const XMLElement* self_collide = e->FirstChildElement("self_collide");
-    if (self_collide != nullptr && e->Attribute("reference") == nullptr &&
-        self_collide->QueryBoolText(&robot->self_collide) != tinyxml2::XML_SUCCESS) {
-      fail(context, "<self_collide> must say true or false.");
+    if (e->Attribute("reference") == nullptr) {
+      if (self_collide != nullptr &&
+          self_collide->QueryBoolText(&robot->self_collide) != tinyxml2::XML_SUCCESS) {
+        fail(context, "<self_collide> must say true or false.");
+      }
+      robot->is_static = isTrue(*e, "static", robot->is_static);
     }
     const int index = robot->link(optional(*e, "reference"));
-    const XMLElement* mu = findFriction(*e);
-    if (index < 0 || mu == nullptr) {
-      continue;
+    UrdfLink* const link = index < 0 ? nullptr : &robot->links[index];
+    if (link != nullptr) {
+      readFriction(*e, context, link);
     }
-    const std::string where = context + ", friction of link '" + robot->links[index].name + "'";
-    const auto values = toNumbers(mu->GetText() != nullptr ? mu->GetText() : "", where);
-    if (values.size() != 1 || values[0] < 0) {
-      fail(where, "<mu> needs one number that is not negative.");
-    }
-    robot->links[index].friction = values[0];
+    readSensors(*e, robot, link);
+    readPlugins(*e, robot);
   }
 }
 
@@ -318,7 +357,73 @@ Materials readMaterials(const XMLElement& root, const std::string& where) {
   return materials;
 }
 
+/// The position [rad] or [m] of a joint that cannot move. @param held those found before
+std::optional<double> onlyPosition(const XMLElement& joint,
+                                   const std::map<std::string, double>& held,
+                                   const std::string& where) {
+  const std::string type = optional(joint, "type");
+  if (type == "revolute" || type == "prismatic") {
+    const XMLElement* limit = joint.FirstChildElement("limit");
+    const double lower = limit == nullptr ? 0 : numbers(*limit, "lower", {0}, where)[0];
+    if (limit == nullptr || lower == numbers(*limit, "upper", {0}, where)[0]) {
+      return lower;
+    }
+  }
+  const XMLElement* mimic = type == "fixed" ? nullptr : joint.FirstChildElement("mimic");
+  const auto leader = mimic == nullptr ? held.end() : held.find(optional(*mimic, "joint"));
+  if (leader == held.end()) {
+    return std::nullopt;
+  }
+  return numbers(*mimic, "offset", {0}, where)[0] +
+         numbers(*mimic, "multiplier", {1}, where)[0] * leader->second;
+}
+
+/// Makes a joint fixed at a position [rad] or [m] along its axis.
+void hold(XMLElement* joint, double position, const std::string& where) {
+  const bool slides = optional(*joint, "type") == "prismatic";
+  joint->SetAttribute("type", "fixed");
+  if (XMLElement* mimic = joint->FirstChildElement("mimic")) {
+    joint->DeleteChild(mimic);
+  }
+  if (position == 0.0) {
+    return;
+  }
+  const XMLElement* axis = joint->FirstChildElement("axis");
+  const Eigen::Vector3d along =
+      axis == nullptr ? Eigen::Vector3d(1, 0, 0) : vector3(*axis, "xyz", {1, 0, 0}, where);
+  Eigen::Isometry3d pose = readOrigin(*joint, where);
+  if (slides) {
+    pose.translate(Eigen::Vector3d(position * along.normalized()));
+  } else {
+    pose.rotate(Eigen::AngleAxisd(position, along.normalized()));
+  }
+  XMLElement* origin = joint->FirstChildElement("origin");
+  origin = origin != nullptr ? origin : append(joint, "origin");
+  const Eigen::Vector3d ypr = pose.linear().eulerAngles(2, 1, 0);
+  origin->SetAttribute("xyz", toText(Eigen::Vector3d(pose.translation())).c_str());
+  origin->SetAttribute("rpy", toText(Eigen::Vector3d(ypr.reverse())).c_str());
+}
+
 }  // namespace
+
+bool holdJoints(XMLElement* root, const std::string& where, std::set<std::string>* notes) {
+  std::map<std::string, double> held;
+  for (std::size_t before = 1; before != held.size();) {
+    before = held.size();  // another round finds the followers of what was held in this one
+    for (auto* joint = root->FirstChildElement("joint"); joint != nullptr;
+         joint = joint->NextSiblingElement("joint")) {
+      const std::string name = optional(*joint, "name");
+      const std::string context = where + ", joint '" + name + "'";
+      if (const auto position = onlyPosition(*joint, held, context)) {
+        hold(joint, *position, context);
+        held[name] = *position;
+        notes->insert("joint '" + name + "' (it has no range and is held at " +
+                      toText({*position}) + ")");
+      }
+    }
+  }
+  return !held.empty();
+}
 
 int UrdfRobot::link(const std::string& link_name) const noexcept {
   for (std::size_t i = 0; i < links.size(); ++i) {
@@ -344,15 +449,16 @@ UrdfRobot readUrdf(const std::string& text, const std::string& robot_name) {
   if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS) {
     fail(where, std::string("not well-formed XML: ") + document.ErrorStr());
   }
-  const XMLElement* root = document.FirstChildElement("robot");
+  XMLElement* root = document.FirstChildElement("robot");
   if (root == nullptr) {
     fail(where, "there is no <robot> element.");
   }
   UrdfRobot robot;
   robot.name = robot_name;
+  holdJoints(root, where, &robot.notes);
   const Materials materials = readMaterials(*root, where);
   for (auto* e = root->FirstChildElement("link"); e != nullptr; e = e->NextSiblingElement("link")) {
-    UrdfLink link = readLink(*e, materials, where);
+    UrdfLink link = readLink(*e, materials, where, &robot.notes);
     if (robot.link(link.name) >= 0) {
       fail(where, "two links are called '" + link.name + "'.");
     }
@@ -368,7 +474,7 @@ UrdfRobot readUrdf(const std::string& text, const std::string& robot_name) {
   }
   connect(&robot, where);
   findRoot(&robot, where);
-  readFrictions(*root, where, &robot);
+  readExtensions(*root, where, &robot);
   return robot;
 }
 

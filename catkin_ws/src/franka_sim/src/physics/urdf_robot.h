@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <tinyxml2.h>
+
 #include <Eigen/Geometry>
 #include <array>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
+
+#include "physics/camera_sensor.h"
 
 namespace franka_sim::physics {
 
@@ -31,9 +36,10 @@ struct UrdfLink {
   std::string name;
   std::optional<UrdfInertial> inertial;
   std::vector<UrdfGeometry> collisions, visuals;
-  std::optional<double> friction;  ///< mu of the <gazebo reference> element
-  int parent_joint{-1};            ///< index in UrdfRobot::joints, -1 for the root
-  std::vector<int> child_joints;   ///< in the order of the file
+  std::vector<CameraSensor> cameras;  ///< of the <gazebo reference> element
+  std::optional<double> friction;     ///< mu of the <gazebo reference> element
+  int parent_joint{-1};               ///< index in UrdfRobot::joints, -1 for the root
+  std::vector<int> child_joints;      ///< in the order of the file
 };
 
 struct UrdfJoint {
@@ -55,17 +61,27 @@ struct UrdfRobot {
   std::vector<UrdfLink> links;
   std::vector<UrdfJoint> joints;
   int root{-1};
-  bool self_collide{true};  ///< <self_collide> of the <gazebo> element without a reference
+  std::set<std::string> notes;     ///< elements that are not simulated as written
+  bool is_static{false};           ///< <static> of a <gazebo> element without a reference
+  bool has_control_plugin{false};  ///< of ros_control
+  bool self_collide{true};         ///< <self_collide> of the <gazebo> element without a reference
 
   /// Index of a link or joint, -1 if unknown.
   int link(const std::string& link_name) const noexcept;
   int joint(const std::string& joint_name) const noexcept;
 };
 
+/// Makes the joints of a URDF fixed that cannot move: revolute and prismatic ones without <limit>,
+/// or whose limits are equal, at that position.
+/// @param root <robot>; unchanged if it has no such joint. @param notes gets their names
+/// @returns whether there was one. @throws std::runtime_error for values that are not numbers
+bool holdJoints(tinyxml2::XMLElement* root, const std::string& where, std::set<std::string>* notes);
+
 /// Reads a URDF text with tinyxml2, because urdfdom loses the order of the file (decision 59).
+/// Joints without a range are held, and rounded inertias repaired: see `notes`.
 /// @throws std::runtime_error that names the robot, the element and the error: XML errors,
 /// duplicate names, unknown links, two roots or parents, loops, unsupported joint types, values
-/// that are not numbers, limits in the wrong order, inertias that are not positive.
+/// that are not numbers, limits in the wrong order, inertias that no body has.
 UrdfRobot readUrdf(const std::string& text, const std::string& robot_name);
 
 }  // namespace franka_sim::physics

@@ -29,7 +29,9 @@ std::array<std::string, N> jointNames(const physics::RobotModel& robot, const st
 }  // namespace
 
 World::World(const std::string& file, ResourceResolver resolve)
-    : impl_(std::make_unique<Impl>(file, std::move(resolve))) {}
+    : impl_(std::make_unique<Impl>(file, std::move(resolve))) {
+  impl_->news.insert(unsupported());
+}
 
 World::~World() = default;
 
@@ -72,6 +74,7 @@ void World::addRobot(const RobotDescription& robot) {
   std::vector<std::unique_ptr<physics::RobotModel>> all = impl_->copyRobots();
   all.push_back(std::move(added));
   impl_->rebuild(&all);
+  impl_->news.insert(unsupported(robot.name));
 }
 
 void World::removeRobot(const std::string& name) {

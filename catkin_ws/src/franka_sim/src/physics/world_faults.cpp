@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <stdexcept>
+#include <utility>
 
 #include "physics/world_impl.h"
 
@@ -95,6 +96,11 @@ std::vector<std::string> World::takeWarnings() {
       {mjWARN_BADCTRL, "An actuator's command is not finite or too large: all actuators are off."},
   };
   std::vector<std::string> news;
+  for (const std::string& sentence : std::exchange(impl_->news, {})) {
+    if (!sentence.empty()) {
+      news.push_back(sentence);
+    }
+  }
   for (const Kind& kind : kKinds) {
     bool& warned = impl_->warned[kind.number];
     if (!warned && impl_->data->warning[kind.number].number > 0) {

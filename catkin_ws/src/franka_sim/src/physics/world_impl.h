@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -88,6 +89,7 @@ struct World::Impl {
   std::optional<physics::StepFault> fault;  ///< why the world stands still
   std::string fault_text;                   ///< its sentence; written on first use
   std::array<bool, mjNWARNING> warned{};    ///< MuJoCo's warnings that were taken
+  std::set<std::string> news;               ///< sentences that takeWarnings() has not returned yet
   std::string visual_mjcf;                  ///< for pictures; written on first use
 
   std::uint64_t generation{0};  ///< number of the model; no other one of this process has it

@@ -35,6 +35,7 @@ void World::addObject(const std::string& name, const std::string& text, const Po
   auto new_world = impl_->world->with(name, text, pose);
   auto same_robots = impl_->copyRobots();
   impl_->rebuild(&same_robots, std::move(new_world));
+  impl_->news.insert(unsupported(name));
 }
 
 void World::removeObject(const std::string& name) {
@@ -45,13 +46,21 @@ void World::removeObject(const std::string& name) {
 
 std::vector<std::string> World::objects() const { return impl_->world->objects(); }
 
-std::string World::unsupported(const std::string& object) const {
+std::string World::unsupported(const std::string& name) const {
+  std::string subject = name.empty() ? impl_->world->title() : "Object '" + name + "'";
+  std::set<std::string> notes = impl_->world->unsupported(name);
+  for (const auto& robot : impl_->robots) {
+    if (robot->description.name == name) {
+      subject = "Robot '" + name + "'";
+      notes = robot->urdf.notes;
+    }
+  }
   std::string list;
-  for (const std::string& what : impl_->world->unsupported(object)) {
+  for (const std::string& what : notes) {
     list += (list.empty() ? "" : "; ") + what;
   }
-  const std::string subject = object.empty() ? impl_->world->title() : "Object '" + object + "'";
-  return list.empty() ? list : subject + " has elements that are not simulated: " + list + ".";
+  return list.empty() ? list
+                      : subject + " has elements that are not simulated as written: " + list + ".";
 }
 
 std::vector<std::string> World::bodies() const {

@@ -128,6 +128,20 @@ void setPose(tinyxml2::XMLElement* element, const Eigen::Isometry3d& pose) {
   }
 }
 
+std::string rootName(const std::string& text) {
+  std::size_t at = 0;
+  while ((at = text.find('<', at)) != std::string::npos) {
+    if (text.compare(at, 4, "<!--") == 0) {
+      at = text.find("-->", at);
+    } else if (text[at + 1] != '?' && text[at + 1] != '!') {
+      const std::size_t end = text.find_first_of(" \t\r\n/>", at);
+      return text.substr(at + 1, end == std::string::npos ? end : end - at - 1);
+    }
+    at = at == std::string::npos ? at : at + 1;
+  }
+  return "";
+}
+
 std::string toText(const tinyxml2::XMLDocument& document) {
   tinyxml2::XMLPrinter printer;
   document.Print(&printer);

@@ -48,6 +48,9 @@ tinyxml2::XMLElement* append(tinyxml2::XMLNode* parent, const char* name);
 /// Sets position and quaternion attributes, except identity values.
 void setPose(tinyxml2::XMLElement* element, const Eigen::Isometry3d& pose);
 
+/// The name of a text's root element, found without reading the rest; empty if there is none.
+std::string rootName(const std::string& text);
+
 /// Printed document.
 std::string toText(const tinyxml2::XMLDocument& document);
 

@@ -73,6 +73,48 @@ TEST_F(MjcfWorldTest, UnitsAndDefaultsOfTheWorldDoNotAffectTheRobot) {
   EXPECT_EQ(1, a->geom_contype[ours]);
 }
 
+TEST_F(MjcfWorldTest, KeyframesAreLeftOutWithANote) {
+  World world(write("keys.xml", R"(<mujoco><worldbody>
+    <body name="cube" pos="1 0 .1"><freejoint/><geom type="box" size=".02 .02 .02"/></body>
+    </worldbody><keyframe><key name="home" qpos="1 0 .1 1 0 0 0"/></keyframe></mujoco>)"));
+  world.addRobot(robot("panda"));
+  EXPECT_NE(std::string::npos, world.unsupported().find("keyframe"));
+}
+
+/// MuJoCo 3 takes a joint with a range as limited.
+TEST_F(MjcfWorldTest, RangesLimitJointsAsInMujoco3) {
+  for (const char* compiler : {"", "<compiler autolimits='true'/>"}) {
+    const World world(write("limits.xml", std::string("<mujoco>") + compiler + R"(<worldbody>
+      <body><joint name="j" range="0 90"/><geom size="0.1"/></body></worldbody></mujoco>)"));
+    const auto model = physics::compile(world.mjcf(false), "limits");
+    EXPECT_EQ(1, model->jnt_limited[0]) << compiler;
+  }
+}
+
+TEST_F(MjcfWorldTest, BalancesInertiasOfTheWorldAlone) {
+  const World world(write("balance.xml", R"(<mujoco><compiler balanceinertia="true"/><worldbody>
+    <body name="b"><freejoint/><inertial pos="0 0 0" mass="1" diaginertia="1 1 4"/></body>
+    </worldbody></mujoco>)"));
+  const auto model = physics::compile(world.mjcf(false), "balance");
+  EXPECT_DOUBLE_EQ(2, model->body_inertia[3]);
+  EXPECT_EQ("", world.unsupported());
+}
+
+TEST_F(MjcfWorldTest, CamerasOfARobotBelongToTheWorld) {
+  World world;
+  RobotDescription description = robot("panda");
+  description.urdf = replaceAll(
+      description.urdf, "</robot>",
+      "<gazebo reference='panda_hand'><sensor name='eye' type='camera'><camera><image><width>320"
+      "</width><height>200</height></image></camera></sensor></gazebo></robot>");
+  world.addRobot(description);
+  ASSERT_EQ(1u, world.cameras().size());
+  EXPECT_EQ("panda::panda_hand::eye", world.cameras()[0].name);
+  EXPECT_EQ(320, world.cameras()[0].width);
+  const auto model = physics::compile(world.mjcf(true), "pictures");
+  EXPECT_EQ(1, model->ncam);
+}
+
 TEST_F(MjcfWorldTest, IncludesAndRelativeFilesWork) {
   write("rock.obj", "v 0 0 0\nv .1 0 0\nv 0 .1 0\nv 0 0 .1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   write("rock.xml", R"(<mujoco><asset><mesh name="rock" file="rock.obj"/></asset><worldbody>

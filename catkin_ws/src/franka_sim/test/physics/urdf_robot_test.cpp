@@ -72,7 +72,6 @@ TEST(UrdfRobotTest, ReportsErrorsWithTheirCause) {
           {"joint 'j'", "<child>"});
   refuses(twoLinks("<joint name='j' type='fixed'><parent link='bas'/><child link='arm'/></joint>"),
           {"parent link 'bas'", "not exist"});
-  refuses(twoLinks(hinge("")), {"joint 'j'", "<limit>"});
   refuses(twoLinks(hinge("<limit lower='1' upper='-1'/>")), {"lower limit 1", "upper limit -1"});
   refuses(twoLinks(hinge("<axis xyz='0 0 0'/><limit lower='-1' upper='1'/>")), {"axis"});
   refuses(twoLinks(hinge("<axis xyz='0 1'/><limit lower='-1' upper='1'/>")), {"'xyz'", "needs 3"});
@@ -92,6 +91,72 @@ TEST(UrdfRobotTest, ReportsErrorsWithTheirCause) {
   refuses(twoLinks(hinge(), "<collision><geometry><sphere radius='0'/></geometry></collision>"),
           {"'radius'", "greater than zero"});
   refuses(twoLinks(hinge(), "<visual><geometry><mesh/></geometry></visual>"), {"'filename'"});
+}
+
+TEST(UrdfRobotTest, HoldsJointsWithoutARange) {
+  for (const char* limit : {"", "<limit effort='1'/>", "<limit lower='0' upper='0'/>"}) {
+    const auto robot = physics::readUrdf(twoLinks(hinge(limit)), "rob");
+    EXPECT_EQ(physics::UrdfJoint::Type::kFixed, robot.joints[0].type) << limit;
+    EXPECT_TRUE(robot.joints[0].origin.isApprox(Eigen::Isometry3d::Identity())) << limit;
+    EXPECT_EQ(1u, robot.notes.size()) << limit;
+  }
+}
+
+TEST(UrdfRobotTest, HeldJointsKeepThePositionOfTheirLimits) {
+  const std::string origin = "<origin xyz='1 2 3' rpy='0.3 -0.4 0.5'/><axis xyz='0 0 2'/>";
+  const auto robot =
+      physics::readUrdf(twoLinks(hinge(origin + "<limit lower='0.6' upper='0.6'/>")), "rob");
+  const auto free =
+      physics::readUrdf(twoLinks(hinge(origin + "<limit lower='0' upper='1'/>")), "rob");
+  EXPECT_TRUE(robot.joints[0].origin.isApprox(
+      free.joints[0].origin * Eigen::AngleAxisd(0.6, Eigen::Vector3d::UnitZ()), 1e-12));
+}
+
+TEST(UrdfRobotTest, HoldsTheFollowerOfAHeldJoint) {
+  const auto robot = physics::readUrdf(
+      "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+      "<joint name='k' type='prismatic'><parent link='b'/><child link='c'/><limit lower='-1' "
+      "upper='1'/><mimic joint='j' multiplier='2' offset='0.1'/></joint>"
+      "<joint name='j' type='revolute'><parent link='a'/><child link='b'/>"
+      "<limit lower='0.2' upper='0.2'/></joint></robot>",
+      "rob");
+  EXPECT_EQ(physics::UrdfJoint::Type::kFixed, robot.joints[0].type);
+  EXPECT_NEAR(0.5, robot.joints[0].origin.translation().x(), 1e-15);
+}
+
+TEST(UrdfRobotTest, RepairsRoundedInertiasWithANote) {
+  const auto moments = [](double xx, double yy, double zz) {
+    return "<inertial><mass value='1'/><inertia ixx='" + std::to_string(xx) + "' iyy='" +
+           std::to_string(yy) + "' izz='" + std::to_string(zz) + "'/></inertial>";
+  };
+  const auto robot = physics::readUrdf(twoLinks(hinge(), moments(0.42, 0.42, 0.85)), "rob");
+  const Eigen::Matrix3d& inertia = robot.links[1].inertial->inertia;
+  EXPECT_NEAR(0.84, inertia(2, 2), 1e-9);
+  EXPECT_EQ(0.42, inertia(0, 0));
+  ASSERT_EQ(1u, robot.notes.size());
+  EXPECT_NE(std::string::npos, robot.notes.begin()->find("'arm'"));
+  EXPECT_TRUE(physics::readUrdf(twoLinks(hinge(), moments(1, 1, 2)), "rob").notes.empty());
+  EXPECT_EQ(1u, physics::readUrdf(twoLinks(hinge(), moments(-0.01, 1, 1)), "rob").notes.size());
+  refuses(twoLinks(hinge(), moments(1, 1, 2.2)), {"link 'arm'", "principal moments"});
+}
+
+TEST(UrdfRobotTest, ReadsCamerasAndNamesWhatIsNotSimulated) {
+  const auto robot = physics::readUrdf(
+      twoLinks(hinge() +
+               "<gazebo reference='arm'><sensor name='eye' type='depth'><pose>1 0 0 0 0 0</pose>"
+               "<update_rate>5</update_rate><camera><image><width>64</width><height>48</height>"
+               "</image></camera></sensor><sensor name='bump' type='contact'/></gazebo>"
+               "<gazebo><plugin name='truth' filename='libgazebo_ros_p3d.so'/></gazebo>"),
+      "rob");
+  const auto& cameras = robot.links[robot.link("arm")].cameras;
+  ASSERT_EQ(1u, cameras.size());
+  EXPECT_EQ("rob::arm::eye", cameras[0].name);
+  EXPECT_EQ(64, cameras[0].width);
+  EXPECT_EQ(5, cameras[0].rate);
+  EXPECT_EQ(1, cameras[0].pose.translation().x());
+  ASSERT_EQ(2u, robot.notes.size());
+  EXPECT_NE(std::string::npos, robot.notes.begin()->find("truth"));
+  EXPECT_NE(std::string::npos, robot.notes.rbegin()->find("rob::arm::bump"));
 }
 
 TEST(UrdfRobotTest, RefusesLoopsAndTwoParents) {

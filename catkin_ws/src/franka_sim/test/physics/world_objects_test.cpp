@@ -1,10 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Objects that are added and removed, states that are set, snapshots that continue to the last bit.
+#include <franka_sim/physics/urdf_text.h>
 #include <gmock/gmock.h>
 
 #include <cmath>
 
+#include "physics/world_impl.h"
 #include "test_support.h"
 
 namespace franka_sim::test {
@@ -56,6 +58,95 @@ TEST(WorldObjects, AddAndRemoveKeepOtherStates) {
   EXPECT_NEAR(world.bodyPose("other cube::link").position[1], -1, 1e-3);
 }
 
+constexpr const char* kUrdf =
+    "<robot name='any'><link name='body'><inertial><mass value='0.5'/><inertia ixx='0.001' "
+    "iyy='0.001' izz='0.001' ixy='0' ixz='0' iyz='0'/></inertial><collision><geometry>"
+    "<box size='0.1 0.1 0.1'/></geometry></collision></link></robot>";
+
+TEST(WorldObjects, UrdfOfAnObjectIsFreeToMove) {
+  ASSERT_TRUE(isUrdfOfObject(kUrdf));
+  World world;
+  world.addObject("cube", kUrdf, at(1, 2, 1));
+  EXPECT_EQ(world.bodyPose("cube::body").position, (std::array<double, 3>{1, 2, 1}));
+  run(world, 2000);
+  EXPECT_NEAR(world.bodyPose("cube").position[2], 0.05, 1e-3);
+  world.setBodyPose("cube", at(0, 0, 3));
+}
+
+TEST(WorldObjects, UrdfOfARobotIsNotOneOfAnObject) {
+  const auto with = [](const std::string& element) {
+    return replaceAll(kUrdf, "</robot>", element + "</robot>");
+  };
+  EXPECT_FALSE(isUrdfOfObject(with("<transmission name='t'/>")));
+  EXPECT_FALSE(
+      isUrdfOfObject(with("<link name='world'/><joint name='w' type='fixed'><parent "
+                          "link='world'/><child link='body'/></joint>")));
+  EXPECT_FALSE(isUrdfOfObject(
+      with("<gazebo><plugin name='c' filename='libgazebo_ros_control.so'/></gazebo>")));
+  for (const std::string kind : {"panda", "fr3"}) {
+    EXPECT_FALSE(isUrdfOfObject(urdfOf(kind)));
+  }
+}
+
+TEST(WorldObjects, UrdfJointsOfAnObjectMove) {
+  World world;
+  world.addObject("box",
+                  replaceAll(kUrdf, "</robot>",
+                             "<link name='lid'><inertial><mass value='0.1'/><inertia "
+                             "ixx='0.001' iyy='0.001' izz='0.001'/></inertial></link>"
+                             "<joint name='hinge' type='revolute'><parent link='body'/>"
+                             "<child link='lid'/><limit lower='0' upper='2'/></joint>"
+                             "</robot>"),
+                  at(0, 0, 0.05));
+  EXPECT_THAT(world.joints(), Contains("box::hinge"));
+  EXPECT_THAT(world.bodies(), Contains("box::lid"));
+}
+
+TEST(WorldObjects, TextsThatGazeboTakesAreRead) {
+  const std::string sdf = kCube, begin = "<sdf version='1.6'>", end = "</sdf>";
+  World world;
+  world.addObject("without end", sdf.substr(0, sdf.size() - end.size()), at(1, 0, 1));
+  world.addObject("bare", sdf.substr(begin.size(), sdf.size() - begin.size() - end.size()),
+                  at(2, 0, 1));
+  EXPECT_THAT(world.objects(), ElementsAre("without end", "bare"));
+}
+
+TEST(WorldObjects, RoundedInertiasAreRepairedWithAWarning) {
+  const std::string rounded = replaceAll(kCube, "<izz>0.001<", "<izz>0.00205<");
+  const std::string mjcf =
+      "<body name='disc'><freejoint/><inertial pos='0 0 0' mass='1' diaginertia='0.001 0.001 "
+      "0.00205'/></body>";
+  World world;
+  ASSERT_TRUE(world.takeWarnings().empty());
+  for (const std::string& text : {rounded, mjcf}) {
+    world.addObject("it", text, at(0, 0, 1));
+    EXPECT_THAT(world.takeWarnings(), ElementsAre(world.unsupported("it")));
+    EXPECT_THAT(world.unsupported("it"), ::testing::HasSubstr("inertia"));
+    world.removeObject("it");
+  }
+  const std::string wrong = replaceAll(mjcf, "0.00205", "0.003");
+  expectSentence([&] { world.addObject("it", wrong, at(0, 0, 1)); }, {"'disc'", "moments"});
+}
+
+TEST(WorldObjects, AnglesOfAnyUnitAreConverted) {
+  const std::string file =
+      "<mujoco>%<worldbody><body name='b' euler='0 0 @'><joint name='j' axis='0 0 1' range='0 @'/>"
+      "<joint name='s' type='slide' range='0 90'/><geom size='0.1'/></body></worldbody></mujoco>";
+  const std::string radians =
+      replaceAll(replaceAll(file, "%", "<compiler angle='radian'/>"), "@", "1.5707963267948966");
+  const std::string degrees = replaceAll(replaceAll(file, "%", ""), "@", "90");
+  for (const std::string& text : {radians, degrees}) {
+    World world;
+    world.addObject("b", text, at(0, 0, 1));
+    EXPECT_NEAR(world.bodyPose("b").orientation[3], std::sqrt(0.5), 1e-12);
+    const mjModel& model = *world.impl().model;
+    const int joint = mj_name2id(&model, mjOBJ_JOINT, "j");
+    EXPECT_NEAR(model.jnt_range[2 * joint + 1], M_PI / 2, 1e-12);
+    EXPECT_EQ(1, model.jnt_limited[joint]);
+    EXPECT_EQ(90, model.jnt_range[2 * mj_name2id(&model, mjOBJ_JOINT, "s") + 1]);
+  }
+}
+
 TEST(WorldObjects, ErrorsHaveACauseAndChangeNothing) {
   World world;
   world.addRobot(robot("panda"));
@@ -71,7 +162,7 @@ TEST(WorldObjects, ErrorsHaveACauseAndChangeNothing) {
   refuses("panda", kCube, {"panda", "robot"});
   refuses("x", "", {"'x'", "well-formed"});
   refuses("x", "no xml", {"'x'", "well-formed"});
-  refuses("x", "<robot name='r'/>", {"<robot>", "<sdf>", "<mujoco>"});
+  refuses("x", "<part name='r'/>", {"<part>", "<sdf>", "<mujoco>"});
   refuses("x", "<mujoco/>", {"no body"});
   refuses("x", "<mujoco><option gravity='0 0 1'/></mujoco>", {"<option>", "whole world"});
   refuses("x", "<mujoco><worldbody><geom size='1'/></worldbody></mujoco>", {"<body>"});

@@ -156,15 +156,15 @@ class World {
   void removeRobot(const std::string& name);  ///< its state is lost
   std::vector<std::string> robots() const;    ///< names
 
-  /// Adds an object: SDF with one model, MJCF with bodies, or a lone MJCF <body>. The state of
-  /// everything else is kept; nothing changes when it throws.
+  /// Adds an object: SDF with one model, MJCF with bodies, a lone MJCF <body>, or the URDF of an
+  /// object (urdf_text.h). The state of everything else is kept; nothing changes when it throws.
   /// @param pose of the text's origin in the world
   void addObject(const std::string& name, const std::string& text, const Pose& pose);
   void removeObject(const std::string& name);  ///< its state is lost
   std::vector<std::string> objects() const;    ///< names
-  /// One sentence that names elements of the world file's SDF (or of an object) that are not
-  /// simulated; empty when there are none.
-  std::string unsupported(const std::string& object = "") const;
+  /// One sentence that names elements of the world file (or of an object or robot) that are not
+  /// simulated as they are written; empty when there are none.
+  std::string unsupported(const std::string& name = "") const;
 
   /// Names of all bodies (links included) and of all joints with one degree of freedom.
   std::vector<std::string> bodies() const;
@@ -211,7 +211,8 @@ class World {
   bool stopped() const noexcept;
   /// Why it has stopped: a sentence; empty while it runs.
   std::string fault() const;
-  /// Sentences for MuJoCo's warnings since the last call, each once until a reset.
+  /// Sentences since the last call: unsupported() of what was added, and MuJoCo's warnings, each
+  /// once until a reset.
   std::vector<std::string> takeWarnings();
   std::uint64_t ticks() const noexcept;  ///< since the start; reset() sets it to 0
   /// Physics steps of the last tick: 1 or kSmallSteps (decision 58). Real-time safe.
