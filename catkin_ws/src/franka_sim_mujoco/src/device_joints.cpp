@@ -61,6 +61,11 @@ void DeviceJoints::add(const TransmissionInfo& transmission, const urdf::Model& 
     throw std::invalid_argument("the transmission '" + transmission.name_ + "' names the joint '" +
                                 info.name_ + "', which the URDF does not have.");
   }
+  if (described->type == urdf::Joint::FIXED) {
+    ROS_WARN_NAMED(kDeviceLog, "'%s' does not move: its transmission '%s' is ignored.",
+                   info.name_.c_str(), transmission.name_.c_str());
+    return;
+  }
   const auto known = std::find_if(joints_.begin(), joints_.end(),
                                   [&](const Joint& joint) { return joint.name == info.name_; });
   if (known != joints_.end()) {
@@ -105,6 +110,10 @@ void DeviceJoints::readInterfaces(const transmission_interface::JointInfo& info,
 }
 
 void DeviceJoints::readGains(Joint* joint) const {
+  std::string why;
+  if (!ros::names::validate(joint->name, why)) {
+    return;  // ROS can have no parameters of that name
+  }
   const ros::NodeHandle gains(node_, "gazebo_ros_control/pid_gains/" + joint->name);
   if (!ros::param::has(gains.getNamespace())) {
     return;

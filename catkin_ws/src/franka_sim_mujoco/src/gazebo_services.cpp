@@ -20,7 +20,6 @@
 #include <gazebo_msgs/SetModelConfiguration.h>
 #include <gazebo_msgs/SetModelState.h>
 #include <gazebo_msgs/SpawnModel.h>
-#include <ros/console.h>
 
 #include <algorithm>
 #include <stdexcept>
@@ -127,21 +126,13 @@ franka_sim::Pose spawnPose(Simulation& simulation,
   return pose;
 }
 
-void spawnUrdf(Simulation& simulation, const gazebo_msgs::SpawnModel::Request& request) {
+std::string spawnUrdf(Simulation& simulation, const gazebo_msgs::SpawnModel::Request& request) {
   SpawnOrder order;
   order.name = request.model_name;
   order.urdf = request.model_xml;
   order.robot_namespace = request.robot_namespace;
   order.pose = spawnPose(simulation, request);
-  simulation.spawn(order);
-}
-
-void spawnSdf(Simulation& simulation, const gazebo_msgs::SpawnModel::Request& request) {
-  const std::string warning =
-      simulation.spawnObject(request.model_name, request.model_xml, spawnPose(simulation, request));
-  if (!warning.empty()) {
-    ROS_WARN_NAMED("franka_sim_mujoco", "%s", warning.c_str());
-  }
+  return simulation.spawn(order);
 }
 
 /// Gazebo accepts a model's joints with or without the model's name as prefix.
@@ -245,13 +236,14 @@ void SimServices::offerGazeboModels() {
                                  deleteModel(simulation_, request.model_name);
                                });
   services_.offer<SpawnModel>("spawn_urdf_model",
-                              [this](SpawnModel::Request& request, SpawnModel::Response&) {
-                                spawnUrdf(simulation_, request);
+                              [this](SpawnModel::Request& request, SpawnModel::Response& response) {
+                                response.status_message = spawnUrdf(simulation_, request);
                               });
-  services_.offer<SpawnModel>("spawn_sdf_model",
-                              [this](SpawnModel::Request& request, SpawnModel::Response&) {
-                                spawnSdf(simulation_, request);
-                              });
+  services_.offer<SpawnModel>(
+      "spawn_sdf_model", [this](SpawnModel::Request& request, SpawnModel::Response& response) {
+        response.status_message = simulation_.spawnObject(request.model_name, request.model_xml,
+                                                          spawnPose(simulation_, request));
+      });
   services_.offer<SetModelConfiguration>(
       "set_model_configuration",
       [this](SetModelConfiguration::Request& request, SetModelConfiguration::Response&) {

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/urdf_text.h>
 #include <franka_sim/robot/condition_text.h>
 #include <franka_sim_mujoco/joint_state_publisher.h>
 #include <franka_sim_mujoco/log_names.h>
@@ -75,9 +76,12 @@ RobotInstance::~RobotInstance() = default;
 
 void RobotInstance::start(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
                           BetweenTicks between_ticks, const OperatorAccess& access) {
-  const RobotHandle robot{
-      &world,         name_, plan.description.urdf, plan.arm_physics, std::move(between_ticks),
-      plan.robot_type};
+  const RobotHandle robot{&world,
+                          name_,
+                          franka_sim::withHeldJoints(plan.description.urdf),
+                          plan.arm_physics,
+                          std::move(between_ticks),
+                          plan.robot_type};
   if (!plan.fci_ip.empty()) {
     serve(plan, robot, access);
   } else if (!plan.hardware_type.empty()) {

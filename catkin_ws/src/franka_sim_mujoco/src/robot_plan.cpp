@@ -1,16 +1,16 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_core/numbers.h>
 #include <franka_sim/physics/physics_config.h>
+#include <franka_sim/physics/urdf_text.h>
 #include <franka_sim/robot/realism.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/param_reader.h>
+#include <franka_sim_mujoco/plugin_element.h>
 #include <franka_sim_mujoco/resources.h>
 #include <franka_sim_mujoco/robot_instance.h>
 #include <franka_sim_mujoco/robot_type.h>
 #include <ros/console.h>
-#include <tinyxml2.h>
 #include <transmission_interface/transmission_parser.h>
 
 #include <algorithm>
@@ -26,52 +26,6 @@ namespace {
 
 constexpr double kFirstFciPort = 1337;  // robot, gripper, vacuum gripper
 constexpr double kLastFciPort = 1339;
-
-/// The URDF's <gazebo><plugin> element, as far as it concerns the hardware.
-struct PluginElement {
-  std::string hardware_type, robot_namespace;
-  double control_period{1e-3};
-};
-
-std::string childText(const tinyxml2::XMLElement& element, const char* name) {
-  const tinyxml2::XMLElement* child = element.FirstChildElement(name);
-  return child != nullptr && child->GetText() != nullptr ? child->GetText() : "";
-}
-
-PluginElement readPluginElement(const std::string& urdf) {
-  PluginElement result;
-  tinyxml2::XMLDocument document;
-  if (document.Parse(urdf.c_str()) != tinyxml2::XML_SUCCESS || document.RootElement() == nullptr) {
-    throw std::runtime_error("The robot description is not XML: " +
-                             std::string(document.ErrorStr()));
-  }
-  for (const auto* gazebo = document.RootElement()->FirstChildElement("gazebo"); gazebo != nullptr;
-       gazebo = gazebo->NextSiblingElement("gazebo")) {
-    for (const auto* plugin = gazebo->FirstChildElement("plugin"); plugin != nullptr;
-         plugin = plugin->NextSiblingElement("plugin")) {
-      const char* library = plugin->Attribute("filename");
-      if (plugin->FirstChildElement("robotSimType") != nullptr) {
-        result.hardware_type = childText(*plugin, "robotSimType");
-      } else if (library != nullptr &&
-                 std::string(library).find("gazebo_ros_control") != std::string::npos) {
-        result.hardware_type = "gazebo_ros_control/DefaultRobotHWSim";
-      } else {
-        continue;
-      }
-      result.robot_namespace = childText(*plugin, "robotNamespace");
-      if (plugin->FirstChildElement("controlPeriod") != nullptr) {
-        const std::string period = childText(*plugin, "controlPeriod");
-        result.control_period = franka_core::readNumber(period).value_or(0.0);
-        if (!(result.control_period > 0.0 && result.control_period <= 1.0)) {
-          throw std::runtime_error("The controlPeriod of the robot description is '" + period +
-                                   "'; it must be a time in seconds, above 0 and up to 1.");
-        }
-      }
-      return result;
-    }
-  }
-  return result;
-}
 
 /// "panda" or "fr3"; the result and its reason are logged.
 std::string chooseRobotType(const ros::NodeHandle& node, const RobotPlan& plan) {
@@ -119,7 +73,8 @@ std::map<std::string, double> knownPositions(const SpawnOrder& order, const urdf
   std::map<std::string, double> known;
   std::string unknown;
   for (const auto& [joint, position] : order.initial_positions) {
-    if (!model.getJoint(joint)) {
+    const urdf::JointConstSharedPtr described = model.getJoint(joint);
+    if (!described || described->type == urdf::Joint::FIXED) {
       unknown += (unknown.empty() ? "" : ", ") + joint;
       continue;
     }
@@ -130,7 +85,7 @@ std::map<std::string, double> knownPositions(const SpawnOrder& order, const urdf
   }
   if (!unknown.empty()) {
     ROS_WARN_NAMED(kLog,
-                   "The robot '%s' does not have these joints, for which initial positions were "
+                   "The robot '%s' does not move these joints, for which initial positions were "
                    "given: %s. They are ignored.",
                    order.name.c_str(), unknown.c_str());
   }
@@ -162,12 +117,12 @@ RobotPlan planRobot(const SpawnOrder& order) {
   if (order.name.empty()) {
     throw std::runtime_error("A robot needs a name.");
   }
-  if (!plan.urdf.initString(order.urdf)) {
+  if (!plan.urdf.initString(franka_sim::withHeldJoints(order.urdf))) {
     throw std::runtime_error(
         "The robot description of '" + order.name +
         "' is not a URDF that can be read; the lines above in the log say why.");
   }
-  const PluginElement plugin = readPluginElement(order.urdf);
+  const PluginElement plugin = readPluginElement(order.urdf, order.robot_namespace);
   plan.control_ticks =
       std::max(1, static_cast<int>(std::lround(plugin.control_period / franka_sim::World::kTick)));
   plan.robot_namespace = chooseNamespace(order, plugin);

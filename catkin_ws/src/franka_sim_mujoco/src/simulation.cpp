@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/physics/bare_steps.h>
+#include <franka_sim/physics/urdf_text.h>
 #include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/resources.h>
 #include <franka_sim_mujoco/simulation.h>
@@ -51,10 +52,7 @@ Simulation::Simulation(const SimulationOptions& options, ros::NodeHandle& node)
                              std::to_string(static_cast<int>(kMaxClockRate)) + " Hz.");
   }
   applyPace();
-  const std::string unsupported = world_.unsupported();
-  if (!unsupported.empty()) {
-    ROS_WARN_NAMED(kLog, "%s", unsupported.c_str());
-  }
+  reportWarnings();
 }
 
 Simulation::~Simulation() { stop(); }
@@ -122,10 +120,14 @@ void Simulation::advance() {
   clock_.tick(time());
 }
 
-void Simulation::watchWorld() {
+void Simulation::reportWarnings() {
   for (const std::string& warning : world_.takeWarnings()) {
     ROS_WARN_NAMED(kLog, "%s", warning.c_str());
   }
+}
+
+void Simulation::watchWorld() {
+  reportWarnings();
   if (!world_.stopped() || paused_by_fault_) {
     return;
   }
@@ -288,8 +290,14 @@ std::vector<franka_sim::SceneRobot> Simulation::sceneRobots() const {
   return robots;
 }
 
-void Simulation::spawn(const SpawnOrder& order) {
+std::string Simulation::spawn(const SpawnOrder& order) {
+  if (franka_sim::isUrdfOfObject(order.urdf)) {
+    const std::string notes = spawnObject(order.name, order.urdf, order.pose);
+    placeJoints(order);
+    return notes;
+  }
   const RobotPlan plan = planRobot(order);
+  std::string notes;
   requests_.run(
       [&] {
         if (find(order.name) != nullptr) {
@@ -305,6 +313,8 @@ void Simulation::spawn(const SpawnOrder& order) {
           robot->served()->addTo(host_);
         }
         robots_.push_back(std::move(robot));
+        notes = world_.unsupported(order.name);
+        reportWarnings();
         const std::string overlaps = world_.describeOverlaps(order.name);
         if (!overlaps.empty()) {
           ROS_WARN_NAMED(kLog, "%s Give it another place (x, y, z) or other joint positions.",
@@ -313,11 +323,32 @@ void Simulation::spawn(const SpawnOrder& order) {
         host_.restartClock();
       },
       kSpawnTimeout);
+  return notes;
+}
+
+void Simulation::placeJoints(const SpawnOrder& order) {
+  requests_.run([&] {
+    const std::vector<std::string> joints = world_.joints();
+    for (const auto& [name, position] : order.initial_positions) {
+      const std::string joint = order.name + "::" + name;
+      if (std::find(joints.begin(), joints.end(), joint) != joints.end()) {
+        world_.setJointPosition(joint, position);
+      } else {
+        ROS_WARN_NAMED(kLog, "'%s' has no joint '%s' that moves: its initial position is ignored.",
+                       order.name.c_str(), name.c_str());
+      }
+    }
+  });
 }
 
 void Simulation::remove(const std::string& name) {
   std::unique_ptr<RobotInstance> removed;
   requests_.run([&] {
+    const std::vector<std::string> objects = world_.objects();
+    if (std::find(objects.begin(), objects.end(), name) != objects.end()) {
+      world_.removeObject(name);  // its URDF was that of an object
+      return;
+    }
     const auto robot = std::find_if(robots_.begin(), robots_.end(), [&](const auto& candidate) {
       return candidate->name() == name;
     });
@@ -345,6 +376,7 @@ std::string Simulation::spawnObject(const std::string& name, const std::string& 
         const std::vector<std::string> before = world_.bodies();
         world_.addObject(name, text, pose);
         unsupported = world_.unsupported(name);
+        reportWarnings();
         for (const std::string& robot : world_.robots()) {
           for (const franka_sim::Overlap& overlap : world_.overlaps(robot)) {
             if (std::find(before.begin(), before.end(), overlap.body) == before.end()) {

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// Whether a description is that of a Panda or of an FR3.
+/// What a description says: whether it is that of a Panda or of an FR3, and its plugin element.
 
+#include <franka_sim_mujoco/plugin_element.h>
 #include <franka_sim_mujoco/robot_type.h>
 #include <gtest/gtest.h>
 
@@ -111,6 +112,45 @@ TEST(RobotType, ParameterOverridesTheJointsAndWarns) {
   EXPECT_TRUE(contains(contradicted.warning, "looks like fr3: the positions"));
   EXPECT_TRUE(isRobotType("panda") && isRobotType("fr3"));
   EXPECT_FALSE(isRobotType("") || isRobotType("FR3") || isRobotType("ur5"));
+}
+
+std::string plugin(const std::string& name, const std::string& type,
+                   const std::string& robot_namespace = "") {
+  return "<gazebo><plugin name='" + name + "' filename='libgazebo_ros_control.so'><robotSimType>" +
+         type + "</robotSimType><robotNamespace>" + robot_namespace +
+         "</robotNamespace></plugin></gazebo>";
+}
+
+std::string robotWith(const std::string& content) {
+  return "<robot name='r'><link name='l'/>" + content + "</robot>";
+}
+
+TEST(PluginElement, OfTheArmIsPreferredInItsNamespace) {
+  const std::string device = plugin("lift", "gazebo_ros_control/DefaultRobotHWSim", "/arm/");
+  const std::string arm = plugin("arm", "franka_gazebo/FrankaHWSim");
+  for (const std::string& both : {device + arm, arm + device}) {
+    EXPECT_EQ("arm", readPluginElement(robotWith(both), "arm").name);
+  }
+  EXPECT_EQ("lift", readPluginElement(robotWith(device), "arm").name);
+  EXPECT_EQ("", readPluginElement(robotWith(""), "arm").hardware_type);
+}
+
+TEST(PluginElement, OfTwoNamespacesAreRefusedByName) {
+  const std::string text = robotWith(plugin("lift", "gazebo_ros_control/DefaultRobotHWSim", "/up") +
+                                     plugin("arm", "franka_gazebo/FrankaHWSim"));
+  const std::string error = sentence([&] { readPluginElement(text, "/"); });
+  EXPECT_TRUE(contains(error, "'lift'") && contains(error, "'arm'") && contains(error, "/up"))
+      << error;
+}
+
+TEST(PluginElement, SeveralArmsAreRefusedByName) {
+  std::string arms;
+  for (const std::string arm : {"panda_1", "panda_2"}) {
+    arms += "<transmission name='" + arm +
+            "_franka_state'><type>franka_hw/FrankaStateInterface</type></transmission>";
+  }
+  const std::string error = sentence([&] { readPluginElement(robotWith(arms), "/"); });
+  EXPECT_TRUE(contains(error, "panda_1") && contains(error, "panda_2")) << error;
 }
 
 }  // namespace

@@ -76,8 +76,10 @@ class Simulation {
   /// (World::stopped) runs again.
   void reset();
 
-  void spawn(const SpawnOrder& order);
-  void remove(const std::string& robot);
+  /// Adds a robot; as an object, if its URDF is that of one (franka_sim::isUrdfOfObject).
+  /// @returns World::unsupported of it
+  std::string spawn(const SpawnOrder& order);
+  void remove(const std::string& robot);  ///< or an object
   /// @returns unsupported elements of the text, as World::unsupported, and robots that overlap the
   /// object
   std::string spawnObject(const std::string& name, const std::string& text,
@@ -118,6 +120,8 @@ class Simulation {
   void standStill();
   void finishStepping();
   /// Reports faults of the world; one that has stopped pauses the simulation.
+  void placeJoints(const SpawnOrder& order);
+  void reportWarnings();
   void watchWorld();
   /// @throws std::runtime_error with a sentence if the world has stopped
   void requireRunningWorld() const;

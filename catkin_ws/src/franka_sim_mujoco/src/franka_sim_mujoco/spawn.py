@@ -89,7 +89,7 @@ def kind_of(options, text):
             return kind
     bare = re.sub(r"<!--.*?-->|<\?.*?\?>", "", text, flags=re.DOTALL)
     root = re.search(r"<\s*([\w:]+)", bare)
-    kinds = {"robot": "urdf", "sdf": "sdf", "gazebo": "sdf", "mujoco": "mjcf", "body": "mjcf"}
+    kinds = {"robot": "urdf", "sdf": "sdf", "gazebo": "sdf", "model": "sdf", "mujoco": "mjcf", "body": "mjcf"}
     kind = kinds.get(root.group(1)) if root else None
     if kind is None:
         found = f"its root element is <{root.group(1)}>" if root else "it is not XML"
@@ -195,7 +195,7 @@ def spawn(options):
     answer = spawn_robot(options, text) if is_robot else spawn_object(options, text)
     if not answer.success:
         raise SpawnError(f"'{options.model}' was not spawned: {answer.error}")
-    if not is_robot and answer.warning:
+    if answer.warning:
         rospy.logwarn("%s", answer.warning)
     rospy.loginfo("Spawned '%s'.", options.model)
     if options.unpause:

@@ -1,0 +1,25 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+
+namespace franka_sim_mujoco {
+
+/// The <gazebo><plugin> element of ros_control in a URDF.
+struct PluginElement {
+  std::string name;             ///< of the plugin
+  std::string hardware_type;    ///< its robotSimType; empty: the URDF has no such element
+  std::string robot_namespace;  ///< empty: the spawner's
+  double control_period{1e-3};  ///< [s]
+};
+
+/// Reads the plugin element. Of several in one namespace, that of FrankaHWSim is preferred, which
+/// drives all joints of the URDF.
+/// @param spawn_namespace of plugins that name none
+/// @throws std::runtime_error with a sentence: not XML, a wrong controlPeriod; what one robot
+/// cannot have, naming both: plugins in several namespaces, and several arms (transmissions of the
+/// type franka_hw/FrankaStateInterface)
+PluginElement readPluginElement(const std::string& urdf, const std::string& spawn_namespace);
+
+}  // namespace franka_sim_mujoco

@@ -1,0 +1,126 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
+#include <franka_sim_mujoco/plugin_element.h>
+#include <tinyxml2.h>
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <vector>
+
+namespace franka_sim_mujoco {
+
+namespace {
+
+using tinyxml2::XMLElement;
+
+std::string childText(const XMLElement& element, const char* name) {
+  const XMLElement* child = element.FirstChildElement(name);
+  return child != nullptr && child->GetText() != nullptr ? child->GetText() : "";
+}
+
+std::string attributeText(const XMLElement& element, const char* name) {
+  const char* value = element.Attribute(name);
+  return value != nullptr ? value : "";
+}
+
+std::optional<PluginElement> readElement(const XMLElement& plugin) {
+  PluginElement result;
+  result.name = attributeText(plugin, "name");
+  if (plugin.FirstChildElement("robotSimType") != nullptr) {
+    result.hardware_type = childText(plugin, "robotSimType");
+  } else if (attributeText(plugin, "filename").find("gazebo_ros_control") != std::string::npos) {
+    result.hardware_type = "gazebo_ros_control/DefaultRobotHWSim";
+  } else {
+    return std::nullopt;
+  }
+  result.robot_namespace = childText(plugin, "robotNamespace");
+  if (plugin.FirstChildElement("controlPeriod") != nullptr) {
+    const std::string period = childText(plugin, "controlPeriod");
+    result.control_period = franka_core::readNumber(period).value_or(0.0);
+    if (!(result.control_period > 0.0 && result.control_period <= 1.0)) {
+      throw std::runtime_error("The controlPeriod of the robot description is '" + period +
+                               "'; it must be a time in seconds, above 0 and up to 1.");
+    }
+  }
+  return result;
+}
+
+std::vector<PluginElement> readElements(const XMLElement& robot) {
+  std::vector<PluginElement> elements;
+  for (const auto* gazebo = robot.FirstChildElement("gazebo"); gazebo != nullptr;
+       gazebo = gazebo->NextSiblingElement("gazebo")) {
+    for (const auto* plugin = gazebo->FirstChildElement("plugin"); plugin != nullptr;
+         plugin = plugin->NextSiblingElement("plugin")) {
+      if (const auto element = readElement(*plugin)) {
+        elements.push_back(*element);
+      }
+    }
+  }
+  return elements;
+}
+
+/// Two arms in one robot would share one state, model and hand.
+void checkArms(const XMLElement& robot) {
+  std::string first;
+  for (const auto* transmission = robot.FirstChildElement("transmission"); transmission != nullptr;
+       transmission = transmission->NextSiblingElement("transmission")) {
+    if (childText(*transmission, "type") != "franka_hw/FrankaStateInterface") {
+      continue;
+    }
+    const std::string name = attributeText(*transmission, "name");
+    if (!first.empty()) {
+      throw std::runtime_error("The robot description has several arms, with the transmissions '" +
+                               first + "' and '" + name +
+                               "' (franka_hw/FrankaStateInterface). A robot has one: give each arm "
+                               "a description of its own, and spawn each in its own namespace.");
+    }
+    first = name;
+  }
+}
+
+bool isOfArm(const PluginElement& plugin) {
+  return plugin.hardware_type.find("FrankaHWSim") != std::string::npos;
+}
+
+/// The namespace without slashes around it.
+std::string namespaceOf(const PluginElement& plugin, const std::string& spawn_namespace) {
+  const std::string& name =
+      plugin.robot_namespace.empty() ? spawn_namespace : plugin.robot_namespace;
+  const std::size_t begin = name.find_first_not_of('/');
+  return begin == std::string::npos ? ""
+                                    : name.substr(begin, name.find_last_not_of('/') + 1 - begin);
+}
+
+}  // namespace
+
+PluginElement readPluginElement(const std::string& urdf, const std::string& spawn_namespace) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(urdf.c_str()) != tinyxml2::XML_SUCCESS || document.RootElement() == nullptr) {
+    throw std::runtime_error("The robot description is not XML: " +
+                             std::string(document.ErrorStr()));
+  }
+  checkArms(*document.RootElement());
+  const std::vector<PluginElement> elements = readElements(*document.RootElement());
+  if (elements.empty()) {
+    return {};
+  }
+  const auto of_arm = std::find_if(elements.begin(), elements.end(), isOfArm);
+  const PluginElement& chosen = of_arm != elements.end() ? *of_arm : elements.front();
+  const std::string chosen_namespace = namespaceOf(chosen, spawn_namespace);
+  for (const PluginElement& other : elements) {
+    const std::string other_namespace = namespaceOf(other, spawn_namespace);
+    if (other_namespace != chosen_namespace) {
+      throw std::runtime_error(
+          "The robot description has two plugins of ros_control, '" + chosen.name + "' (" +
+          chosen.hardware_type + ") in the namespace /" + chosen_namespace + " and '" + other.name +
+          "' (" + other.hardware_type + ") in /" + other_namespace +
+          ". A robot has one controller manager: remove one of them; FrankaHWSim drives all "
+          "joints with transmissions.");
+    }
+  }
+  return chosen;
+}
+
+}  // namespace franka_sim_mujoco
