@@ -412,6 +412,27 @@ TEST_F(SpliceTest, ThrowsOnPointsOfTheWrongSize) {
   EXPECT_THROW(convert(), std::invalid_argument);
 }
 
+TEST_F(SpliceTest, IgnoresNumbersBeyondTheNamedJoints) {
+  const Trajectory expected = convert();
+  for (trajectory_msgs::JointTrajectoryPoint& point : msg_.points) {
+    for (std::vector<double>* numbers :
+         {&point.positions, &point.velocities, &point.accelerations}) {
+      if (!numbers->empty()) {
+        numbers->push_back(9.0);
+      }
+    }
+  }
+  const Trajectory found = convert();
+  ASSERT_EQ(expected.size(), found.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    ASSERT_EQ(expected[i].size(), found[i].size());
+    Segment::State a, b;
+    trajectory_interface::sample(expected[i], expected[i].back().endTime(), a);
+    trajectory_interface::sample(found[i], found[i].back().endTime(), b);
+    EXPECT_EQ(a.position, b.position);
+  }
+}
+
 TEST(Messages, PointsAreFoundByTime) {
   trajectory_msgs::JointTrajectory msg;
   msg.header.stamp = ros::Time(10.0);
@@ -458,10 +479,13 @@ struct Joints {
 typedef jtc::HoldTrajectoryBuilder<Spline, hardware_interface::PositionJointInterface> HoldBuilder;
 typedef jtc::StopTrajectoryBuilder<Spline> StopBuilder;
 
+/// A trajectory of two joints with a segment each.
+Trajectory allocated() { return Trajectory(2, std::vector<Segment>(1)); }
+
 TEST(Builders, HoldAtTheJointPositions) {
   Joints joints;
   HoldBuilder hold(joints.handles);
-  Trajectory trajectory;
+  Trajectory trajectory = allocated();
   ASSERT_TRUE(hold.setStartTime(3.0)->buildTrajectory(&trajectory));
   joints.position[1] = 5.0;
   ASSERT_TRUE(hold.setStartTime(4.0)->buildTrajectory(&trajectory));
@@ -476,6 +500,32 @@ TEST(Builders, HoldAtTheJointPositions) {
     EXPECT_EQ(0.0, sampled.velocity[0]);
     EXPECT_EQ(0.0, sampled.acceleration[0]);
   }
+}
+
+TEST(Builders, HoldRefusesAnIncompleteTrajectory) {
+  Joints joints;
+  HoldBuilder hold(joints.handles);
+  hold.setStartTime(1.0);
+  for (Trajectory incomplete : {Trajectory(), Trajectory(1, allocated()[0]), Trajectory(2),
+                                Trajectory(3, allocated()[0])}) {
+    const std::size_t joint_count = incomplete.size();
+    EXPECT_FALSE(hold.buildTrajectory(&incomplete)) << joint_count;
+    EXPECT_EQ(joint_count, incomplete.size());
+  }
+}
+
+TEST(Builders, ReadTheCallersGoalPointerWhenTheyBuild) {
+  Joints joints;
+  HoldBuilder hold(joints.handles);
+  Segment::RealtimeGoalHandle::GoalHandle gh;
+  Segment::RealtimeGoalHandlePtr goal;
+  hold.setStartTime(1.0)->setGoalHandle(goal);
+  goal.reset(new Segment::RealtimeGoalHandle(gh));
+  EXPECT_EQ(1, goal.use_count());
+  Trajectory trajectory = allocated();
+  ASSERT_TRUE(hold.buildTrajectory(&trajectory));
+  EXPECT_EQ(goal, trajectory[0][0].getGoalHandle());
+  EXPECT_EQ(3, goal.use_count());
 }
 
 TEST(Builders, StopWithinTheTimeGiven) {
@@ -506,9 +556,8 @@ TEST(Builders, AttachTheGoalUntilReset) {
   for (jtc::TrajectoryBuilder<Spline>* builder :
        {static_cast<jtc::TrajectoryBuilder<Spline>*>(&hold),
         static_cast<jtc::TrajectoryBuilder<Spline>*>(&stop)}) {
-    Trajectory trajectory;
+    Trajectory trajectory = allocated();
     EXPECT_FALSE(builder->buildTrajectory(&trajectory)) << "without a start time";
-    EXPECT_TRUE(trajectory.empty());
     EXPECT_FALSE(builder->setStartTime(1.0)->buildTrajectory(nullptr));
     ASSERT_TRUE(builder->setGoalHandle(goal)->buildTrajectory(&trajectory));
     EXPECT_EQ(goal, trajectory[1][0].getGoalHandle());
@@ -524,7 +573,7 @@ TEST(Builders, BuildAgainWithoutAllocating) {
   Joints joints;
   HoldBuilder hold(joints.handles);
   StopBuilder stop(0.5, state);
-  Trajectory held;
+  Trajectory held = allocated();
   Trajectory stopped;
   hold.setStartTime(1.0)->buildTrajectory(&held);
   stop.setStartTime(1.0)->buildTrajectory(&stopped);

@@ -4,6 +4,7 @@
 
 #include <joint_trajectory_controller/trajectory_builder.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace joint_trajectory_controller {
@@ -35,13 +36,16 @@ class HoldTrajectoryBuilder : public TrajectoryBuilder<SegmentImpl> {
   /// @param joints must outlive the builder.
   HoldTrajectoryBuilder(const std::vector<JointHandle>& joints) : joints_(joints), state_(1) {}
 
-  /// As for TrajectoryBuilder; in a thread that may read the joints.
+  /// As for TrajectoryBuilder; in a thread that may read the joints. @returns false, without
+  /// changes, also if the trajectory does not have each joint with a segment: it must be allocated
+  /// before, outside of the real-time loop.
   bool buildTrajectory(Trajectory* trajectory) override {
-    if (trajectory == nullptr || !this->getStartTime()) {
+    if (trajectory == nullptr || !this->getStartTime() || trajectory->size() != joints_.size() ||
+        std::any_of(trajectory->begin(), trajectory->end(),
+                    [](const auto& joint) { return joint.empty(); })) {
       return false;
     }
     const RealtimeGoalHandlePtr goal_handle = this->createGoalHandlePtr();
-    trajectory->resize(joints_.size());
     for (std::size_t i = 0; i < joints_.size(); ++i) {
       (*trajectory)[i].resize(1);
       Segment& segment = (*trajectory)[i][0];

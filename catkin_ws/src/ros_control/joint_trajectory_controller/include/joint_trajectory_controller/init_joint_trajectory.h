@@ -97,10 +97,12 @@ class TrajectoryInitializer {
           "Trajectory message contains waypoints that are not strictly increasing in time.");
     }
     for (const trajectory_msgs::JointTrajectoryPoint& point : msg_.points) {
-      // If the message names no joints, a point's positions define their number.
-      const std::size_t size =
-          msg_.joint_names.empty() ? msg_.points[0].positions.size() : msg_.joint_names.size();
-      if (point.positions.size() != size || !isValid(point, static_cast<unsigned int>(size))) {
+      // If the message names no joints, a point's positions define their number. Positions beyond
+      // the named joints are not read.
+      const std::size_t size = point.positions.size();
+      const bool fits = msg_.joint_names.empty() ? size == msg_.points[0].positions.size()
+                                                 : size >= msg_.joint_names.size();
+      if (size == 0 || !fits || !isValid(point, static_cast<unsigned int>(size))) {
         throw std::invalid_argument(
             "Size mismatch in trajectory point position, velocity or acceleration data.");
       }
@@ -330,8 +332,9 @@ class TrajectoryInitializer {
 ///
 /// @param time now, in the time base of the message
 /// @returns an empty trajectory, with a reason in the log and in the options' error string, if
-/// there is nothing to do or the message is invalid. @throws std::invalid_argument if a point does
-/// not have one element per joint.
+/// there is nothing to do or the message is invalid. @throws std::invalid_argument if a point has
+/// fewer positions than the message has joints, or velocities or accelerations of another number;
+/// positions beyond the last joint are not read.
 /// Not real-time safe.
 template <class Trajectory>
 Trajectory initJointTrajectory(const trajectory_msgs::JointTrajectory& msg, const ros::Time& time,

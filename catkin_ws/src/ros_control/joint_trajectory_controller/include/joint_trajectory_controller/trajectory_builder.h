@@ -29,15 +29,17 @@ class TrajectoryBuilder {
     start_time_ = start_time;
     return this;
   }
-  /// @param goal_handle of the next trajectories' segments; null for none. Real-time safe.
+  /// @param goal_handle pointer to the goal of the next trajectories' segments, read by each
+  /// buildTrajectory(): it must outlive them or the next reset(). Null for none. Real-time safe.
   TrajectoryBuilder* setGoalHandle(const RealtimeGoalHandlePtr& goal_handle) {
-    goal_handle_ = goal_handle;
+    goal_handle_ = &goal_handle;
     return this;
   }
+  TrajectoryBuilder* setGoalHandle(const RealtimeGoalHandlePtr&& goal_handle) = delete;
   /// Resets the start time and the goal handle. Real-time safe.
   virtual void reset() {
     start_time_ = boost::none;
-    goal_handle_ = boost::none;
+    goal_handle_ = nullptr;
   }
 
   /// Overwrites a trajectory. Real-time safe. Exception: a trajectory that another builder built
@@ -47,7 +49,7 @@ class TrajectoryBuilder {
  protected:
   /// Empty unless set.
   const boost::optional<Time>& getStartTime() const { return start_time_; }
-  /// The goal handle that was set, else the default one.
+  /// The goal handle as it is now if one was set, else the default one.
   RealtimeGoalHandlePtr createGoalHandlePtr() const {
     return goal_handle_ ? *goal_handle_ : createDefaultGoalHandle();
   }
@@ -56,7 +58,7 @@ class TrajectoryBuilder {
 
  private:
   boost::optional<Time> start_time_;
-  boost::optional<RealtimeGoalHandlePtr> goal_handle_;
+  const RealtimeGoalHandlePtr* goal_handle_{nullptr};
 };
 
 }  // namespace joint_trajectory_controller
