@@ -36,7 +36,7 @@ ControllerManager::ControllerManager(hardware_interface::RobotHW* robot_hw,
         supervision, *registry_, *gate_, own_nh,
         [this](const std::string& name, bool first) { return settleFault(name, first); });
   }
-  services_ = std::make_unique<internal::ManagerServices>(*this, nh);
+  services_ = std::make_unique<internal::ManagerServices>(*this, *handover_, nh);
 }
 
 ControllerManager::~ControllerManager() {

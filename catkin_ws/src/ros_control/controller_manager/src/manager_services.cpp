@@ -10,6 +10,9 @@ namespace {
 
 constexpr std::uint32_t kListingThreads = 1;
 constexpr std::uint32_t kWaitingThreads = 2;
+// A switch in a loop that runs takes milliseconds; one that a paused robot delays is not waited
+// for.
+constexpr std::chrono::seconds kMaxWaitForSwitch{1};
 
 const char* stateName(const controller_interface::ControllerBase& controller) {
   using State = controller_interface::ControllerBase::ControllerState;
@@ -46,8 +49,10 @@ controller_manager_msgs::ControllerState message(const ControllerSpec& spec) {
 
 }  // namespace
 
-ManagerServices::ManagerServices(ControllerManager& manager, const ros::NodeHandle& nh)
+ManagerServices::ManagerServices(ControllerManager& manager, SwitchHandover& handover,
+                                 const ros::NodeHandle& nh)
     : manager_(manager),
+      handover_(handover),
       nh_(nh, "controller_manager"),
       listing_nh_(nh, "controller_manager"),
       waiting_nh_(nh, "controller_manager"),
@@ -85,6 +90,7 @@ ManagerServices::~ManagerServices() {
 bool ManagerServices::listControllers(
     controller_manager_msgs::ListControllers::Request& /*request*/,
     controller_manager_msgs::ListControllers::Response& response) {
+  handover_.awaitEnd(kMaxWaitForSwitch);
   for (const ControllerSpec& spec : manager_.getControllers()) {
     response.controller.push_back(message(spec));
   }

@@ -54,6 +54,7 @@ bool SwitchHandover::grant() {
     return false;
   }
   busy_ = true;
+  busy_since_ = Clock::now();
   return true;
 }
 
@@ -63,6 +64,16 @@ bool SwitchHandover::involves(const std::string& name) {
     dropFinished();
   }
   return request_ && request_->phase != Phase::kDone && request_->involves(name);
+}
+
+void SwitchHandover::awaitEnd(Clock::duration limit) {
+  const auto under_way = [&] {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return busy_ && Clock::now() - busy_since_ < limit;
+  };
+  while (under_way() && !mustEnd()) {
+    std::this_thread::sleep_for(kPollPeriod);
+  }
 }
 
 void SwitchHandover::dropFinished() {

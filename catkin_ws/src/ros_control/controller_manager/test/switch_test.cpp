@@ -1,5 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <controller_manager/internal/switch_handover.h>
+
 #include "manager_fixture.h"
 
 using dummies::kBestEffort;
@@ -56,6 +58,29 @@ TEST_F(SwitchTest, CallsTheRobotForAnEmptySwitchToo) {
   EXPECT_TRUE(doSwitch({}, {}));
   EXPECT_THAT(robot_.prepared_start_, ElementsAre(""));
   EXPECT_EQ(1, robot_.switches_);
+}
+
+TEST(SwitchHandover, EndOfASwitchIsAwaited) {
+  controller_manager::internal::LoopGate gate;
+  controller_manager::internal::SwitchHandover handover(gate);
+  std::atomic<bool> begun{false};
+  std::atomic<bool> ended{false};
+  std::future<bool> waiting;
+  {
+    const controller_manager::internal::SwitchHandover::Turn turn(handover, 0.0);
+    ASSERT_TRUE(turn);
+    handover.awaitEnd(std::chrono::seconds(0));  // it has been under way for longer
+    waiting = std::async(std::launch::async, [&] {
+      begun = true;
+      handover.awaitEnd(std::chrono::hours(1));
+      return ended.load();
+    });
+    while (!begun) {
+      std::this_thread::yield();
+    }
+    ended = true;
+  }
+  EXPECT_TRUE(waiting.get());
 }
 
 TEST_F(SwitchTest, StrictRefusesAnyError) {

@@ -70,8 +70,8 @@ class ControllerManager {
   /// `<nh>/controller_manager`. Loads plugins of controller_interface::ControllerBase.
   /// @param robot_hw must outlive the manager
   /// @param nh above the controllers' parameters; its queue serves the services, except the two
-  /// that may wait for the loop, and list_controllers, which never waits: those have their own
-  /// threads.
+  /// that may wait for the loop, and list_controllers, which waits at most until a switch has been
+  /// under way for a second: those have their own threads.
   /// @throws std::invalid_argument with a sentence if one of the parameters above is invalid
   ControllerManager(hardware_interface::RobotHW* robot_hw,
                     const ros::NodeHandle& nh = ros::NodeHandle());

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <controller_manager/internal/switch_handover.h>
 #include <controller_manager_msgs/ListControllerTypes.h>
 #include <controller_manager_msgs/ListControllers.h>
 #include <controller_manager_msgs/LoadController.h>
@@ -23,11 +24,13 @@ namespace internal {
 ///
 /// Switching, and reloading, which switches too, may wait for the loop; loading and unloading take
 /// as long as the controllers do. Listing has its own thread, so that it never waits for these or
-/// for other callbacks of the program; likewise the services that may wait for the loop.
+/// for other callbacks of the program; likewise the services that may wait for the loop. Listing
+/// shows the end of a switch that is under way if that takes at most a second.
 class ManagerServices {
  public:
-  /// @param manager must outlive the services @param nh above the services' namespace
-  ManagerServices(ControllerManager& manager, const ros::NodeHandle& nh);
+  /// @param manager must outlive the services @param handover of its switches, likewise
+  /// @param nh above the services' namespace
+  ManagerServices(ControllerManager& manager, SwitchHandover& handover, const ros::NodeHandle& nh);
   /// Ends the threads: no switch may be waiting.
   ~ManagerServices();
 
@@ -46,6 +49,7 @@ class ManagerServices {
                        controller_manager_msgs::ReloadControllerLibraries::Response& response);
 
   ControllerManager& manager_;
+  SwitchHandover& handover_;
   ros::NodeHandle nh_;
   ros::NodeHandle listing_nh_;
   ros::NodeHandle waiting_nh_;

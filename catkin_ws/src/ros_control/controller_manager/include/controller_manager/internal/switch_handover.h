@@ -69,6 +69,9 @@ class SwitchHandover {
   /// reference to it. Does not wait. Thread-safe.
   bool involves(const std::string& name);
 
+  /// Waits until no switch is under way, or one has been for `limit`. Thread-safe.
+  void awaitEnd(Clock::duration limit);
+
   /// Ends all present and future waits, for the manager's shutdown.
   void close() { closed_ = true; }
   /// Whether waiting must end, here or for the whole program.
@@ -85,6 +88,7 @@ class SwitchHandover {
 
   std::mutex mutex_;  ///< for the members below; the loop never takes it
   bool busy_{false};  ///< a thread holds the turn
+  Clock::time_point busy_since_;
   std::unique_ptr<SwitchRequest> request_;
   std::vector<std::unique_ptr<SwitchRequest>> withdrawn_;  ///< may still be read by the loop
 };
