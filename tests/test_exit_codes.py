@@ -2,12 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """The table of exit statuses in docs/how_to/shell.md has every program, and is true."""
 
+import math
 import re
 import shutil
 import subprocess
 from pathlib import Path
 
 import pytest
+from controller_manager import spawner
+from franka_sim_mujoco import spawn
+from pyfranka import franka_plot, run
 from test_entry import COMMANDS
 
 TOP = Path(__file__).resolve().parent.parent
@@ -49,6 +53,22 @@ def rows() -> dict[str, list[str]]:
                 words = name.removeprefix("./franka ").removeprefix("controller_manager ").split()
                 found[words[0]] = columns
     return found
+
+
+def test_programs_take_every_number_after_an_option(capsys):
+    pose = "-x -1e-05 -y -1. -z -.5 -R -2E+3 -P -inf -Y -2 -J joint1 -1e-3".split()
+    options = spawn.parse("spawn_robot", ["-param", "p", "-model", "m", *pose])
+    assert [options.x, options.y, options.z, options.R] == [-1e-5, -1.0, -0.5, -2000.0]
+    assert (options.P, options.Y, options.J) == (-math.inf, -2.0, [["joint1", "-1e-3"]])
+    assert spawner.parse_arguments(["--timeout", "-1e-05", "controller"]).timeout == -1e-5
+    # These refuse the number, not its form.
+    for main, words in (
+        (franka_plot.main, ["robot", "127.0.0.1", "--seconds", "-1e-05"]),
+        (run.main, ["--timeout", "-1e-05", "--", "true"]),
+    ):
+        with pytest.raises(SystemExit):
+            main(words)
+        assert "-1e-05" in capsys.readouterr().err
 
 
 def test_every_command_and_program_is_in_the_table():

@@ -13,6 +13,8 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
+from pyfranka.command_line import Parser
+
 TOPIC = "/franka_state_controller/franka_states"  # as in sources.py, which takes a while to import
 KINDS = ("panda", "fr3")
 SECONDS = 10.0
@@ -65,7 +67,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 
 def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="franka_plot",
         description=DESCRIPTION,
         epilog=EPILOG,

@@ -31,6 +31,7 @@ from collections.abc import Sequence
 from contextlib import suppress
 from pathlib import Path
 
+from pyfranka.command_line import Parser
 from pyfranka.franka_sim import KINDS, FrankaSim, FrankaSimError, SimRobot, last_lines
 
 __all__ = ["main"]
@@ -262,7 +263,7 @@ def seconds(text: str) -> float:
 
 
 def parse_arguments(words: Sequence[str] | None) -> argparse.Namespace:
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="pyfranka-run",
         usage="%(prog)s [OPTIONS] -- COMMAND [ARGUMENTS]",
         description=__doc__,

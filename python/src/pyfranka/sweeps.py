@@ -40,6 +40,8 @@ from types import CodeType, ModuleType
 
 import numpy
 
+from pyfranka.command_line import Parser
+
 __all__ = ["Outcome", "Sweep", "main", "seed_of", "sweep"]
 
 Function = Callable[[object, int], object]
@@ -360,7 +362,7 @@ def _bar(progress: bool | None, cases: int, done: int) -> Iterator[Callable]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """The program pyfranka-sweep. @returns 0, 1 if cases failed, 2 for a wrong call, 130 if interrupted"""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="pyfranka-sweep",
         description="Calls the function case(index, seed) of a Python file for many cases, on all cores or "
         "on a Dask cluster, and writes the results into a file. A second call continues an interrupted "

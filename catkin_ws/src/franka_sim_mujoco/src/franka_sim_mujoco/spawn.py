@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Spawns robots (URDF) and objects (SDF, MJCF) in the running simulation, with spawn_model's arguments."""
 
-import argparse
 import math
 import re
 import sys
@@ -12,6 +11,7 @@ import rospy
 from geometry_msgs.msg import Pose, Quaternion, Vector3
 from std_srvs.srv import Empty
 
+from franka_sim_mujoco.command_line import Parser
 from franka_sim_mujoco.srv import (
     DeleteObject,
     DeleteRobot,
@@ -30,7 +30,7 @@ class SpawnError(Exception):
 
 def parse(name, arguments):
     """The options of a command line (without the program's name)."""
-    parser = argparse.ArgumentParser(prog=name, description=__doc__, allow_abbrev=False)
+    parser = Parser(prog=name, description=__doc__, allow_abbrev=False)
     source = parser.add_mutually_exclusive_group(required=True)
     source.add_argument("-param", help="parameter that holds the description")
     source.add_argument("-file", help="file that holds the description")

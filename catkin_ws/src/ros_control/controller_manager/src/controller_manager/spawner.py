@@ -5,6 +5,7 @@
 import argparse
 import contextlib
 import os
+import re
 import socket
 import time
 
@@ -62,6 +63,8 @@ def parse_arguments(arguments):
         "limit, as a paused simulation may stay so for long",
     )
     parser.add_argument("--namespace", metavar="NS", default="", help="namespace of the controller manager")
+    # Also -1e-05, -1. and -inf are numbers, not options.
+    parser._negative_number_matcher = re.compile(r"-(\d.*|\.\d.*|inf|infinity)$")
     timeouts = parser.add_mutually_exclusive_group()
     timeouts.add_argument(
         "--timeout",
