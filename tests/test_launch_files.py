@@ -187,3 +187,18 @@ def test_a_simulated_robot_gets_patience_and_wait_if_they_are_given(name):
     both = options("patience:=forever", "wait:=block")
     assert "--patience forever" in both and "--wait block" in both
     assert "--patience 0.5" in options("patience:=0.5")
+
+
+def test_paths_may_contain_spaces():
+    bare = {
+        name
+        for name, path in FILES.items()
+        for element in ElementTree.parse(path).iter()
+        for words in (element.get("args", ""), element.get("command", ""))
+        if re.search(r"(?<!')\$\(find ", words)
+    }
+    assert not bare
+    given = ["robot_ip:=10.0.0.1", "sim:=true", "world:=/a b/stone.sdf"]
+    config = read(FILES["franka_control/franka_control.launch"], given, Reader(with_descriptions=False))
+    (simulation,) = [shlex.split(node.args) for node in config.nodes if node.type == "franka_sim"]
+    assert simulation[simulation.index("--world") + 1] == "/a b/stone.sdf"

@@ -28,11 +28,8 @@ def commands_with(word: str) -> list[str]:
     return found
 
 
-def test_all_nodes_end_if_a_required_one_fails_during_the_launch(tmp_path):
-    sleepers = "".join(SLEEPER.format(number) for number in range(NODES))
-    failing = '<node name="failing" pkg="rosout" type="rosout" required="true" launch-prefix="false"/>'
-    launch = tmp_path / "failing.launch"
-    launch.write_text(f"<launch>{failing}{sleepers}</launch>")
+def launch_until_it_ends(tmp_path: Path, *words: str) -> str:
+    """The output of a launch that fails and leaves no process."""
     port = str(free_port())
     environment = {
         **os.environ,
@@ -41,7 +38,7 @@ def test_all_nodes_end_if_a_required_one_fails_during_the_launch(tmp_path):
     }
     with open(tmp_path / "output", "w") as output:  # a pipe would wait for processes that are left
         done = subprocess.run(
-            ["roslaunch", "-p", port, str(launch)],
+            ["roslaunch", "-p", port, *words],
             env=environment,
             stdin=subprocess.DEVNULL,
             stdout=output,
@@ -50,9 +47,23 @@ def test_all_nodes_end_if_a_required_one_fails_during_the_launch(tmp_path):
         )
     text = (tmp_path / "output").read_text()
     assert done.returncode == 1, text
-    assert "REQUIRED process [failing-2] has died" in text
     left = commands_with(str(tmp_path)) + commands_with(f"rosmaster --core -p {port}")
     assert not left
+    return text
+
+
+def test_all_nodes_end_if_a_required_one_fails_during_the_launch(tmp_path):
+    sleepers = "".join(SLEEPER.format(number) for number in range(NODES))
+    failing = '<node name="failing" pkg="rosout" type="rosout" required="true" launch-prefix="false"/>'
+    launch = tmp_path / "failing.launch"
+    launch.write_text(f"<launch>{failing}{sleepers}</launch>")
+    assert "REQUIRED process [failing-2] has died" in launch_until_it_ends(tmp_path, str(launch))
+
+
+def test_a_launch_ends_with_the_reason_if_its_robot_is_not_spawned(tmp_path):
+    words = ["franka_sim_mujoco", "robot.launch", "robot:=fr3", "gazebo:=false"]
+    text = launch_until_it_ends(tmp_path, *words, "initial_joint_positions:=-J fr3_joint1 far")
+    assert "'far' of fr3_joint1 is not a number" in text
 
 
 def test_ctrl_c_ends_it_while_it_looks_for_the_master(tmp_path):
