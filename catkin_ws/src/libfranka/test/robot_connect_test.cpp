@@ -59,6 +59,20 @@ TEST_P(Connect, ReadsStatesOfTheRobot) {
 
 INSTANTIATE_TEST_SUITE_P(All, Connect, ::testing::ValuesIn(kVersions), versionName);
 
+TEST(Reading, IgnoresStatesFromBeforeTheCall) {
+  const ShortTimeouts timeouts;
+  FakeRobot fake(5);
+  const auto robot = connect(fake);
+  const std::uint64_t last_read = robot->readOnce().time.toMSec();
+  ASSERT_TRUE(fake.waitUntil([&] { return fake.state().message_id > last_read + 20; }));
+  fake.script([](FakeRobot::Script& s) { s.sends_states = false; });
+  EXPECT_THROW(robot->read([](const franka::RobotState&) {
+    ADD_FAILURE() << "a state from before the call";
+    return false;
+  }),
+               NetworkException);
+}
+
 TEST(ConnectVersion, UnknownOnesAreRefusedWithASentence) {
   for (std::uint16_t version : {std::uint16_t{2}, std::uint16_t{11}}) {
     FakeRobot fake(5);

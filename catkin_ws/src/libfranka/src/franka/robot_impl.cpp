@@ -296,6 +296,7 @@ Robot::Impl::Reply Robot::Impl::decode(Command command, const std::vector<std::u
 
 void Robot::Impl::read(const std::function<bool(const RobotState&)>& callback) {
   const Operation operation(*this);
+  takeStates();  // those that arrived before this call are old
   RobotState state;
   do {
     franka_core::toFranka(receiveState(), state);
