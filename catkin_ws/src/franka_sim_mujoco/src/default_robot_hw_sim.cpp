@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim_mujoco/default_robot_hw_sim.h>
+#include <franka_sim_mujoco/exception_text.h>
 #include <ros/console.h>
 
 #include <exception>
@@ -24,8 +25,8 @@ bool DefaultRobotHWSim::initSim(
                        robot.name.c_str(), transmission.name_.c_str(), transmission.type_.c_str());
       }
     }
-  } catch (const std::exception& error) {
-    failure_ = error.what();
+  } catch (...) {
+    failure_ = exceptionText();
     return false;
   }
   joints_->registerHandles(states_, efforts_, positions_, velocities_);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/robot/realism.h>
 #include <franka_sim_mujoco/arm_parameters.h>
+#include <franka_sim_mujoco/exception_text.h>
 #include <franka_sim_mujoco/franka_gripper_sim.h>
 #include <franka_sim_mujoco/param_reader.h>
 #include <ros/console.h>
@@ -102,10 +103,10 @@ bool FrankaGripperSim::init(hardware_interface::EffortJointInterface* hw, ros::N
     actions_ = std::make_unique<GripperActions>(
         node, readActionParameters(node, parameters.max_width), mailbox_, view_);
     return true;
-  } catch (const std::exception& error) {
+  } catch (...) {
     // Includes HardwareInterfaceException for the fingers' handles.
     ROS_ERROR_NAMED(kLog, "The gripper %s does not start: %s", node.getNamespace().c_str(),
-                    error.what());
+                    exceptionText().c_str());
     return false;
   }
 }

@@ -8,6 +8,7 @@
 #include <franka_sim/robot/condition_text.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/controller_check.h>
+#include <franka_sim_mujoco/exception_text.h>
 #include <franka_sim_mujoco/franka_hw_sim.h>
 #include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/param_reader.h>
@@ -128,8 +129,8 @@ bool FrankaHWSim::initSim(const std::string& robot_namespace, ros::NodeHandle mo
     arm_id_ = readArmId(model_nh, robot_namespace, robot.name);
     start(model_nh, robot, *urdf_model, transmissions);
     return true;
-  } catch (const std::exception& error) {
-    failure_ = error.what();
+  } catch (...) {
+    failure_ = exceptionText();
     return false;
   }
 }

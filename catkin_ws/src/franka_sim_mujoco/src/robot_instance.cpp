@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/physics/urdf_text.h>
 #include <franka_sim/robot/condition_text.h>
+#include <franka_sim_mujoco/exception_text.h>
 #include <franka_sim_mujoco/joint_state_publisher.h>
 #include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/pace.h>
@@ -96,9 +97,9 @@ void RobotInstance::serve(const RobotPlan& plan, const RobotHandle& robot,
                           const OperatorAccess& access) {
   try {
     served_ = std::make_unique<ServedRobot>(plan, robot, access);
-  } catch (const std::exception& error) {
+  } catch (...) {
     throw std::runtime_error("'" + name_ + "' cannot be served at " + plan.fci_ip + ": " +
-                             error.what());
+                             exceptionText());
   }
   ROS_INFO_NAMED(kLog, "'%s' is served over the FCI at %s.", name_.c_str(), plan.fci_ip.c_str());
 }
@@ -194,9 +195,9 @@ void RobotInstance::reviewStart() {
 void RobotInstance::updateControllers(const ros::Time& time, const ros::Duration& period) {
   try {
     manager_->update(time, period, restart_controllers_);
-  } catch (const std::exception& error) {
+  } catch (...) {
     // A single controller must not end the simulation.
-    thrown_report_.report(name_, error.what(),
+    thrown_report_.report(name_, exceptionText(),
                           "The robot is stopped until another controller is started in its place.");
     hardware_->eStopActive(true);
   }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/physics/bare_steps.h>
 #include <franka_sim/physics/urdf_text.h>
+#include <franka_sim_mujoco/exception_text.h>
 #include <franka_sim_mujoco/log_names.h>
 #include <franka_sim_mujoco/resources.h>
 #include <franka_sim_mujoco/simulation.h>
@@ -93,8 +94,8 @@ void Simulation::loop() {
         host_.tick();
       }
     }
-  } catch (const std::exception& error) {
-    ROS_FATAL_NAMED(kLog, "The simulation ends because a tick failed: %s", error.what());
+  } catch (...) {
+    ROS_FATAL_NAMED(kLog, "The simulation ends because a tick failed: %s", exceptionText().c_str());
     failed_ = true;
     ros::requestShutdown();
   }

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// Work that other threads queue for the stepping thread.
+/// Work that other threads queue for the stepping thread, and what services answer about it.
 
 #include <franka_sim_mujoco/request_queue.h>
+#include <franka_sim_mujoco/service_answer.h>
 #include <gtest/gtest.h>
 
 #include <atomic>
 #include <chrono>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -21,6 +23,19 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr milliseconds kDeadline{60000};
+
+TEST(ServiceAnswer, IsASentenceForEveryTypeOfException) {
+  const auto answerTo = [](const std::function<void()>& handler) {
+    std_srvs::Trigger::Response response;
+    answer(response, handler, [](const char* sentence) { EXPECT_STRNE("", sentence); });
+    EXPECT_FALSE(response.success);
+    return response.message;
+  };
+  EXPECT_EQ("no arm", answerTo([] { throw std::runtime_error("no arm"); }));
+  EXPECT_NE(std::string::npos,
+            answerTo([] { throw XmlRpc::XmlRpcException("type error"); }).find("type error"));
+  EXPECT_NE(std::string::npos, answerTo([] { throw 1; }).find("unknown"));
+}
 
 TEST(RequestQueue, RunsWorkInTheServingThreadInOrder) {
   RequestQueue queue;

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim_mujoco/exception_text.h>
 #include <std_srvs/SetBool.h>
 #include <std_srvs/Trigger.h>
 
-#include <exception>
 #include <functional>
 #include <string>
 
@@ -37,11 +37,12 @@ void answer(Response& response, const std::function<void()>& handler,
   try {
     handler();
     response.success = true;
-  } catch (const std::exception& error) {
-    report(error.what());
+  } catch (...) {
+    const std::string sentence = exceptionText();
+    report(sentence.c_str());
     response = Response();
     response.success = false;
-    explain(response, error.what());
+    explain(response, sentence);
   }
 }
 
