@@ -20,10 +20,6 @@ using franka_sim::vector;
 
 constexpr char kScope[] = "::";
 
-bool isWorld(const std::string& frame) {
-  return frame.empty() || frame == "world" || frame == "map" || frame == "/map";
-}
-
 template <typename Message>
 franka_sim::BodyState toState(const Message& message) {
   const franka_sim::Twist twist = fromMessage(message.twist);
@@ -43,6 +39,21 @@ const franka_sim::WorldModel& GazeboModels::model(const std::string& name) const
     throw std::runtime_error("There is no model '" + name + "' in the simulated world.");
   }
   return *found;
+}
+
+const franka_sim::WorldJoint& GazeboModels::joint(const std::string& name) const {
+  for (const franka_sim::WorldModel& model : models_) {
+    for (const franka_sim::WorldJoint& joint : model.joints) {
+      if (joint.name == name || linkName(model, joint.name) == name) {
+        return joint;
+      }
+    }
+  }
+  throw std::runtime_error("There is no joint '" + name + "' that moves in the simulated world.");
+}
+
+bool GazeboModels::isWorld(const std::string& frame) {
+  return frame.empty() || frame == "world" || frame == "map" || frame == "/map";
 }
 
 std::string GazeboModels::linkName(const franka_sim::WorldModel& model, const std::string& link) {

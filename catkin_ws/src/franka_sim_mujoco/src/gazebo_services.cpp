@@ -14,7 +14,6 @@
 #include <gazebo_msgs/GetLinkState.h>
 #include <gazebo_msgs/GetModelProperties.h>
 #include <gazebo_msgs/GetModelState.h>
-#include <gazebo_msgs/GetPhysicsProperties.h>
 #include <gazebo_msgs/GetWorldProperties.h>
 #include <gazebo_msgs/SetLinkState.h>
 #include <gazebo_msgs/SetModelConfiguration.h>
@@ -31,11 +30,6 @@ namespace franka_sim_mujoco {
 namespace {
 
 using gazebo_msgs::GetJointProperties;
-
-/// Gazebo's max_update_rate. @returns 0 for "no limit"
-double updateRate(const SimulationInventory& inventory) {
-  return inventory.real_time_factor / franka_sim::World::kTick;
-}
 
 void readModelState(Simulation& simulation, const gazebo_msgs::GetModelState::Request& request,
                     gazebo_msgs::GetModelState::Response& response) {
@@ -67,22 +61,15 @@ void readLinkState(Simulation& simulation, const gazebo_msgs::GetLinkState::Requ
 void describeJoint(Simulation& simulation, const std::string& name,
                    GetJointProperties::Response& response) {
   simulation.withWorld([&](franka_sim::World& world) {
-    for (const franka_sim::WorldModel& model : world.models()) {
-      for (const franka_sim::WorldJoint& joint : model.joints) {
-        if (joint.name != name && GazeboModels::linkName(model, joint.name) != name) {
-          continue;
-        }
-        const franka_sim::JointMeasurement measured = world.joint(joint.name);
-        response.type = joint.slides    ? GetJointProperties::Response::PRISMATIC
-                        : joint.limited ? GetJointProperties::Response::REVOLUTE
-                                        : GetJointProperties::Response::CONTINUOUS;
-        response.damping = {joint.damping};
-        response.position = {measured.position};
-        response.rate = {measured.velocity};
-        return;
-      }
-    }
-    throw std::runtime_error("There is no joint '" + name + "' in the simulated world.");
+    const GazeboModels models(world);
+    const franka_sim::WorldJoint& joint = models.joint(name);
+    const franka_sim::JointMeasurement measured = world.joint(joint.name);
+    response.type = joint.slides    ? GetJointProperties::Response::PRISMATIC
+                    : joint.limited ? GetJointProperties::Response::REVOLUTE
+                                    : GetJointProperties::Response::CONTINUOUS;
+    response.damping = {joint.damping};
+    response.position = {measured.position};
+    response.rate = {measured.velocity};
   });
 }
 
@@ -166,6 +153,7 @@ void configure(Simulation& simulation, const gazebo_msgs::SetModelConfiguration:
 void SimServices::offerGazebo() {
   offerGazeboStates();
   offerGazeboModels();
+  offerGazeboPhysics();
   services_.offer<GetJointProperties>(
       "get_joint_properties",
       [this](GetJointProperties::Request& request, GetJointProperties::Response& response) {
@@ -183,18 +171,8 @@ void SimServices::offerGazebo() {
         response.sim_time = simulation_.state().time.toSec();
         response.rendering_enabled = true;
       });
-  using gazebo_msgs::GetPhysicsProperties;
-  services_.offer<GetPhysicsProperties>(
-      "get_physics_properties",
-      [this](GetPhysicsProperties::Request& /*request*/, GetPhysicsProperties::Response& response) {
-        const SimulationInventory inventory = simulation_.inventory();
-        response.time_step = franka_sim::World::kTick;
-        response.pause = inventory.paused;
-        response.max_update_rate = updateRate(inventory);
-        response.gravity = toVector(inventory.gravity);
-      });
   for (const char* name : {"reset_world", "reset_simulation"}) {
-    services_.offerEmpty(name, [this] { simulation_.reset(); });
+    services_.offerEmpty(name, [this](const auto&) { simulation_.reset(); });
   }
 }
 

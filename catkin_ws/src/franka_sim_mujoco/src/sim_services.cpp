@@ -105,8 +105,8 @@ SimServices::SimServices(ros::NodeHandle node, Simulation& simulation)
 }
 
 void SimServices::offerTime() {
-  services_.offerEmpty("pause_physics", [this] { simulation_.setPaused(true); });
-  services_.offerEmpty("unpause_physics", [this] { simulation_.setPaused(false); });
+  services_.offerEmpty("pause_physics", [this](const auto&) { simulation_.setPaused(true); });
+  services_.offerEmpty("unpause_physics", [this](const auto&) { simulation_.setPaused(false); });
   services_.offer<Step>("step", [this](Step::Request& request, Step::Response& response) {
     fill(simulation_.step(request.ticks), response);
   });

@@ -26,22 +26,30 @@ from franka_sim_mujoco.srv import (
     Step,
     TakeSnapshot,
 )
-from gazebo_msgs.msg import LinkState, LinkStates, ModelState, ModelStates
+from gazebo_msgs.msg import LinkState, LinkStates, ModelState, ModelStates, ODEJointProperties, ODEPhysics
 from gazebo_msgs.srv import (
+    ApplyBodyWrench,
+    ApplyJointEffort,
+    BodyRequest,
     DeleteModel,
     GetJointProperties,
     GetJointPropertiesResponse,
+    GetLinkProperties,
     GetLinkState,
     GetModelProperties,
     GetModelState,
     GetPhysicsProperties,
     GetWorldProperties,
+    JointRequest,
+    SetJointProperties,
+    SetLinkProperties,
     SetLinkState,
     SetModelConfiguration,
     SetModelState,
+    SetPhysicsProperties,
     SpawnModel,
 )
-from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3
+from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
 from ros_client import Controllers, call, latest, launched
 from sensor_msgs.msg import CameraInfo, Image
 from std_srvs.srv import Empty, Trigger
@@ -414,6 +422,70 @@ def test_gazebo_services_read_models_and_links():
         ("delete_model", DeleteModel, ("moon",)),
     ):
         assert "'moon'" in gazebo(name, kind, *arguments, fails=True).status_message
+
+
+def set_physics(gravity_z, time_step=0.001, **expected):
+    rate = gazebo("get_physics_properties", GetPhysicsProperties).max_update_rate
+    order = (time_step, rate, Vector3(0, 0, gravity_z), ODEPhysics())
+    return gazebo("set_physics_properties", SetPhysicsProperties, *order, **expected)
+
+
+def test_gazebo_set_physics_properties_changes_gravity_and_no_time_step():
+    set_physics(-1.5)
+    refused = set_physics(-9.0, time_step=0.002, fails=True)
+    assert "0.002" in refused.status_message
+    assert gazebo("get_physics_properties", GetPhysicsProperties).gravity.z == -1.5
+
+
+def test_gazebo_wrenches_act_until_they_are_cleared():
+    set_physics(0.0)
+    gazebo("spawn_object", SpawnObject, "ball", BALL.format("ball"), at(2, 2, 3))
+    gazebo("spawn_object", SpawnObject, "rod", BALL.format("rod"), at(2, 3, 3, (0, 0, 0.5**0.5, 0.5**0.5)))
+    push, begin, unlimited = Wrench(Vector3(0.3, 0, 0), NONE), rospy.Time(0), rospy.Duration(-1)
+    gazebo("apply_body_wrench", ApplyBodyWrench, "ball", "", Point(), push, begin, unlimited)
+    # At a point of its own frame, which is turned: to the world's y, with a lever.
+    gazebo(
+        "apply_body_wrench",
+        ApplyBodyWrench,
+        "rod",
+        "rod",
+        Point(0, 0.01, 0),
+        push,
+        begin,
+        rospy.Duration(0.05),
+    )
+    gazebo("step", Step, 100)
+    gazebo("clear_body_wrenches", BodyRequest, "ball")
+    gazebo("step", Step, 100)
+    ball, rod = (gazebo("get_body_state", GetBodyState, name).twist for name in ("ball", "rod"))
+    assert (ball.linear.x, ball.linear.y) == pytest.approx((0.1, 0), abs=1e-3)
+    assert (rod.linear.x, rod.linear.y) == pytest.approx((0, 0.05), abs=1e-3)
+    assert rod.angular.z < -0.1
+    for arguments, word in (
+        (("moon", "", Point(), push, begin, unlimited), "'moon'"),
+        (("ball", "moon", Point(), push, begin, unlimited), "'moon'"),
+        (("ball", "", Point(), push, rospy.Time(2**31), unlimited), "start_time"),
+        (("ball", "", Point(math.nan, 0, 0), push, begin, unlimited), "finite"),
+    ):
+        assert word in gazebo("apply_body_wrench", ApplyBodyWrench, *arguments, fails=True).status_message
+
+
+def test_gazebo_properties_are_read_and_changes_are_refused_with_a_reason():
+    gazebo("spawn_object", SpawnObject, "ball", BALL.format("ball"), at(2, 2, 3))
+    ball = gazebo("get_link_properties", GetLinkProperties, "ball")
+    assert ball.gravity_mode
+    assert (ball.mass, ball.ixx, ball.izz) == pytest.approx((0.3, 0.4 * 0.3 * 0.05**2, 0.4 * 0.3 * 0.05**2))
+    numbers = (Pose(), True, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
+    refused = gazebo("set_link_properties", SetLinkProperties, "ball", *numbers, fails=True)
+    assert "spawn" in refused.status_message
+    joint = "panda_1_joint4"
+    refused = gazebo("set_joint_properties", SetJointProperties, joint, ODEJointProperties(), fails=True)
+    assert "spawn" in refused.status_message
+    refused = gazebo(
+        "apply_joint_effort", ApplyJointEffort, joint, 1.0, rospy.Time(0), rospy.Duration(-1), fails=True
+    )
+    assert "controller" in refused.status_message
+    gazebo("clear_joint_forces", JointRequest, joint)
 
 
 def test_gazebo_services_and_topics_set_states():

@@ -23,11 +23,14 @@ class GazeboModels {
   const franka_sim::WorldModel& model(const std::string& name) const;
   /// The body of a model's or link's name. @throws std::runtime_error with a sentence
   std::string body(const std::string& name) const;
+  /// A joint that moves, by its name or model::joint. @throws std::runtime_error with a sentence
+  const franka_sim::WorldJoint& joint(const std::string& name) const;
+  /// Whether a frame is that of the world: empty, "world" or "map".
+  static bool isWorld(const std::string& frame);
   /// "model::link"
   static std::string linkName(const franka_sim::WorldModel& model, const std::string& link);
 
-  /// @name Conversions between the world's frame and that of a model or link; empty, "world" or
-  /// "map": none
+  /// @name Conversions between the world's frame and that of a model or link; none for isWorld
   /// @throws std::runtime_error with a sentence for an unknown frame
   /// @{
   franka_sim::BodyState toFrame(const franka_sim::BodyState& in_world,

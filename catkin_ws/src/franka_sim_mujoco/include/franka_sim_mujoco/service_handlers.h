@@ -8,6 +8,7 @@
 #include <ros/console.h>
 #include <ros/node_handle.h>
 #include <ros/spinner.h>
+#include <std_srvs/Empty.h>
 
 #include <functional>
 #include <string>
@@ -44,8 +45,24 @@ class ServiceHandlers {
         ros::VoidConstPtr(), &queue_);
     servers_.push_back(node_.advertiseService(options));
   }
-  /// A std_srvs/Empty service, as in Gazebo: a failure fails the call.
-  void offerEmpty(const std::string& name, std::function<void()> action);
+  /// A service with an empty response, as in Gazebo: a failure fails the call.
+  template <typename Service = std_srvs::Empty>
+  void offerEmpty(const std::string& name,
+                  std::function<void(const typename Service::Request&)> action) {
+    auto options = ros::AdvertiseServiceOptions::create<Service>(
+        name,
+        [action, name](typename Service::Request& request, typename Service::Response&) {
+          try {
+            action(request);
+            return true;
+          } catch (...) {
+            ROS_ERROR_NAMED("franka_sim_mujoco", "%s: %s", name.c_str(), exceptionText().c_str());
+            return false;
+          }
+        },
+        ros::VoidConstPtr(), &queue_);
+    servers_.push_back(node_.advertiseService(options));
+  }
 
  private:
   ros::NodeHandle node_;

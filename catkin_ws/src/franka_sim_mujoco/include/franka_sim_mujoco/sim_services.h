@@ -28,6 +28,7 @@ class SimServices {
   void offerGazebo();
   void offerGazeboStates();
   void offerGazeboModels();
+  void offerGazeboPhysics();
 
   Simulation& simulation_;
   ServiceHandlers services_;
