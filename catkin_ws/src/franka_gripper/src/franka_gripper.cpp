@@ -42,9 +42,10 @@ void gripperCommandExecuteCallback(
     const franka::Gripper& gripper, const GraspEpsilon& grasp_epsilon, double default_speed,
     actionlib::SimpleActionServer<control_msgs::GripperCommandAction>* action_server,
     const control_msgs::GripperCommandGoalConstPtr& goal) {
-  const auto abort = [action_server](const std::string& text) {
+  control_msgs::GripperCommandResult result;
+  const auto abort = [&](const std::string& text) {
     ROS_ERROR_STREAM("franka_gripper, gripper_action: " << text);
-    action_server->setAborted(control_msgs::GripperCommandResult(), text);
+    action_server->setAborted(result, text);
   };
   const double width = 2.0 * goal->command.position;
   franka::GripperState state;
@@ -52,32 +53,39 @@ void gripperCommandExecuteCallback(
     abort("The hand's state could not be read.");
     return;
   }
+  result.position = state.width;
   if (!(width >= 0.0 && width <= state.max_width)) {
     abort("The width " + std::to_string(width) + " m is not possible: it must lie between 0 and " +
           std::to_string(state.max_width) + " m.");
     return;
   }
+  bool reached = false;
+  std::string fault;
   try {
-    if (!carryOut(gripper, grasp_epsilon, default_speed, width, goal->command.max_effort,
-                  state.width)) {
-      abort(
-          "The fingers did not reach their goal: something is in their way, or there is nothing "
-          "to grasp.");
-      return;
-    }
+    reached = carryOut(gripper, grasp_epsilon, default_speed, width, goal->command.max_effort,
+                       state.width);
   } catch (const franka::Exception& error) {
-    abort(error.what());
+    fault = error.what();
+  }
+  if (updateGripperState(gripper, &state)) {
+    result.position = state.width;
+  } else if (fault.empty()) {
+    fault = "The hand's state could not be read.";
+  }
+  if (!fault.empty()) {
+    abort(fault);
     return;
   }
-  if (!updateGripperState(gripper, &state)) {
-    abort("The hand's state could not be read.");
+  result.reached_goal = static_cast<unsigned char>(reached);
+  // Fingers that hold an object, or that came to rest elsewhere.
+  result.stalled = static_cast<unsigned char>(state.is_grasped || !reached);
+  result.effort = state.is_grasped ? std::abs(goal->command.max_effort) : 0.0;
+  if (!reached) {
+    abort(
+        "The fingers did not reach their goal: something is in their way, or there is nothing to "
+        "grasp.");
     return;
   }
-  control_msgs::GripperCommandResult result;
-  result.position = state.width;
-  result.effort = 0.0;
-  result.stalled = 0U;
-  result.reached_goal = 1U;
   action_server->setSucceeded(result);
 }
 

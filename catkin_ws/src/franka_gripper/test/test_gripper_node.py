@@ -236,13 +236,26 @@ def test_gripper_command_takes_one_finger_and_returns_the_whole_width(hand):
     assert moved.result()[:2] == (SUCCEEDED, True)
     assert moved.handle.get_result().position == pytest.approx(0.02, abs=1e-3)
     assert hand.command(0.01).result()[:2] == (SUCCEEDED, True)  # it is there already
-    state, success, text = hand.command(0.0025, 10.0).result()
+    missed = hand.command(0.0025, 10.0)
+    state, success, text = missed.result()
     assert (state, success) == (ABORTED, False)
     assert "did not reach" in text
+    assert outcome_of(missed) == (pytest.approx(0.0, abs=2e-3), True, 0.0)
+    beyond = hand.command(0.05)
+    assert beyond.result()[0] == ABORTED
+    assert outcome_of(beyond) == (pytest.approx(0.0, abs=2e-3), False, 0.0)
+
+
+def outcome_of(goal):
+    """A GripperCommand's width, whether the fingers are stalled, and their effort."""
+    result = goal.handle.get_result()
+    return result.position, result.stalled, result.effort
 
 
 def test_gripper_command_grasps_the_stone(hand_with_stone):
-    assert hand_with_stone.command(0.014, 20.0).result()[:2] == (SUCCEEDED, True)
+    grasp = hand_with_stone.command(0.014, 20.0)
+    assert grasp.result()[:2] == (SUCCEEDED, True)
+    assert outcome_of(grasp) == (pytest.approx(0.03, abs=1e-3), True, 20.0)
 
 
 def test_a_grasp_of_the_expected_width_succeeds(hand_with_stone):

@@ -25,11 +25,15 @@ constexpr char kReplaced[] = "The command was replaced by a new goal.";
 constexpr char kRefused[] =
     "The gripper refused the command: its numbers are outside their ranges.";
 
-void explain(franka_gripper::StopResult& result, const std::string& text) { result.error = text; }
-void explain(franka_gripper::HomingResult& result, const std::string& text) { result.error = text; }
-void explain(franka_gripper::MoveResult& result, const std::string& text) { result.error = text; }
-void explain(franka_gripper::GraspResult& result, const std::string& text) { result.error = text; }
-void explain(control_msgs::GripperCommandResult& /*result*/, const std::string& /*text*/) {}
+/// Sets what a result says of a command that did not succeed: the reason, or the fingers' width.
+template <typename Result>
+void explain(Result& result, const std::string& text, double /*width*/) {
+  result.error = text;
+}
+void explain(control_msgs::GripperCommandResult& result, const std::string& /*text*/,
+             double width) {
+  result.position = width;
+}
 
 std::shared_ptr<GripperCommand> makeCommand(GripperCommand::Kind kind) {
   auto command = std::make_shared<GripperCommand>();
@@ -38,8 +42,8 @@ std::shared_ptr<GripperCommand> makeCommand(GripperCommand::Kind kind) {
 }
 
 template <typename Server, typename Result>
-void abort(Server& server, Result result, const std::string& text) {
-  explain(result, text);
+void abort(Server& server, Result result, const std::string& text, double width) {
+  explain(result, text, width);
   server.setAborted(result, text);
 }
 
@@ -100,7 +104,7 @@ template <typename Action, typename Result>
 bool GripperActions::carryOut(Server<Action>& server,
                               const std::shared_ptr<GripperCommand>& command, Result& result) {
   if (!view_.controller_runs) {
-    abort(server, result, kNotRunning);
+    abort(server, result, kNotRunning, view_.width);
     return false;
   }
   mailbox_.post(command);
@@ -109,11 +113,11 @@ bool GripperActions::carryOut(Server<Action>& server,
     return true;
   }
   if (fate == Fate::kRefused) {
-    abort(server, result, kRefused);
+    abort(server, result, kRefused, view_.width);
   } else if (fate == Fate::kInterrupted) {
-    abort(server, result, view_.controller_runs ? kInterrupted : kNotRunning);
+    abort(server, result, view_.controller_runs ? kInterrupted : kNotRunning, view_.width);
   } else if (server.isNewGoalAvailable()) {
-    explain(result, kReplaced);
+    explain(result, kReplaced, view_.width);
     server.setPreempted(result, kReplaced);
   } else if (server.isPreemptRequested()) {
     const auto halt = makeCommand(GripperCommand::Kind::kStop);
@@ -121,10 +125,11 @@ bool GripperActions::carryOut(Server<Action>& server,
     for (int i = 0; i < kCancelPolls && !halt->isSettled(); ++i) {
       std::this_thread::sleep_for(kPoll);
     }
-    explain(result, kCancelled);
+    explain(result, kCancelled, view_.width);
     server.setPreempted(result, kCancelled);
   } else {
-    abort(server, result, view_.controller_runs ? "The simulation is shutting down." : kNotRunning);
+    abort(server, result, view_.controller_runs ? "The simulation is shutting down." : kNotRunning,
+          view_.width);
   }
   return false;
 }
@@ -164,7 +169,8 @@ void GripperActions::homing() {
     abort(homing_server_, result,
           "Homing did not reach the fingers' ends: something is between or beside them. They stand "
           "at " +
-              millimetres(view_.width) + ".");
+              millimetres(view_.width) + ".",
+          view_.width);
   }
 }
 
@@ -173,7 +179,7 @@ void GripperActions::move(const franka_gripper::MoveGoal& goal) {
   std::string fault = speedFault(goal.speed);
   fault = fault.empty() ? widthFault(goal.width) : fault;
   if (!fault.empty()) {
-    abort(move_server_, result, fault);
+    abort(move_server_, result, fault, view_.width);
     return;
   }
   const auto command = makeCommand(GripperCommand::Kind::kMove);
@@ -202,7 +208,7 @@ void GripperActions::grasp(const franka_gripper::GraspGoal& goal) {
     fault = "The epsilons must be finite and not negative.";
   }
   if (!fault.empty()) {
-    abort(grasp_server_, result, fault);
+    abort(grasp_server_, result, fault, view_.width);
     return;
   }
   const auto command = makeCommand(GripperCommand::Kind::kGrasp);
@@ -233,7 +239,7 @@ void GripperActions::gripperCommand(const control_msgs::GripperCommandGoal& goal
     text << "The goal is not possible: the position of a finger must lie between 0 and "
          << parameters_.max_width / 2.0 << " m and is " << goal.command.position
          << " m; max_effort must be finite and is " << effort << " N.";
-    abort(command_server_, result, text.str());
+    abort(command_server_, result, text.str(), view_.width);
     return;
   }
   const bool moves = std::abs(effort) < kNoEffort || width > view_.width;
@@ -246,12 +252,21 @@ void GripperActions::gripperCommand(const control_msgs::GripperCommandGoal& goal
   if (!carryOut(command_server_, command, result)) {
     return;
   }
+  const bool reached = command->fate == Fate::kSucceeded;
+  const bool holds = reached && !moves;
   result.position = view_.width;
-  result.effort = 0.0;
-  result.stalled = static_cast<unsigned char>(false);
-  result.reached_goal = static_cast<unsigned char>(std::abs(view_.width - width) <
-                                                   parameters_.gripper_action_width_tolerance);
-  command_server_.setSucceeded(result);
+  result.reached_goal = static_cast<unsigned char>(reached);
+  // Fingers that hold an object, or that came to rest elsewhere.
+  result.stalled = static_cast<unsigned char>(holds || !reached);
+  result.effort = holds ? command->force : 0.0;
+  if (reached) {
+    command_server_.setSucceeded(result);
+  } else {
+    abort(command_server_, result,
+          "The fingers stopped at " + millimetres(view_.width) + " instead of " +
+              millimetres(width) + ": something is in their way, or there is nothing to grasp.",
+          view_.width);
+  }
 }
 
 }  // namespace franka_sim_mujoco

@@ -192,8 +192,19 @@ def test_gripper_action_moves_and_reports():
     goal = GripperCommandGoal()
     goal.command.position = 0.03
     status, answer, text = finish("/franka_gripper/gripper_action", GripperCommandAction, goal)
-    assert (status, answer.reached_goal) == (GoalStatus.SUCCEEDED, True), text
+    assert (status, answer.reached_goal, answer.stalled) == (GoalStatus.SUCCEEDED, True, False), text
     assert answer.position == pytest.approx(0.06, abs=0.005)
+    goal.command.position, goal.command.max_effort = 0.02, 10.0  # there is nothing to grasp
+    status, answer, text = finish("/franka_gripper/gripper_action", GripperCommandAction, goal)
+    assert (status, answer.reached_goal, answer.stalled) == (GoalStatus.ABORTED, False, True)
+    fingers = latest("/franka_gripper/joint_states", JointState)
+    assert answer.position == pytest.approx(sum(fingers.position), abs=0.005)
+    assert answer.effort == 0.0 and "nothing to grasp" in text
+    goal.command.position = 0.05  # too wide
+    width = answer.position
+    status, answer, _ = finish("/franka_gripper/gripper_action", GripperCommandAction, goal)
+    assert (status, answer.stalled) == (GoalStatus.ABORTED, False)
+    assert answer.position == pytest.approx(width, abs=0.005)
 
 
 # ---- time and things ----

@@ -212,8 +212,10 @@ class GripperNode:
         """control_msgs/GripperCommand: the position is one finger's, the result's the whole width."""
         parameters, state = self._parameters, self._hand.state
         width, effort = 2.0 * goal.command.position, goal.command.max_effort
+        result.position = state.width
         self._check_width(width)
         check(math.isfinite(effort), "max_effort must be a number.")
+        result.reached_goal = True
         # Fingers that another command moves have not arrived, whatever their width.
         if self._hand.busy or abs(width - state.width) >= ARRIVED:
             if abs(effort) < NO_EFFORT or width >= state.width:
@@ -231,15 +233,20 @@ class GripperNode:
                         parameters.epsilon_outer,
                     )
 
-            check(
-                self._hand.run(command, cancelled),
-                f"The fingers did not reach {1e3 * width:.1f} mm: something is in their way, or there is "
-                "nothing to grasp.",
-            )
-        result.position = self._hand.next_state().width
-        result.effort = 0.0
-        result.stalled = False
-        result.reached_goal = True
+            result.reached_goal = False
+            try:
+                result.reached_goal = self._hand.run(command, cancelled)
+            finally:
+                state = self._hand.next_state()
+                result.position = state.width
+        # Fingers that hold an object, or that came to rest elsewhere.
+        result.stalled = state.is_grasped or not result.reached_goal
+        result.effort = abs(effort) if state.is_grasped else 0.0
+        check(
+            result.reached_goal,
+            f"The fingers did not reach {1e3 * width:.1f} mm: something is in their way, or there is "
+            "nothing to grasp.",
+        )
 
     # --- joint states -------------------------------------------------------------------------------
 
