@@ -18,7 +18,8 @@ namespace {
 using Handler = franka::AsyncPositionControlHandler;
 
 void bindValues(py::class_<Handler, std::shared_ptr<Handler>>& handler) {
-  py::class_<Handler::Configuration>(handler, "Configuration", "How targets are approached.")
+  py::class_<Handler::Configuration>(handler, "Configuration", py::module_local(),
+                                     "How targets are approached.")
       .def(py::init([](std::vector<double> velocities, double tolerance) {
              return Handler::Configuration{std::move(velocities), tolerance};
            }),
@@ -28,26 +29,29 @@ void bindValues(py::class_<Handler, std::shared_ptr<Handler>>& handler) {
                      "7 limits [rad/s].")
       .def_readwrite("goal_tolerance", &Handler::Configuration::goal_tolerance,
                      "A target is reached within this norm of joint angles [rad].");
-  py::class_<Handler::ConfigurationResult>(handler, "ConfigurationResult",
+  py::class_<Handler::ConfigurationResult>(handler, "ConfigurationResult", py::module_local(),
                                            "A handler, or the reason why there is none.")
       .def_readwrite("handler", &Handler::ConfigurationResult::handler, "The handler, or None.")
       .def_readwrite("error_message", &Handler::ConfigurationResult::error_message,
                      "The reason, or None.");
-  py::class_<Handler::JointPositionTarget>(handler, "JointPositionTarget", "Where to go.")
+  py::class_<Handler::JointPositionTarget>(handler, "JointPositionTarget", py::module_local(),
+                                           "Where to go.")
       .def(py::init([](std::vector<double> positions) {
              return Handler::JointPositionTarget{std::move(positions)};
            }),
            py::arg("joint_positions"), "Of 7 joint positions [rad].")
       .def_readwrite("joint_positions", &Handler::JointPositionTarget::joint_positions,
                      "7 joint positions [rad].");
-  py::class_<Handler::CommandResult>(handler, "CommandResult", "Whether a target was sent.")
+  py::class_<Handler::CommandResult>(handler, "CommandResult", py::module_local(),
+                                     "Whether a target was sent.")
       .def_readwrite("motion_uuid", &Handler::CommandResult::motion_uuid,
                      "Identifies the target in logs; empty on failure.")
       .def_readwrite("was_successful", &Handler::CommandResult::was_successful,
                      "Whether it was sent.")
       .def_readwrite("error_message", &Handler::CommandResult::error_message,
                      "Why it was not, or None.");
-  py::class_<Handler::TargetFeedback>(handler, "TargetFeedback", "Progress towards a target.")
+  py::class_<Handler::TargetFeedback>(handler, "TargetFeedback", py::module_local(),
+                                      "Progress towards a target.")
       .def_readwrite("status", &Handler::TargetFeedback::status, "How far the robot is.")
       .def_readwrite("error_message", &Handler::TargetFeedback::error_message,
                      "Why the motion was aborted, or None.");
@@ -58,13 +62,13 @@ void bindValues(py::class_<Handler, std::shared_ptr<Handler>>& handler) {
 void bindAsync(py::module_& module) {
   using release = py::gil_scoped_release;
   using franka::TargetStatus;
-  py::enum_<TargetStatus>(module, "TargetStatus", "Progress towards a target.")
+  py::enum_<TargetStatus>(module, "TargetStatus", py::module_local(), "Progress towards a target.")
       .value("kIdle", TargetStatus::kIdle)
       .value("kExecuting", TargetStatus::kExecuting)
       .value("kTargetReached", TargetStatus::kTargetReached)
       .value("kAborted", TargetStatus::kAborted);
   py::class_<Handler, std::shared_ptr<Handler>> handler(
-      module, "AsyncPositionControlHandler",
+      module, "AsyncPositionControlHandler", py::module_local(),
       "Joint targets to which the robot plans its own motion (FR3, protocol 10); a new one may be "
       "set at any time. Failures are returned, not raised. Use from one thread.");
   bindValues(handler);

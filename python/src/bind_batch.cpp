@@ -117,7 +117,7 @@ py::list layout(const Batch& self) {
 }  // namespace
 
 void bindBatch(py::module_& module) {
-  py::class_<Batch>(module, "Batch", "Simulations that are stepped together.")
+  py::class_<Batch>(module, "Batch", py::module_local(), "Simulations that are stepped together.")
       .def(py::init([](Worlds worlds, int threads, const ObservedNames& observe) {
              return std::make_unique<Batch>(std::move(worlds), threads, observe);
            }),

@@ -135,7 +135,8 @@ void observeAll(const Episodes& episodes, const std::vector<bool>& rests, double
 }  // namespace
 
 void bindEpisode(py::module_& module) {
-  py::class_<Episode>(module, "Episode", "Episodes of a policy in a simulation.")
+  py::class_<Episode>(module, "Episode", py::module_local(),
+                      "Episodes of a policy in a simulation.")
       .def(py::init([](const std::shared_ptr<Shared>& simulation, const std::string& control,
                        const std::string& body, bool hands, const Numbers& workspace) {
              const double* limits = checked(workspace, 2, 3);

@@ -23,7 +23,7 @@ void raise(PyObject* type, const char* what, Fill fill) {
 
 template <typename Error>
 void bindPlain(py::module_& module, const char* name, const py::object& base, const char* doc) {
-  const py::object type = py::register_exception<Error>(module, name, base);
+  const py::object type = py::register_local_exception<Error>(module, name, base);
   type.attr("__doc__") = doc;
 }
 
@@ -31,7 +31,7 @@ void bindPlain(py::module_& module, const char* name, const py::object& base, co
 
 void bindExceptions(py::module_& module) {
   const py::object base =
-      py::register_exception<franka::Exception>(module, "Exception", PyExc_RuntimeError);
+      py::register_local_exception<franka::Exception>(module, "Exception", PyExc_RuntimeError);
   base.attr("__doc__") = "Base of all errors of a robot; the text is a sentence for the user.";
   alias(module, {{"Exception", "FrankaException"}});
   bindPlain<franka::ModelException>(module, "ModelException", base, "The model is not available.");
@@ -55,7 +55,7 @@ void bindExceptions(py::module_& module) {
   version.attr("__doc__") =
       "Robot and library have no protocol in common: `server_version`, `library_version`.";
   version_exception = version.ptr();
-  py::register_exception_translator([](std::exception_ptr pointer) {
+  py::register_local_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) {
         std::rethrow_exception(pointer);

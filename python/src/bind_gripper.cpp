@@ -31,7 +31,7 @@ void bindConnection(py::class_<Type>& type) {
 
 void bindHand(py::module_& module) {
   using namespace franka;
-  py::class_<GripperState>(module, "GripperState", "State of the Franka Hand.")
+  py::class_<GripperState>(module, "GripperState", py::module_local(), "State of the Franka Hand.")
       .def_readwrite("width", &GripperState::width, "Between the fingers [m].")
       .def_readwrite("max_width", &GripperState::max_width, "As found by homing [m].")
       .def_readwrite("is_grasped", &GripperState::is_grasped,
@@ -42,7 +42,7 @@ void bindHand(py::module_& module) {
           [](GripperState& state, double time) { state.time = durationOf(time); },
           "Since the hand started [s].");
   py::class_<Gripper> hand(
-      module, "Gripper",
+      module, "Gripper", py::module_local(),
       "The Franka Hand. Commands wait for their end; stop() from another thread interrupts them, "
       "which raises CommandException in the one that waits.");
   bindConnection(hand);
@@ -67,12 +67,13 @@ void bindHand(py::module_& module) {
 void bindVacuum(py::module_& module) {
   using namespace franka;
   aliasAsInCpp(py::enum_<VacuumGripperDeviceStatus>(module, "VacuumGripperDeviceStatus",
-                                                    "How well the gripper is.")
+                                                    py::module_local(), "How well the gripper is.")
                    .value("Green", VacuumGripperDeviceStatus::kGreen)
                    .value("Yellow", VacuumGripperDeviceStatus::kYellow)
                    .value("Orange", VacuumGripperDeviceStatus::kOrange)
                    .value("Red", VacuumGripperDeviceStatus::kRed));
-  py::class_<VacuumGripperState>(module, "VacuumGripperState", "State of the vacuum gripper.")
+  py::class_<VacuumGripperState>(module, "VacuumGripperState", py::module_local(),
+                                 "State of the vacuum gripper.")
       .def_readonly("in_control_range", &VacuumGripperState::in_control_range,
                     "Whether the vacuum is within its bounds.")
       .def_readonly("part_detached", &VacuumGripperState::part_detached,
@@ -86,9 +87,11 @@ void bindVacuum(py::module_& module) {
           "time", [](const VacuumGripperState& state) { return seconds(state.time); },
           "Since the gripper started [s].");
 
-  py::class_<VacuumGripper> gripper(module, "VacuumGripper", "The vacuum gripper.");
+  py::class_<VacuumGripper> gripper(module, "VacuumGripper", py::module_local(),
+                                    "The vacuum gripper.");
   aliasAsInCpp(py::enum_<VacuumGripper::ProductionSetupProfile>(
-                   gripper, "ProductionSetupProfile", "One of four sets of bounds of the gripper.")
+                   gripper, "ProductionSetupProfile", py::module_local(),
+                   "One of four sets of bounds of the gripper.")
                    .value("P0", VacuumGripper::ProductionSetupProfile::kP0)
                    .value("P1", VacuumGripper::ProductionSetupProfile::kP1)
                    .value("P2", VacuumGripper::ProductionSetupProfile::kP2)

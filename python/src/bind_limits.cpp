@@ -64,7 +64,8 @@ void vector(py::class_<Limits>& type, const char* name, Type franka_core::ArmLim
 
 void bindLimits(py::module_& module) {
   using franka_core::ArmLimits;
-  py::class_<Limits> type(module, "ArmLimits", "The limits of an arm's motions.");
+  py::class_<Limits> type(module, "ArmLimits", py::module_local(),
+                          "The limits of an arm's motions.");
   type.def(py::init<unsigned>(), py::arg("version"),
            "Of robots with this protocol version, Robot.server_version: up to 5 a Panda, then an "
            "FR3, from 10 on one with system 5.9 or later.");

@@ -161,7 +161,7 @@ std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const std::string& urdf, cons
 }
 
 void bindModelKdl(py::module_& module) {
-  py::class_<franka_hw::ModelKDL> kdl(module, "ModelKDL",
+  py::class_<franka_hw::ModelKDL> kdl(module, "ModelKDL", py::module_local(),
                                       "The arm's model on KDL, from a URDF; no robot needed.");
   kdl.def(py::init(&modelFromUrdf), py::arg("urdf"), py::arg("root"), py::arg("tip"),
           "Chain from link `root` to link `tip` of a URDF text. Raises ValueError for a text that "
@@ -183,7 +183,7 @@ struct ModelKDL {
 };
 
 void bindModelKdl(py::module_& module) {
-  py::class_<ModelKDL>(module, "ModelKDL",
+  py::class_<ModelKDL>(module, "ModelKDL", py::module_local(),
                        "The arm's model on KDL: only in builds with ROS; raises RuntimeError.")
       .def(py::init<const py::args&, const py::kwargs&>(), "Raises RuntimeError.");
 }
@@ -193,7 +193,8 @@ void bindModelKdl(py::module_& module) {
 }  // namespace
 
 void bindModel(py::module_& module) {
-  aliasAsInCpp(py::enum_<Frame>(module, "Frame", "Frames of the arm, from the base to the tip.")
+  aliasAsInCpp(py::enum_<Frame>(module, "Frame", py::module_local(),
+                                "Frames of the arm, from the base to the tip.")
                    .value("Joint1", Frame::kJoint1)
                    .value("Joint2", Frame::kJoint2)
                    .value("Joint3", Frame::kJoint3)
@@ -205,7 +206,8 @@ void bindModel(py::module_& module) {
                    .value("EndEffector", Frame::kEndEffector)
                    .value("Stiffness", Frame::kStiffness));
 
-  py::class_<franka::Model> model(module, "Model", "The model that the robot provides.");
+  py::class_<franka::Model> model(module, "Model", py::module_local(),
+                                  "The model that the robot provides.");
   bindKinematics<RobotState>(model);
   bindDynamics<RobotState>(model);
 
@@ -213,7 +215,8 @@ void bindModel(py::module_& module) {
 }
 
 void bindSimModel(py::module_& module) {
-  py::class_<SimModel> model(module, "ArmModel", "The model of a simulated robot's own control.");
+  py::class_<SimModel> model(module, "ArmModel", py::module_local(),
+                             "The model of a simulated robot's own control.");
   bindKinematics<franka_core::RobotState>(model);
   bindDynamics<franka_core::RobotState>(model);
 }

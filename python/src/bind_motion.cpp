@@ -32,7 +32,7 @@ Command cartesian(const py::object& values, const py::object& elbow, const char*
 template <typename Command, typename Member>
 void bindCommand(py::module_& module, const char* name, const char* field, const char* other_name,
                  Member member, Shape shape, const char* doc) {
-  auto type = py::class_<Command>(module, name, doc);
+  auto type = py::class_<Command>(module, name, py::module_local(), doc);
   constexpr std::size_t kSize =
       std::tuple_size<std::remove_reference_t<decltype(std::declval<Command>().*member)>>::value;
   type.def_property(
@@ -135,7 +135,7 @@ void bindTools(py::module_& module) {
 
 void bindMotion(py::module_& module) {
   using namespace franka;
-  aliasAsInCpp(py::enum_<ControllerMode>(module, "ControllerMode",
+  aliasAsInCpp(py::enum_<ControllerMode>(module, "ControllerMode", py::module_local(),
                                          "The robot's own controller under a motion.")
                    .value("JointImpedance", ControllerMode::kJointImpedance)
                    .value("CartesianImpedance", ControllerMode::kCartesianImpedance));
@@ -164,7 +164,7 @@ void bindMotion(py::module_& module) {
       py::arg("command"), "The same command, marked as the last one of its motion.");
 
   py::class_<Motion> motion(
-      module, "ActiveControl",
+      module, "ActiveControl", py::module_local(),
       "A motion that the program drives itself: read_once, then write_once, once a millisecond. "
       "It ends when it is closed, leaves its `with` block or is collected.");
   motion

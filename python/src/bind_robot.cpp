@@ -260,12 +260,12 @@ void bindSetters(py::class_<Robot>& robot) {
 
 void bindControlOptions(py::module_& module, py::class_<Robot>& robot) {
   aliasAsInCpp(py::enum_<CallbackOrder>(
-                   module, "CallbackOrder",
+                   module, "CallbackOrder", py::module_local(),
                    "Which callback of a motion with torques is called first in a cycle.")
                    .value("MotionFirst", CallbackOrder::kMotionFirst)
                    .value("ControlFirst", CallbackOrder::kControlFirst));
   aliasAsInCpp(py::enum_<FirstCycleReference>(
-                   module, "FirstCycleReference",
+                   module, "FirstCycleReference", py::module_local(),
                    "What the first position or pose of a motion is filtered and limited against.")
                    .value("RobotState", FirstCycleReference::kRobotState)
                    .value("Command", FirstCycleReference::kCommand));
@@ -281,7 +281,7 @@ void bindControlOptions(py::module_& module, py::class_<Robot>& robot) {
 }
 
 void bindReading(py::module_& module, py::class_<Robot>& robot) {
-  py::class_<VirtualWallCuboid>(module, "VirtualWallCuboid",
+  py::class_<VirtualWallCuboid>(module, "VirtualWallCuboid", py::module_local(),
                                 "A box that the end effector must not leave.")
       .def_readonly("id", &VirtualWallCuboid::id, "Number of the wall.")
       .def_property_readonly(
@@ -320,12 +320,12 @@ void bindReading(py::module_& module, py::class_<Robot>& robot) {
 void bindRobot(py::module_& module) {
   using release = py::gil_scoped_release;
   aliasAsInCpp(py::enum_<RealtimeConfig>(
-                   module, "RealtimeConfig",
+                   module, "RealtimeConfig", py::module_local(),
                    "Whether a program without real-time priority may control the robot.")
                    .value("Enforce", RealtimeConfig::kEnforce)
                    .value("Ignore", RealtimeConfig::kIgnore));
 
-  py::class_<Robot> robot(module, "Robot",
+  py::class_<Robot> robot(module, "Robot", py::module_local(),
                           "A connection to a robot. Waiting calls let other Python threads run; "
                           "one operation at a time, but stop() from any thread.");
   withNames(

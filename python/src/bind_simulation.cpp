@@ -329,7 +329,8 @@ void bindRequests(py::class_<Robot>& robot) {
 
 void bindHand(py::module_& module, py::class_<Robot>& robot) {
   using franka_sim::GripperOutcome;
-  py::enum_<GripperOutcome>(module, "GripperOutcome", "Outcome of a hand command.")
+  py::enum_<GripperOutcome>(module, "GripperOutcome", py::module_local(),
+                            "Outcome of a hand command.")
       .value("Running", GripperOutcome::kRunning)
       .value("Succeeded", GripperOutcome::kSucceeded)
       .value("Failed", GripperOutcome::kFailed)
@@ -372,7 +373,7 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
 }
 
 void bindSimulatedRobot(py::module_& module) {
-  py::class_<Robot> robot(module, "Robot", "A robot of a simulation.");
+  py::class_<Robot> robot(module, "Robot", py::module_local(), "A robot of a simulation.");
   robot
       .def_property_readonly("state", &Robot::state, py::return_value_policy::reference_internal,
                              "The present LiveState.")
@@ -580,11 +581,13 @@ franka_sim::fci::Pace paceOf(bool real_time, const py::object& limit) {
 
 void bindSimulation(py::module_& module) {
   using franka_sim::Simulation;
-  py::register_exception<franka_sim::RequestRefused>(module, "RequestRefused", PyExc_RuntimeError)
+  py::register_local_exception<franka_sim::RequestRefused>(module, "RequestRefused",
+                                                           PyExc_RuntimeError)
       .attr("__doc__") = "The robot cannot do what was requested; its mode does not allow it.";
-  py::class_<franka_sim::SimulationSnapshot>(module, "Snapshot",
+  py::class_<franka_sim::SimulationSnapshot>(module, "Snapshot", py::module_local(),
                                              "The state of a world and its robots at a tick.");
-  py::class_<Simulation::Robot>(module, "RobotSetup", "What is needed to add a robot.")
+  py::class_<Simulation::Robot>(module, "RobotSetup", py::module_local(),
+                                "What is needed to add a robot.")
       .def(py::init([](const std::string& robot, const std::string& name, const std::string& urdf,
                        const py::object& base, double yaw, const std::string& realism, bool hand) {
              const auto position = finite<3>(base, "base");
@@ -597,7 +600,7 @@ void bindSimulation(py::module_& module) {
     return py::make_tuple(look.urdf, look.missing);
   });
   bindSimulatedRobot(module);
-  py::class_<Shared, std::shared_ptr<Shared>> simulation(module, "Simulation",
+  py::class_<Shared, std::shared_ptr<Shared>> simulation(module, "Simulation", py::module_local(),
                                                          "A world with robots.");
   simulation
       .def(py::init([](const std::string& world, const std::vector<Simulation::Robot>& robots) {

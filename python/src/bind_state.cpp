@@ -59,7 +59,8 @@ std::string flagOf(const std::string& error) {
 }
 
 void bindErrors(py::module_& module) {
-  py::class_<franka::Errors> errors(module, "Errors", "Errors of the robot; true if there is one.");
+  py::class_<franka::Errors> errors(module, "Errors", py::module_local(),
+                                    "Errors of the robot; true if there is one.");
   errors.def(py::init<>(), "No error.")
       .def("__bool__", [](const franka::Errors& self) { return static_cast<bool>(self); })
       .def("__str__", [](const franka::Errors& self) { return static_cast<std::string>(self); })
@@ -74,7 +75,8 @@ void bindErrors(py::module_& module) {
 }
 
 void bindModes(py::module_& module) {
-  aliasAsInCpp(py::enum_<franka::RobotMode>(module, "RobotMode", "What the robot is doing.")
+  aliasAsInCpp(py::enum_<franka::RobotMode>(module, "RobotMode", py::module_local(),
+                                            "What the robot is doing.")
                    .value("Other", franka::RobotMode::kOther)
                    .value("Idle", franka::RobotMode::kIdle)
                    .value("Move", franka::RobotMode::kMove)
@@ -154,7 +156,7 @@ void bindState(py::module_& module) {
   bindErrors(module);
   bindModes(module);
   py::class_<RobotState> state(
-      module, "RobotState",
+      module, "RobotState", py::module_local(),
       "State of a robot. Arrays are numpy views of it that cannot be written, but attributes can "
       "be "
       "assigned, which earlier views show, too; matrices have two dimensions.");
@@ -181,7 +183,8 @@ void bindState(py::module_& module) {
         return text.str();
       });
 
-  py::class_<franka::Record>(module, "Record", "A state, and the command sent just before it.")
+  py::class_<franka::Record>(module, "Record", py::module_local(),
+                             "A state, and the command sent just before it.")
       .def_readonly("state", &franka::Record::state, "The state received.")
       .def_property_readonly(
           "q_c",
@@ -219,7 +222,7 @@ void bindState(py::module_& module) {
 
 void bindSimState(py::module_& module) {
   using State = franka_core::RobotState;
-  py::class_<State> state(module, "LiveState",
+  py::class_<State> state(module, "LiveState", py::module_local(),
                           "Present state of a simulated robot, with the attributes of RobotState. "
                           "Its arrays are numpy views that cannot be written and show each new "
                           "tick; copy what is to stay.");

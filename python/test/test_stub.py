@@ -3,9 +3,13 @@
 """Every public name is in the type stub, and the stub names nothing else."""
 
 import ast
+import builtins
 import inspect
+import subprocess
+import sys
 from pathlib import Path
 
+import _pyfranka
 import pyfranka
 import pytest
 
@@ -46,6 +50,32 @@ def classes(owner=pyfranka, path=()):
         if inspect.isclass(value) and not name.startswith("_") and name == value.__name__:
             yield (*path, name), value
             yield from classes(value, (*path, name))
+
+
+def test_a_star_import_hides_no_builtin():
+    names = {}
+    exec("from pyfranka import *", names)
+    assert names["FrankaException"] is pyfranka.Exception and "RobotState" in names
+    assert not set(names) & set(vars(builtins)) - {"__builtins__"}
+
+
+def test_types_are_local_so_that_other_bindings_of_libfranka_can_be_loaded():
+    bound = {cls for _, cls in classes(_pyfranka) if type(cls).__name__ == "pybind11_type"}
+    assert pyfranka.RobotState in bound
+    shared = {cls for cls in bound if not any("pybind11_module_local" in name for name in vars(cls))}
+    assert not shared
+
+
+@pytest.mark.parametrize("options", [[], ["-O"], ["-OO"]])
+def test_all_modules_can_be_imported_with_optimization(options):
+    code = (
+        "import importlib, pkgutil, pyfranka\n"
+        "for module in pkgutil.walk_packages(pyfranka.__path__, 'pyfranka.'):\n"
+        "    importlib.import_module(module.name)\n"
+        "print(pyfranka.sim.Simulation().add('fr3').q)"
+    )
+    done = subprocess.run([sys.executable, *options, "-c", code], text=True, capture_output=True, timeout=120)
+    assert done.returncode == 0, done.stderr
 
 
 def names_of(cls):

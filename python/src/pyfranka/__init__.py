@@ -13,7 +13,12 @@ Arrays of a RobotState are numpy views of it; matrices have two dimensions and a
     Python threads run; errors are pyfranka.Exception and derived classes.
 """
 
+import builtins as _builtins
+
 from _pyfranka import *  # noqa: F401, F403
+
+# `from pyfranka import *` does not hide Python's own Exception; FrankaException is another name of ours.
+__all__ = [name for name in globals() if not name.startswith("_") and not hasattr(_builtins, name)]
 
 
 def __getattr__(name: str):

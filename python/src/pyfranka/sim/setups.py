@@ -103,7 +103,8 @@ class _Setup:
 class Panda(_Setup):
     """A Panda to add to a world."""
 
-    __doc__ += _Setup.__doc__.partition("\n")[2]
+    if _Setup.__doc__:  # not under python -OO
+        __doc__ += _Setup.__doc__.partition("\n")[2]
     kind: typing.ClassVar[str] = "panda"
 
 
@@ -111,7 +112,8 @@ class Panda(_Setup):
 class FR3(_Setup):
     """An FR3 to add to a world."""
 
-    __doc__ += _Setup.__doc__.partition("\n")[2]
+    if _Setup.__doc__:  # not under python -OO
+        __doc__ += _Setup.__doc__.partition("\n")[2]
     kind: typing.ClassVar[str] = "fr3"
 
 

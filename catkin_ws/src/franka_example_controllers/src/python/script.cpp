@@ -129,8 +129,7 @@ constexpr ControlMode kCartesian = ControlMode::CartesianPose | ControlMode::Car
 Script::Script(const ScriptSource& source, const franka_hw::FrankaModelHandle& model,
                std::shared_ptr<ModelGate> gate)
     : mode_(source.mode) {
-  // Defines Python types of states and frames.
-  py::module_::import("pyfranka");
+  state_type_ = py::module_::import("pyfranka").attr("RobotState");
   const py::object module = source.file.empty()
                                 ? py::object(py::module_::import(source.module.c_str()))
                                 : moduleOfFile(source.file);
@@ -140,17 +139,23 @@ Script::Script(const ScriptSource& source, const franka_hw::FrankaModelHandle& m
 }
 
 void Script::starting(const franka::RobotState& state) {
-  object_.attr("starting")(py::cast(state, py::return_value_policy::copy), model_);
+  object_.attr("starting")(copyOf(state), model_);
 }
 
 ArmCommand Script::update(const franka::RobotState& state, double period) {
-  return commandOf(update_(py::cast(state, py::return_value_policy::copy), model_, period));
+  return commandOf(update_(copyOf(state), model_, period));
 }
 
 void Script::stopping() {
   if (py::hasattr(object_, "stopping")) {
     object_.attr("stopping")();
   }
+}
+
+py::object Script::copyOf(const franka::RobotState& state) const {
+  py::object copy = state_type_();
+  copy.cast<franka::RobotState&>() = state;
+  return copy;
 }
 
 ArmCommand Script::commandOf(const py::object& answer) const {

@@ -31,10 +31,13 @@ class Script {
   void stopping();
 
  private:
+  /// A copy for Python. The type is local to pyfranka's module: only that one makes its objects.
+  pybind11::object copyOf(const franka::RobotState& state) const;
   ArmCommand commandOf(const pybind11::object& answer) const;
   void readPart(const std::string& name, const pybind11::object& value, ArmCommand& command) const;
 
   const franka_hw::ControlMode mode_;
+  pybind11::object state_type_;
   pybind11::object model_;
   pybind11::object object_;
   pybind11::object update_;  // bound method
