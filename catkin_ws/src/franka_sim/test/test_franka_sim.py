@@ -86,7 +86,7 @@ def simulated(address, *arguments, kind="panda", **options):
         (["--realism=real,friction"], "--realism: realism 'real,friction': 'friction' is not known there."),
         (["--control-port", "1337"], "1337 to 1339 are those of robot, gripper and vacuum gripper"),
         (["--control-port=1339"], "1337 to 1339 are those of robot"),
-        (["--ip=localhost"], "--ip: localhost is not an IPv4 address"),
+        (["--ip=robot.local"], "--ip: robot.local is not an IPv4 address"),
         (["--ip="], "is not an IPv4 address"),
         (["--viewer=yes"], "viewer was given a disallowed flag override"),
         (["--base", "1e11,0,0"], "give metres, 1000 at most"),

@@ -17,11 +17,16 @@ namespace franka_sim::fci {
 
 namespace {
 
+/// An IPv4 address, or localhost: no other name, so that nothing waits for a name server.
+bool readAddress(const std::string& text, in_addr& address) {
+  return inet_pton(AF_INET, text == "localhost" ? "127.0.0.1" : text.c_str(), &address) == 1;
+}
+
 sockaddr_in toAddress(const std::string& address, std::uint16_t port) {
   sockaddr_in result{};
   result.sin_family = AF_INET;
   result.sin_port = htons(port);
-  if (inet_pton(AF_INET, address.c_str(), &result.sin_addr) != 1) {
+  if (!readAddress(address, result.sin_addr)) {
     throw std::runtime_error("'" + address +
                              "' is not an IPv4 address such as 127.0.0.1; give one that this "
                              "machine has.");
@@ -85,7 +90,7 @@ bool wouldBlock(int error) noexcept { return error == EAGAIN || error == EWOULDB
 
 bool isAddress(const std::string& text) noexcept {
   in_addr address{};
-  return inet_pton(AF_INET, text.c_str(), &address) == 1;
+  return readAddress(text, address);
 }
 
 Descriptor& Descriptor::operator=(Descriptor&& other) noexcept {

@@ -453,6 +453,14 @@ TEST_F(RobotServerTest, AcceptsAThousandClientsInSequence) {
   }
 }
 
+TEST(RobotServerPort, LocalhostIsAnAddress) {
+  FakeRequestHandler handler;
+  RobotServerParameters parameters;
+  parameters.port = 0;
+  parameters.address = "localhost";
+  EXPECT_NE(0, RobotServer(parameters, handler).port());
+}
+
 TEST(RobotServerPort, ReportsAPortInUse) {
   FakeRequestHandler handler;
   RobotServerParameters parameters;
@@ -460,7 +468,7 @@ TEST(RobotServerPort, ReportsAPortInUse) {
   RobotServer first(parameters, handler);
   parameters.port = first.port();
   test::expectSentence([&] { RobotServer(parameters, handler); }, {"Another simulated robot"});
-  parameters.address = "localhost";
+  parameters.address = "robot.local";
   EXPECT_THROW(RobotServer(parameters, handler), std::runtime_error);
   parameters.address = "192.0.2.1";
   EXPECT_THROW(RobotServer(parameters, handler), std::runtime_error);
