@@ -51,4 +51,10 @@ using std::placeholders::_9;
 }  // namespace placeholders
 }  // namespace boost
 
+// In the global namespace too, for sources that include nothing but generated messages and headers
+// of actionlib or roscpp.
+#ifndef BOOST_BIND_NO_PLACEHOLDERS
+using namespace boost::placeholders;  // NOLINT(google-build-using-namespace)
+#endif
+
 #endif
