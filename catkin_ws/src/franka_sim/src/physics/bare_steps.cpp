@@ -28,11 +28,11 @@ double threadMicroseconds() noexcept {
 double bareTickMicroseconds(World& world, std::uint32_t ticks) {
   const mjModel* model = world.impl().model.get();
   const mjData* present = world.impl().data.get();
-  physics::DataPtr copy(mj_copyData(nullptr, model, present));
+  const physics::DataPtr copy = physics::copyData(*model, *present);
   const auto substeps = static_cast<std::uint32_t>(std::lround(World::kTick / model->opt.timestep));
   double spent = 0.0;
   for (std::uint32_t done = 0; done < ticks; done += kRound) {
-    mj_copyData(copy.get(), model, present);
+    physics::copyData(copy.get(), *model, *present);
     const std::uint32_t steps = std::min(kRound, ticks - done) * substeps;
     const double start = threadMicroseconds();
     for (std::uint32_t i = 0; i < steps; ++i) {

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/collision_scope.h"
 
+#include "physics/contact_capacity.h"
+
 namespace franka_sim::physics {
 
 /// Takes bodies out of the search for collisions.
@@ -81,9 +83,9 @@ void CollisionScope::fit(const mjModel& model, const Ownership& owners) {
 void CollisionScope::firstHalf(mjModel* model, mjData* data) {
   if (without_robots_ || without_objects_) {
     const Masks masks(*this, model);
-    mj_step1(model, data);
+    physics::firstHalf(model, data);
   } else {
-    mj_step1(model, data);
+    physics::firstHalf(model, data);
   }
 }
 

@@ -24,5 +24,9 @@ using DataPtr = std::unique_ptr<mjData, DataDeleter>;
 ModelPtr compile(const std::string& mjcf, const std::string& what);
 /// @throws std::runtime_error when there is not enough memory.
 DataPtr makeData(const mjModel& model);
+/// mj_copyData, without memory for what no solver of the model reads.
+/// @throws std::runtime_error when there is not enough memory.
+DataPtr copyData(const mjModel& model, const mjData& data);
+void copyData(mjData* to, const mjModel& model, const mjData& data);
 
 }  // namespace franka_sim::physics

@@ -29,19 +29,4 @@ constexpr double kRollingFriction = 0.0001;   ///< MuJoCo's default [m]
 constexpr double kFingerFriction = 1.13;
 constexpr double kLinkFriction = 1.0;
 
-/// Contact capacity of a world whose file does not set it. MuJoCo's default, the minimum here, is
-/// 100 contacts, which 25 boxes on a table use up: more boxes fall through the table. A box on
-/// another one has four contacts, and a contact has up to four rows. Bodies have spare ones, for
-/// collisions (chosen here), and robots enough for a grasp and several links in contact. A robot's
-/// joints have 9 rows of friction, 9 of stops, 7 of brakes and one of the coupled fingers; the
-/// world may have some of its own (chosen here). MuJoCo 2.2 takes memory for the square of the
-/// rows, and its copies of a state touch all of it: the maximum is that of about 300 boxes.
-constexpr int kMinContacts = 100;
-constexpr int kContactsOfMovingGeom = 5;
-constexpr int kContactsOfRobot = 40;
-constexpr int kMaxContacts = 1600;
-constexpr int kRowsOfContact = 4;
-constexpr int kRowsOfRobot = 30;
-constexpr int kRowsOfWorld = 30;
-
 }  // namespace franka_sim::physics

@@ -64,47 +64,6 @@ void setEverywhere(XMLElement* root, const char* name, const char* attribute, co
   }
 }
 
-bool moves(const XMLElement& body) {
-  return body.FirstChildElement("joint") != nullptr ||
-         body.FirstChildElement("freejoint") != nullptr;
-}
-
-/// The number of geoms of bodies that move.
-int movingGeoms(const XMLElement& body, bool moving) {
-  int count = 0;
-  for (auto* e = body.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
-    const std::string name = e->Name();
-    if (name == "body") {
-      count += movingGeoms(*e, moving || moves(*e));
-    } else if (name == "geom" && moving) {
-      count += 1;
-    }
-  }
-  return count;
-}
-
-/// Sets the limits of contacts and constraints, unless the world's file sets them.
-void setContactCapacity(XMLElement* root, int robots) {
-  int geoms = 0;
-  for (auto* e = root->FirstChildElement("worldbody"); e != nullptr;
-       e = e->NextSiblingElement("worldbody")) {
-    geoms += movingGeoms(*e, false);
-  }
-  const int contacts = std::clamp(kContactsOfMovingGeom * geoms + kContactsOfRobot * robots,
-                                  kMinContacts, kMaxContacts);
-  const auto set_unless_given = [root](const char* attribute, int capacity) {
-    for (auto* e = root->FirstChildElement("size"); e != nullptr;
-         e = e->NextSiblingElement("size")) {
-      if (e->Attribute(attribute) != nullptr) {
-        return;
-      }
-    }
-    section(root, "size")->SetAttribute(attribute, capacity);
-  };
-  set_unless_given("nconmax", contacts);
-  set_unless_given("njmax", kRowsOfContact * contacts + kRowsOfRobot * robots + kRowsOfWorld);
-}
-
 /// Refuses compiler settings that would silently change robots.
 void checkCompiler(const XMLElement& root, const std::string& title) {
   for (auto* e = root.FirstChildElement("compiler"); e != nullptr;
@@ -337,6 +296,17 @@ void MjcfWorld::rankFrictions(XMLElement* root) const {
   }
 }
 
+GivenSizes MjcfWorld::givenSizes() const {
+  GivenSizes given;
+  for (auto* e = document_.RootElement()->FirstChildElement("size"); e != nullptr;
+       e = e->NextSiblingElement("size")) {
+    given.nconmax = given.nconmax || e->Attribute("nconmax") != nullptr;
+    given.njmax = given.njmax || e->Attribute("njmax") != nullptr;
+    given.nstack = given.nstack || e->Attribute("nstack") != nullptr;
+  }
+  return given;
+}
+
 std::string MjcfWorld::merge(const std::vector<const RobotModel*>& robots, bool visuals) const {
   tinyxml2::XMLDocument merged;
   compose(&merged);
@@ -348,9 +318,6 @@ std::string MjcfWorld::merge(const std::vector<const RobotModel*>& robots, bool 
                           visuals,
                           angle_unit_,
                           &geoms_};
-  if (!visuals) {
-    setContactCapacity(root, static_cast<int>(robots.size()));
-  }
   for (const RobotModel* robot : robots) {
     writeRobot(*robot, target);
   }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "physics/contact_capacity.h"
 #include "physics/mjcf_object.h"
 #include "physics/mjcf_robot.h"
 #include "physics/robot_model.h"
@@ -36,6 +37,7 @@ class MjcfWorld {
 
   /// "World file <path>" or "The built-in world".
   const std::string& title() const noexcept { return title_; }
+  GivenSizes givenSizes() const;
   const std::vector<WorldGeom>& geoms() const noexcept { return geoms_; }
   std::vector<std::string> objects() const;
   /// Further names of bodies.

@@ -26,6 +26,18 @@ std::array<std::string, N> jointNames(const physics::RobotModel& robot, const st
   return names;
 }
 
+void checkPush(std::size_t others, const std::string& body, std::uint64_t ticks) {
+  if (ticks > sizes::kMaxPushTicks) {
+    throw std::runtime_error("The push on body '" + body + "' lasts " + std::to_string(ticks) +
+                             " ms; give at most " + std::to_string(sizes::kMaxPushTicks) + ".");
+  }
+  if (others >= sizes::kMaxPushes) {
+    throw std::runtime_error("The push on body '" + body +
+                             "' is refused: " + std::to_string(sizes::kMaxPushes) +
+                             " pushes act already. Wait until they end.");
+  }
+}
+
 }  // namespace
 
 World::World(const std::string& file, ResourceResolver resolve)
@@ -244,6 +256,7 @@ void World::push(const std::string& body, const std::array<double, 3>& force,
   impl_->requireRuns();
   sizes::check(force, sizes::kMaxForce, "N", "The force on body '" + body + "'");
   sizes::check(torque, sizes::kMaxForce, "Nm", "The torque on body '" + body + "'");
+  checkPush(impl_->pushes.size(), body, ticks);
   if (ticks > 0) {
     impl_->addPush(
         {body, frame.body, frame.pose.translation(), vector(force), vector(torque), ticks});
@@ -256,6 +269,7 @@ void World::pushAt(const std::string& body, const std::array<double, 3>& point,
   impl_->requireRuns();
   sizes::check(point, sizes::kMaxPosition, "m", "The point of the push");
   sizes::check(force, sizes::kMaxForce, "N", "The force on body '" + body + "'");
+  checkPush(impl_->pushes.size(), body, ticks);
   if (ticks > 0) {
     const Frame origin{frame.body, Eigen::Isometry3d::Identity()};
     impl_->addPush({body, frame.body, impl_->pose(origin).inverse() * vector(point), vector(force),

@@ -92,7 +92,8 @@ std::vector<std::string> World::takeWarnings() {
        "in <size> of the world file."},
       {mjWARN_CNSTRFULL,
        "There are more constraints (contacts, limits, friction) than the limit (njmax), and some "
-       "have no effect. Raise njmax in <size> of the world file."},
+       "have no effect. Raise njmax in <size> of the world file, or use fewer objects: there is "
+       "room for about 1000 boxes."},
       {mjWARN_BADCTRL, "An actuator's command is not finite or too large: all actuators are off."},
   };
   std::vector<std::string> news;
@@ -121,7 +122,7 @@ std::vector<Overlap> World::overlaps(const std::string& robot) const {
   };
   const mjModel& model = *impl_->model;
   const physics::EngineErrorScope scope;
-  const physics::DataPtr data(mj_copyData(nullptr, &model, impl_->data.get()));
+  const physics::DataPtr data = physics::copyData(model, *impl_->data);
   mj_fwdPosition(&model, data.get());
   std::vector<Overlap> result;
   for (int c = 0; c < data->ncon; ++c) {

@@ -35,6 +35,22 @@ bool isOfRobot(const physics::Ownership& owners, const mjContact& contact) {
   return owners.robot_of_geom[contact.geom1] >= 0 || owners.robot_of_geom[contact.geom2] >= 0;
 }
 
+/// Per MuJoCo body the index of its robot, or -1.
+std::vector<int> robotOfBody(const mjModel& model,
+                             const std::vector<std::unique_ptr<RobotModel>>& robots) {
+  std::vector<int> robot_of_body(model.nbody, -1);
+  for (std::size_t r = 0; r < robots.size(); ++r) {
+    for (const physics::Segment& segment : robots[r]->segments) {
+      const std::string& link = robots[r]->urdf.links[segment.link].name;
+      const int body = mj_name2id(&model, mjOBJ_BODY, link.c_str());
+      if (body > 0) {
+        robot_of_body[body] = static_cast<int>(r);
+      }
+    }
+  }
+  return robot_of_body;
+}
+
 }  // namespace
 
 World::Impl::Impl(const std::string& file, ResourceResolver resolve)
@@ -76,6 +92,8 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
       list.empty() ? merged.title()
                    : merged.title() + " with robot '" + list.back()->description.name + "'";
   physics::ModelPtr new_model = physics::compile(merged.merge(list, false), title);
+  physics::setContactCapacity(new_model.get(), robotOfBody(*new_model, *candidates),
+                              merged.givenSizes());
   physics::ModelIdentity new_identity = physics::identityOf(*new_model, list);
   if (set_gravity) {
     std::copy(set_gravity->begin(), set_gravity->end(), new_model->opt.gravity);
@@ -133,7 +151,7 @@ void World::Impl::index() {
   kinematics_fresh = false;
   kept_qpos.assign(model->nq, 0.0);
   preparation.fit(*model);
-  owners = physics::Ownership(*model, robotOfBody());
+  owners = physics::Ownership(*model, robotOfBody(*model, robots));
   clearance.fit(*model, owners);
   object_rest.fit(*model, owners);
   collisions.fit(*model, owners);
@@ -189,20 +207,6 @@ void World::Impl::index() {
   for (Push& push : pushes) {
     push.body = frames[push.body_name].body;
   }
-}
-
-std::vector<int> World::Impl::robotOfBody() const {
-  std::vector<int> robot_of_body(model->nbody, -1);
-  for (std::size_t r = 0; r < robots.size(); ++r) {
-    for (const physics::Segment& segment : robots[r]->segments) {
-      const std::string& link = robots[r]->urdf.links[segment.link].name;
-      const int body = mj_name2id(model.get(), mjOBJ_BODY, link.c_str());
-      if (body > 0) {
-        robot_of_body[body] = static_cast<int>(r);
-      }
-    }
-  }
-  return robot_of_body;
 }
 
 void World::Impl::bindPlants() {

@@ -140,8 +140,6 @@ struct World::Impl {
   void placeInitially(const mjModel& m, mjData* d,
                       const std::vector<std::unique_ptr<physics::RobotModel>>& all) const;
   void index();
-  /// Per MuJoCo body the index of its robot, or -1.
-  std::vector<int> robotOfBody() const;
   void orderFrames();
   void bindPlants();
   void stop(const physics::StepFault& why) noexcept;

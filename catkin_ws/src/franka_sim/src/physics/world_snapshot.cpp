@@ -55,7 +55,7 @@ Snapshot World::snapshot() const {
   content->generation = impl_->generation;
   content->identity = impl_->identity;
   content->ticks = impl_->ticks;
-  content->data.reset(mj_copyData(nullptr, &model, impl_->data.get()));
+  content->data = physics::copyData(model, *impl_->data);
   content->motor_side = impl_->motor_side;
   content->frictions = impl_->frictions;
   content->clearance = impl_->clearance.state();
@@ -88,7 +88,7 @@ void World::restore(const Snapshot& snapshot) {
   impl_->clearFaults();
   setGravity(content->gravity);
   const physics::EngineErrorScope scope;
-  mj_copyData(impl_->data.get(), &model, content->data.get());
+  physics::copyData(impl_->data.get(), model, *content->data);
   std::copy(content->eq_data.begin(), content->eq_data.end(), model.eq_data);
   std::copy(content->eq_active.begin(), content->eq_active.end(), model.eq_active);
   impl_->motor_side = content->motor_side;

@@ -24,12 +24,11 @@ using fci::toNumber;
 using fci::toSwitch;
 using Words = LineServer::Words;
 
-constexpr double kMaxPushTicks = 1e6;  // [ticks] duration of a push
 constexpr std::uint64_t kFall = 1000;  // [ticks] in lock-step, until a released object rests
 
 std::uint64_t toTicks(const std::string& word) {
   const double ticks = toNumber(word);
-  if (!(ticks >= 1.0 && ticks <= kMaxPushTicks) || ticks != std::floor(ticks)) {
+  if (!(ticks >= 1.0 && ticks <= sizes::kMaxPushTicks) || ticks != std::floor(ticks)) {
     throw std::invalid_argument("'" + word +
                                 "' is not a number of milliseconds from 1 to 1000000.");
   }

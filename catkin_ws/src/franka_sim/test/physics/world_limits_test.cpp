@@ -152,6 +152,17 @@ TEST(Divergence, OfAWorldFileIsDetectedBeforeTheFirstStep) {
   EXPECT_NE(std::string::npos, world.fault().find("position of body 'far")) << world.fault();
 }
 
+TEST(Pushes, AreLimitedInDurationAndNumber) {
+  World world(test::world("stone"));
+  expectSentence([&] { world.push("stone", {0, 0, 1}, {}, 1000001); }, {"stone", "1000000"});
+  for (int i = 0; i < 1000; i++) {
+    world.push("stone", {0, 0, 0}, {}, 1);
+  }
+  expectSentence([&] { world.pushAt("stone", {0, 0, 0}, {0, 0, 1}, 1); }, {"1000 pushes"});
+  world.step();
+  world.push("stone", {0, 0, 1}, {}, 1000000);
+}
+
 TEST(Divergence, EndsWhenASnapshotIsRestored) {
   World world(test::world("stone"));
   world.addObject("feather", kFeather, at(5, 5, 5));
@@ -203,16 +214,21 @@ TEST(Warnings, OfMujocoAreReportedOnce) {
   EXPECT_FALSE(world.stopped());
 }
 
-TEST(WorldContactCapacity, HoldsAHundredBoxesOnTheGround) {
+/// @param columns boxes of 4 cm side by side, before the next row begins
+std::string boxesOnTheGround(int count, int columns) {
   std::string bodies;
-  for (int i = 0; i < 100; i++) {
-    bodies += "<body name='box" + std::to_string(i) + "' pos='" + std::to_string(0.1 * (i % 10)) +
-              " " + std::to_string(0.1 * (i / 10)) + " 0.02'><freejoint/>" +
-              "<geom type='box' size='0.02 0.02 0.02' mass='0.05'/></body>";
+  for (int i = 0; i < count; i++) {
+    bodies += "<body name='box" + std::to_string(i) + "' pos='" +
+              std::to_string(0.1 * (i % columns)) + " " + std::to_string(0.1 * (i / columns)) +
+              " 0.02'><freejoint/>" + "<geom type='box' size='0.02 0.02 0.02' mass='0.05'/></body>";
   }
+  return "<mujoco><worldbody><geom type='plane' size='9 9 0.1'/>" + bodies +
+         "</worldbody></mujoco>";
+}
+
+TEST(WorldContactCapacity, HoldsAHundredBoxesOnTheGround) {
   const franka_test::TemporaryFolder folder;
-  World world(folder.write("boxes.xml", "<mujoco><worldbody><geom type='plane' size='9 9 0.1'/>" +
-                                            bodies + "</worldbody></mujoco>"));
+  World world(folder.write("boxes.xml", boxesOnTheGround(100, 10)));
   for (int k = 0; k < 300; k++) {
     world.step();
   }
@@ -220,6 +236,24 @@ TEST(WorldContactCapacity, HoldsAHundredBoxesOnTheGround) {
   EXPECT_EQ(400u, world.contacts().size());
   for (int i = 0; i < 100; i++) {
     EXPECT_NEAR(0.02, world.bodyPose("box" + std::to_string(i)).position[2], 5e-4);
+  }
+}
+
+/// More constraints than MuJoCo has room for: the contacts of a box share their friction, so that
+/// all of them press. A box that falls would be 20 mm lower.
+TEST(WorldContactCapacity, HoldsAThousandBoxesBesideARobot) {
+  const franka_test::TemporaryFolder folder;
+  World world(folder.write("boxes.xml", boxesOnTheGround(1000, 32)));
+  RobotDescription description = robot("panda");
+  description.base = at(-2, 0, 0);
+  world.addRobot(description);
+  for (int k = 0; k < 64; k++) {
+    world.step();
+  }
+  EXPECT_TRUE(world.takeWarnings().empty());
+  EXPECT_EQ(4000u, world.contacts().size());
+  for (int i = 0; i < 1000; i++) {
+    ASSERT_NEAR(0.02, world.bodyPose("box" + std::to_string(i)).position[2], 5e-4) << i;
   }
 }
 

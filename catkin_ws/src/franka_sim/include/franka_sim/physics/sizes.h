@@ -3,6 +3,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <cstdint>
 #include <string>
 
 /// @file
@@ -15,7 +17,9 @@ namespace franka_sim::sizes {
 constexpr double kMaxPosition = 1e3;  ///< from the world's origin [m]; of a joint [m] or [rad]
 constexpr double kMaxVelocity = 1e3;  ///< [m/s] or [rad/s]
 constexpr double kMaxForce = 1e4;     ///< [N] or [Nm]
-constexpr double kMaxGravity = 1e2;   ///< [m/s^2]
+constexpr std::uint64_t kMaxPushTicks = 1000000;  ///< duration of a push [ticks]
+constexpr std::size_t kMaxPushes = 1000;          ///< at a time
+constexpr double kMaxGravity = 1e2;               ///< [m/s^2]
 
 /// @param what the start of the sentence, for example "The force"
 /// @throws std::runtime_error with a sentence that names the first number which is not finite or

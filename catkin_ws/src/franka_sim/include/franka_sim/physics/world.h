@@ -253,6 +253,7 @@ class World {
                         double position);  ///< teleport; velocity becomes 0
   void setJointVelocity(const std::string& joint, double velocity);  ///< [rad/s] or [m/s]
   /// A force and torque on a body at its origin or at `point` (world), for `ticks` ticks from now.
+  /// @throws std::runtime_error with a sentence beyond the limits of sizes.h
   void push(const std::string& body, const std::array<double, 3>& force,
             const std::array<double, 3>& torque, std::uint64_t ticks);
   /// The same force at a point, without a torque of its own.
