@@ -13,7 +13,10 @@ from contextlib import suppress
 import pytest
 from desk_server import unverified
 from franka_sim_mujoco.session import Session
+from gazebo_msgs.srv import DeleteModel
 from pyfranka.remote import LineRefused, Remote
+from ros_client import call, in_session, launched
+from std_srvs.srv import Empty, SetBool
 from waiting import wait_for
 
 WORLD_ROBOT = "127.0.31.21"
@@ -21,6 +24,8 @@ LAUNCHED_ROBOT = "127.0.31.22"
 PAIR = ("127.0.31.23", "127.0.31.24")
 VERSION = re.compile(r"\d+\.\d+\.\d+")
 START_LIMIT = 120.0  # [s] of a launch on a busy machine
+
+pytestmark = pytest.mark.own_process
 
 
 def system_version(address: str) -> str:
@@ -51,7 +56,7 @@ def awaited(session: Session, attempt, errors=(OSError,)):
 def world(tmp_path_factory):
     """A robot of a ROS world with Desk."""
     launch = ["franka_gazebo", "panda.launch", "headless:=true", "desk:=true", f"fci_ip:={WORLD_ROBOT}"]
-    with Session(*launch, log=tmp_path_factory.mktemp("desk") / "launch.log") as session:
+    with launched(*launch, log=tmp_path_factory.mktemp("desk") / "launch.log") as session:
         yield session
 
 
@@ -85,21 +90,23 @@ def test_a_robot_of_a_ros_world_has_a_control_interface(remote):
 
 
 def test_the_control_interface_answers_while_the_world_is_paused(world, remote):
-    world.run("rosservice", "call", "/gazebo/pause_physics")
+    call("/gazebo/pause_physics", Empty)
     assert remote.report(timeout=60).mode == "Idle"
     assert remote.scene(timeout=60).robots == {"panda": "panda"}
-    world.run("rosservice", "call", "/gazebo/unpause_physics")
+    call("/gazebo/unpause_physics", Empty)
 
 
 def test_the_address_is_free_once_the_robot_has_been_deleted(world, remote):
-    world.run("rosservice", "call", "/gazebo/delete_model", "panda")
+    call("/gazebo/delete_model", DeleteModel, "panda")
     with pytest.raises(ConnectionError):
         remote.time()
 
 
+@pytest.mark.own_process
 def test_a_robot_of_a_ros_world_can_start_locked(tmp_path):
     launch = ["franka_sim_mujoco", "fr3.launch", "headless:=true", f"fci_ip:={WORLD_ROBOT}"]
-    with Session(*launch, "start:=locked", "control_port:=1341", log=tmp_path / "launch.log") as session:
+    started = Session(*launch, "start:=locked", "control_port:=1341", log=tmp_path / "launch.log")
+    with in_session(started) as session:
         remote = Remote(WORLD_ROBOT, 1341)
         report = awaited(session, remote.report)
         assert (report.type, report.rules, report.fci) == ("fr3", "desk", False)
@@ -108,8 +115,8 @@ def test_a_robot_of_a_ros_world_can_start_locked(tmp_path):
         with pytest.raises(LineRefused) as refused:
             remote.fci(True)
         assert refused.value.code == "BrakesClosed"
-        called = session.run("rosservice", "call", "/franka_sim/set_fci", "true").stdout
-        assert "success: False" in called and "BrakesClosed: " in called, called
+        answer = call("/franka_sim/set_fci", SetBool, True)
+        assert not answer.success and "BrakesClosed: " in answer.message, answer
         remote.joints(locked=False)
         remote.fci(True)
         with socket.socket() as client:

@@ -9,7 +9,9 @@ import pytest
 from franka_sim_mujoco.session import Session
 from PIL import Image
 from pyfranka.franka_sim import FrankaSim, SimRobot
+from ros_client import in_session, latest
 from screen import colours, dragged, move_pointer, press, virtual_screen, window_of
+from std_msgs.msg import Bool
 from waiting import wait_for
 
 LONG = pytest.mark.long_form("further windows, and one that must not open")
@@ -39,18 +41,18 @@ def test_window_shows_the_scene(screen, tmp_path):
 
 
 @LONG
+@pytest.mark.own_process
 def test_headless_opens_no_window(screen, tmp_path):
-    with simulation(tmp_path / "launch.log", "headless:=true") as session:
-        session.wait_for_master()
-        session.run("rostopic", "echo", "-n1", "/initialized", timeout=PATIENCE)
+    with in_session(simulation(tmp_path / "launch.log", "headless:=true")):
+        latest("/initialized", Bool, PATIENCE)
         assert colours(tmp_path / "screen.png") < 20
 
 
+@pytest.mark.own_process
 def test_without_a_display_the_simulation_warns_and_runs(monkeypatch, tmp_path):
     monkeypatch.delenv("DISPLAY", raising=False)
-    with simulation(tmp_path / "launch.log") as session:
-        session.wait_for_master()
-        session.run("rostopic", "echo", "-n1", "/initialized", timeout=PATIENCE)
+    with in_session(simulation(tmp_path / "launch.log")):
+        latest("/initialized", Bool, PATIENCE)
     # A node flushes its output to a file at its exit at the latest.
     assert "There is no display" in (tmp_path / "launch.log").read_text()
 

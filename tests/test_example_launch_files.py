@@ -11,9 +11,9 @@ from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-import yaml
 from franka_sim_mujoco.session import Session
 from pyfranka.remote import Remote
+from ros_client import Controllers, in_session
 from waiting import wait_for
 
 EXAMPLES = Path(__file__).resolve().parent.parent / "catkin_ws/src/franka_example_controllers/launch"
@@ -33,7 +33,6 @@ IN_SHORT = (
 )
 ADDRESS = "127.0.52.1"
 WAIT = 180.0  # [s] on a busy machine
-LIST = ["rosservice", "call", "/controller_manager/list_controllers"]
 ROBOTS = ["panda", "fr3"]
 AGAIN = pytest.mark.long_form("the same with other controllers or robots")
 
@@ -48,18 +47,6 @@ def launch(name: str, robot: str, folder: Path) -> Session:
 def errors(session: Session) -> list[str]:
     marks = ("[ERROR]", "[FATAL]", "Traceback", "process has died")
     return [line for line in session.log.read_text().splitlines() if any(mark in line for mark in marks)]
-
-
-def started(session: Session) -> set[str]:
-    """The controllers that spawners report as started."""
-    session.check()
-    lines = re.findall(r"Started controllers: (.*)", session.log.read_text())
-    return {name for line in lines for name in re.findall(r"\w+", line)}
-
-
-def running(session: Session) -> set[str]:
-    listed = yaml.safe_load(session.run(*LIST, timeout=WAIT).stdout)["controller"]
-    return {controller["name"] for controller in listed if controller["state"] == "running"}
 
 
 def launches():
@@ -80,16 +67,16 @@ def test_a_launch_file_loads_and_spawns_its_controller(name):
     assert any(re.search(rf"^{controller}:", file.read_text(), re.M) for file in files)
 
 
+@pytest.mark.own_process
 @pytest.mark.parametrize("name, robot", list(launches()))
 def test_a_launched_example_runs(name, robot, tmp_path):
     expected = {name.removesuffix(".launch"), "franka_state_controller"}
-    with launch(name, robot, tmp_path) as session:
-        # The spawners' log is read first: a program that asks the manager takes a second each time.
-        wait_for(lambda: expected <= started(session), lambda: f"{session.tail(60)}\n{expected}", WAIT)
-        robot = Remote(ADDRESS)
+    with in_session(launch(name, robot, tmp_path)) as session:
+        controllers, robot = Controllers(), Remote(ADDRESS)
+        controllers.wait_for(*expected)
         end = robot.time() + 1.0
         wait_for(lambda: robot.time() > end, "A second of the robot", WAIT)
-        assert expected <= running(session), session.tail(60)
+        assert expected <= set(controllers.running())
         assert robot.state().errors == {}
     assert errors(session) == []
 

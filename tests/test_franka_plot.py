@@ -8,10 +8,12 @@ import subprocess
 from contextlib import contextmanager
 
 import pytest
-from franka_sim_mujoco.session import Session
+from franka_msgs.msg import FrankaState
 from PIL import Image, ImageChops
 from pyfranka.franka_sim import FrankaSim
+from ros_client import latest, launched
 from screen import colours, virtual_screen, window_of
+from std_msgs.msg import String
 from waiting import wait_for
 
 PATIENCE = 180.0  # [s] for what it shows or prints, on a busy machine
@@ -22,15 +24,16 @@ LAUNCH = """<launch>
   <node name="other" pkg="rostopic" type="rostopic" args="pub -r 1 /chatter std_msgs/String hello"/>
 </launch>"""
 
+pytestmark = pytest.mark.own_process
+
 
 @pytest.fixture(scope="module")
 def session(tmp_path_factory):
     folder = tmp_path_factory.mktemp("plot")
     (folder / "states.launch").write_text(LAUNCH)
-    with Session(str(folder / "states.launch"), log=folder / "launch.log") as running:
-        running.wait_for_master()
-        running.run("rostopic", "echo", "-n1", "/left/franka_states", timeout=PATIENCE)
-        running.run("rostopic", "echo", "-n1", "/chatter", timeout=PATIENCE)
+    with launched(str(folder / "states.launch"), log=folder / "launch.log") as running:
+        latest("/left/franka_states", FrankaState, PATIENCE)
+        latest("/chatter", String, PATIENCE)
         yield running
 
 

@@ -11,7 +11,7 @@ import rospy
 import rosservice
 import yaml
 from franka_msgs.msg import FrankaState
-from ros_client import START, Controllers, latest, launched
+from ros_client import START, Controllers, call, latest, launched
 from test_how_to import HOW_TO, TOP, blocks, service_calls
 
 CONTROLLER = "joint_impedance_example_controller"
@@ -35,7 +35,7 @@ def answer(service: str, *arguments: str) -> tuple[bool, str]:
     kind = rosservice.get_service_class_by_name(service)
     request = kind._request_class()
     genpy.message.fill_message_args(request, [yaml.safe_load(text) for text in arguments])
-    answer = rospy.ServiceProxy(service, kind)(request)
+    answer = call(service, kind, request)
     success = getattr(answer, "success", getattr(answer, "ok", True))
     return bool(success), getattr(answer, "error", getattr(answer, "message", ""))
 
@@ -83,10 +83,10 @@ def test_every_service_call_succeeds(session):
             controllers.load(CONTROLLER)
             controllers.start(CONTROLLER)  # as the argument `controller` of the launch file does
             calls.insert(0, WITHIN_A_MOTION)
-        for call in calls:
-            success, error = answer(*call)
+        for request in calls:
+            success, error = answer(*request)
             count += 1
             if not success:
-                refused.append((call, error))
+                refused.append((request, error))
     assert count > 50
     assert not refused

@@ -11,7 +11,9 @@ from pathlib import Path
 
 import pytest
 from fci_session import simulated
+from franka_msgs.msg import FrankaState
 from franka_sim_mujoco.session import Session, free_port
+from ros_client import in_session, latest
 from waiting import wait_for
 
 SOURCE = Path(__file__).resolve().parents[1] / "catkin_ws/src"
@@ -85,15 +87,15 @@ def test_missing_robot_is_reported_with_the_command_to_start(results, name):
     assert name.split("/")[1] in WITHOUT_SIM or "sim:=true" in output
 
 
+@pytest.mark.own_process
 def test_an_arm_without_its_hand_keeps_running(tmp_path):
     arguments = [f"robot_ip:={WITHOUT_HAND}", "realtime_config:=ignore"]
     launch = ["franka_control", "franka_control.launch", *arguments]
     with (
         simulated("panda", "patient", "--no-hand", address=WITHOUT_HAND),
-        Session(*launch, log=tmp_path / "launch.log") as session,
+        in_session(Session(*launch, log=tmp_path / "launch.log")) as session,
     ):
         died = re.compile(r"\[franka_gripper-\d+\] process has died")
         wait_for(lambda: died.search(session.log.read_text()), "The end of the hand's node", START)
         assert f"no gripper at {WITHOUT_HAND}" in session.log.read_text()
-        session.run("rostopic", "echo", "-n1", "/franka_state_controller/franka_states", timeout=START)
-        session.check()
+        latest("/franka_state_controller/franka_states", FrankaState, START)

@@ -6,7 +6,8 @@ import os
 import re
 
 import pytest
-from franka_sim_mujoco.session import Session
+from ros_client import Controllers, call, launched
+from std_srvs.srv import Empty
 from waiting import wait_for
 
 START = 120.0  # [s] on a busy machine
@@ -28,26 +29,18 @@ def paused(tmp_path, monkeypatch):
     (tmp_path / "sitecustomize.py").write_text(FAST_CLOCK)
     monkeypatch.setenv("PYTHONPATH", f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}")
     launch = ["franka_gazebo", "panda.launch", "paused:=true", f"controller:={CONTROLLERS[1]}"]
-    with Session(
-        *launch, "interactive_marker:=false", "headless:=true", log=tmp_path / "launch.log"
-    ) as session:
-        session.wait_for_master()
+    options = ["interactive_marker:=false", "headless:=true"]
+    with launched(*launch, *options, log=tmp_path / "launch.log", disable_rostime=True) as session:
         yield session
 
 
+@pytest.mark.own_process
 def test_a_launch_that_stays_paused_starts_its_controllers_when_it_runs(paused):
     def longest_wait() -> float:
         reported = re.findall(r"after (\d+) s, /initialized has only sent false", paused.log.read_text())
         return max(map(float, reported), default=0.0)
 
     wait_for(lambda: longest_wait() > 60.0, "A report after a minute of the spawner's time", START)
-    paused.check()
-    paused.run("rosservice", "call", "/gazebo/unpause_physics", timeout=START)
-
-    def all_run() -> bool:
-        words = "rosservice", "call", "/controller_manager/list_controllers"
-        listed = paused.run(*words, timeout=START, check=False)
-        return all(re.search(rf'name: "{name}"\n\s+state: "running"', listed.stdout) for name in CONTROLLERS)
-
-    wait_for(all_run, "The controllers", START)
+    call("/gazebo/unpause_physics", Empty)
+    Controllers().wait_for(*CONTROLLERS)
     assert "couldn't find" not in paused.log.read_text()

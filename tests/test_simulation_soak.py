@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """A minute, in the long form an hour, of simulated work of an arm under ros_control, as fast as possible."""
 
-import math
 import random
 import xmlrpc.client
 from pathlib import Path
@@ -11,15 +10,15 @@ import pytest
 import rosgraph
 import rospy
 from actionlib_msgs.msg import GoalStatus
-from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController
 from fci_session import descriptors_of, memory_of
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
-from franka_sim_mujoco.pick_and_place import Gripper, TaskError, wait_until
+from franka_sim_mujoco.pick_and_place import Gripper, TaskError
 from franka_sim_mujoco.srv import PushBody, Step
 from geometry_msgs.msg import Point, Vector3
-from ros_client import Action, launched
+from ros_client import Action, Controllers, call, launched
 from rosgraph_msgs.msg import Log
 from std_srvs.srv import Empty, Trigger
+from waiting import wait_for
 
 HERE = Path(__file__).resolve().parent
 FROM_START = ["cartesian_pose", "elbow", "joint_impedance"]  # controllers that need the start pose
@@ -32,7 +31,6 @@ CHAIN = [
 ROUNDS, ROUNDS_IN_SHORT = 1000, 20  # a round is one switch and one gripper goal
 ROUND = 3.6  # [s] at least: an hour are a thousand
 REFLEX_EVERY = 10  # rounds
-STRICT = 2
 PUSH, PUSH_TICKS = 40.0, 100  # [N], [ms]
 LIMIT = 60.0  # wall seconds for any wait
 AFTER_RESET = 200  # ticks
@@ -46,20 +44,18 @@ def full(name):
     return f"{name}_example_controller"
 
 
-def until(condition, what):
-    wait_until(condition, what, simulated=math.inf, wall=LIMIT)
-
-
 class Soak:
     def __init__(self):
-        self._calls, self.log, self.state = {}, [], None
-        self._controllers_at_hand()
+        self.log, self.state = [], None
+        self.controllers = Controllers()
+        self.controllers.wait_for("franka_state_controller", "franka_gripper")
+        self.controllers.load(*map(full, FROM_START + CHAIN))
         rospy.Subscriber("/franka_state_controller/franka_states", FrankaState, self._store, queue_size=1)
         rospy.Subscriber("/rosout_agg", Log, self._hear)
         self.gripper = Gripper()
         self.gripper.wait_ready()
         self._recovery = Action("/franka_control/error_recovery", ErrorRecoveryAction)
-        until(lambda: self.state is not None, "the first state")
+        wait_for(lambda: self.state is not None, "The first state")
         self.running = None
         self.switches = self.goals = self.reflexes = self.resets = 0
         self.hashes = set()
@@ -73,40 +69,19 @@ class Soak:
         if line.level >= Log.WARN and line.name == "/gazebo":
             self.log.append(line.msg)
 
-    def call(self, name, kind, *arguments):
-        if name not in self._calls:
-            rospy.wait_for_service(name, LIMIT)
-            self._calls[name] = rospy.ServiceProxy(name, kind, persistent=True)
-        return self._calls[name](*arguments)
-
-    def _controllers_at_hand(self):
-        def state_controller_runs():
-            listed = self.call("/controller_manager/list_controllers", ListControllers).controller
-            return {"franka_state_controller", "franka_gripper"} <= {
-                c.name for c in listed if c.state == "running"
-            }
-
-        until(state_controller_runs, "franka_state_controller and franka_gripper")
-        for name in map(full, FROM_START + CHAIN):
-            if not self.call("/controller_manager/load_controller", LoadController, name).ok:
-                raise TaskError(f"{name} was not loaded.")
-
     def footprint(self):
         """Memory of the simulation [MB] and its open files."""
         return memory_of(self._pid), descriptors_of(self._pid)
 
     def clock_offset(self):
         """ROS time minus the duration of all ticks [ms]: must be constant."""
-        now = self.call("/gazebo/step", Step, 0)
+        now = call("/gazebo/step", Step, 0)
         return round(now.time.to_nsec() / 1e6) - now.tick
 
     def switch_to(self, name):
         stop = [self.running] if self.running else []
         start = [name] if name else []
-        answer = self.call(
-            "/controller_manager/switch_controller", SwitchController, start, stop, STRICT, False, 20.0
-        )
-        if not answer.ok:
+        if not self.controllers.switches(start, stop):
             raise TaskError(f"The switch from {self.running} to {name} was refused.")
         self.running = name
         self.switches += 1
@@ -116,15 +91,15 @@ class Soak:
         self.goals += 1
 
     def _in_mode(self, mode):
-        asked = self.call("/gazebo/step", Step, 0).time
-        until(lambda: self.state.header.stamp > asked and self.state.robot_mode == mode, f"mode {mode}")
+        asked = call("/gazebo/step", Step, 0).time
+        wait_for(lambda: self.state.header.stamp > asked and self.state.robot_mode == mode, f"Mode {mode}")
 
     def meet_an_obstacle(self):
         """A push that ends the motion; then recovery, after which the controller continues."""
         self._in_mode(FrankaState.ROBOT_MODE_MOVE)
         x, y, z = self.state.O_T_EE[12:15]
         far = Point(x - 0.5, y + 2.0, z)  # a lever
-        self.call(
+        call(
             "/gazebo/push_body", PushBody, "panda_hand", Vector3(0, PUSH, 0), Vector3(), True, far, PUSH_TICKS
         )
         self._in_mode(FrankaState.ROBOT_MODE_REFLEX)
@@ -137,12 +112,12 @@ class Soak:
     def reset(self):
         """Resets the world; afterwards the same tick gives bit-identical states."""
         self.switch_to(None)
-        self.call("/gazebo/pause_physics", Empty)
-        answer = self.call("/gazebo/reset", Trigger)
+        call("/gazebo/pause_physics", Empty)
+        answer = call("/gazebo/reset", Trigger)
         if not answer.success:
             raise TaskError(f"The reset was refused: {answer.message}")
-        self.hashes.add(self.call("/gazebo/step", Step, AFTER_RESET).state_hash)
-        self.call("/gazebo/unpause_physics", Empty)
+        self.hashes.add(call("/gazebo/step", Step, AFTER_RESET).state_hash)
+        call("/gazebo/unpause_physics", Empty)
         self.resets += 1
 
     def round(self, number, chance):
@@ -154,7 +129,7 @@ class Soak:
         self.grip(chance.uniform(0.0, 0.08), chance.uniform(0.05, 0.1))
         if number % REFLEX_EVERY == REFLEX_EVERY - 1:
             self.meet_an_obstacle()
-        until(lambda: rospy.get_time() - begin >= ROUND, "the end of the round")
+        wait_for(lambda: rospy.get_time() - begin >= ROUND, "The end of the round")
 
 
 @pytest.fixture(scope="module")
