@@ -4,6 +4,7 @@
 // Motions that the program drives itself.
 #include <franka/active_motion_generator.h>
 #include <franka/active_torque_control.h>
+#include <ros_test/eventually.h>
 
 #include <cmath>
 #include <limits>
@@ -246,7 +247,7 @@ TEST(ActiveFaults, LostConnectionEndsReadOnceAndTheDestructor) {
               }
             }));
   motion.reset();
-  EXPECT_TRUE(fake.waitUntil([&] { return fake.count(Command::kStopMove) == 1; }));
+  EXPECT_TRUE(ros_test::eventually([&] { return fake.count(Command::kStopMove) == 1; }));
 }
 
 }  // namespace

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Targets to which the robot plans its own motion.
+#include <ros_test/eventually.h>
+
 #include <cmath>
 #include <franka/async_control/async_position_control_handler.hpp>
 
@@ -102,7 +104,7 @@ class AsyncAbort : public ::testing::Test {
       s.abort_errors = {7};
     });
     EXPECT_TRUE(handler_->setJointPositionTarget({kTarget}).was_successful);
-    EXPECT_TRUE(fake_.waitUntil(
+    EXPECT_TRUE(ros_test::eventually(
         [this] { return fake_.state().robot_mode == franka_core::RobotMode::kReflex; }));
   }
 

@@ -124,11 +124,6 @@ int FakeRobot::connections() const {
   return connections_;
 }
 
-bool FakeRobot::waitUntil(const std::function<bool()>& condition) {
-  std::unique_lock<std::recursive_mutex> lock(mutex_);
-  return changed_.wait_for(lock, std::chrono::seconds(30), condition);
-}
-
 void FakeRobot::serve() {
   while (true) {
     pollfd sources[3];
@@ -147,7 +142,6 @@ void FakeRobot::serve() {
       if (client_ >= 0 && isTimeForState()) {
         sendState();
       }
-      changed_.notify_all();
       sources[0] = {client_ < 0 ? listener_ : client_, POLLIN, 0};
       sources[1] = {udp_, POLLIN, 0};
     }

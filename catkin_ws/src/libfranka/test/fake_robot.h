@@ -9,7 +9,6 @@
 #include <franka_core/robot_state.h>
 
 #include <chrono>
-#include <condition_variable>
 #include <functional>
 #include <map>
 #include <mutex>
@@ -97,9 +96,6 @@ class FakeRobot {
   std::vector<Exchange> exchanges() const;
   int connections() const;
 
-  /// Waits for a condition on this object's state. @returns false after 30 s.
-  bool waitUntil(const std::function<bool()>& condition);
-
  private:
   using Clock = std::chrono::steady_clock;
 
@@ -125,7 +121,6 @@ class FakeRobot {
   std::uint16_t port_{0};
 
   mutable std::recursive_mutex mutex_;
-  std::condition_variable_any changed_;
   Script script_;
   std::vector<franka_core::fci::Request> requests_;
   std::vector<Exchange> exchanges_;
