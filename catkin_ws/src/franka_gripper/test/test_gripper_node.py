@@ -28,7 +28,7 @@ from pyfranka.franka_sim import FrankaSim, SimRobot
 from ros_client import Action, launched
 from ros_nodes import executable
 from sensor_msgs.msg import JointState
-from waiting import wait_for
+from waiting import holds, wait_for
 
 ADDRESS = "127.0.28.1"
 PREEMPTED, SUCCEEDED, ABORTED = 2, 3, 4
@@ -81,28 +81,23 @@ class Fingers:
 
     def __init__(self):
         self.stamps, self.message = [], None
-        self._changed = threading.Condition()
         rospy.Subscriber("/franka_gripper/joint_states", JointState, self._receive, queue_size=100)
 
     def _receive(self, message):
-        with self._changed:
-            self.message = message
-            self.stamps.append(message.header.stamp.to_sec())
-            self._changed.notify_all()
+        self.message = message
+        self.stamps.append(message.header.stamp.to_sec())
 
     @property
     def width(self):
         return sum(self.message.position)
 
-    def until(self, condition, timeout=60.0):
-        with self._changed:
-            return self._changed.wait_for(lambda: self.message is not None and condition(self.width), timeout)
+    def until(self, condition):
+        return holds(lambda: self.message is not None and condition(self.width))
 
-    def next(self, count=3, timeout=60.0):
+    def next(self, count=3):
         """Waits for more messages; returns whether they arrived."""
-        with self._changed:
-            end = len(self.stamps) + count
-            return self._changed.wait_for(lambda: len(self.stamps) >= end, timeout)
+        end = len(self.stamps) + count
+        return holds(lambda: len(self.stamps) >= end)
 
 
 class Goal:
@@ -147,7 +142,7 @@ class Hand:
         self.session = session
         self.actions = {name: Action(f"/franka_gripper/{name}", kind) for name, kind in KINDS.items()}
         self.fingers = Fingers()
-        assert self.fingers.until(lambda width: True, 60.0), "There are no joint states."
+        assert self.fingers.until(lambda width: True), "There are no joint states."
 
     def move(self, width, speed=0.1):
         return Goal(self.actions["move"], MoveGoal(width, speed))
@@ -228,7 +223,7 @@ def test_a_grasp_without_object_is_reported(hand):
     state, success, text = hand.grasp(0.02).result()
     assert (state, success) == (SUCCEEDED, False)
     assert "there is no object between them" in text
-    assert hand.fingers.width < 0.002
+    assert hand.fingers.until(lambda width: width < 0.002)
 
 
 def test_gripper_command_takes_one_finger_and_returns_the_whole_width(hand):
@@ -260,7 +255,7 @@ def test_gripper_command_grasps_the_stone(hand_with_stone):
 
 def test_a_grasp_of_the_expected_width_succeeds(hand_with_stone):
     assert hand_with_stone.grasp(0.03).result() == (SUCCEEDED, True, "")
-    assert hand_with_stone.fingers.width == pytest.approx(0.03, abs=1e-3)
+    assert hand_with_stone.reaches(0.03)
 
 
 @pytest.mark.parametrize("expected", [0.015, 0.05])
@@ -281,7 +276,7 @@ def test_a_blocked_move_ends_and_reports_the_width(hand_with_stone):
     state, success, text = hand_with_stone.move(0.0, 0.05).result()
     assert (state, success) == (SUCCEEDED, False)
     assert "something is in their way" in text and "instead of 0.0 mm" in text
-    assert hand_with_stone.fingers.width == pytest.approx(0.03, abs=2e-3)
+    assert hand_with_stone.fingers.until(lambda width: abs(width - 0.03) < 2e-3)
 
 
 def test_a_lost_object_shows_in_the_width(hand_with_stone):
@@ -436,7 +431,7 @@ def test_a_lost_hand_is_reported_and_reconnected(hand):
     # No old widths with new time stamps.
     wait_for(lambda: time.time() - hand.fingers.stamps[-1] >= 1.0, "The end of joint states", 30.0)
     hand.start()
-    assert hand.fingers.next(5, 60.0)
+    assert hand.fingers.next(5)
     assert hand.move(0.05).result() == (SUCCEEDED, True, "")
     assert hand.reaches(0.05)
 
