@@ -135,11 +135,13 @@ def check_comes_back(node):
     if not node.reconnects:
         wait_for(lambda: node.trigger("connect")[0], "A connection")
     wait_for(lambda: arm.state.time != before.time and not arm.is_in("moving"), "A state of the connection")
-    outcome = None, ""
-    # With the connection comes a new action server: goals are lost before this process is connected to it.
-    while outcome[0] is None:
-        outcome = node.recovery.run(ErrorRecoveryGoal(), 5.0)
-    assert outcome == SUCCEEDED
+
+    def outcome():
+        """With the connection comes a new action server: goals are lost before this process is connected."""
+        status, text = node.recovery.run(ErrorRecoveryGoal(), 5.0)
+        return status is not None and (status, text)
+
+    assert wait_for(outcome, "A result of the recovery") == SUCCEEDED
     node.wait_until_all_are("moving")
     node.follow()
 

@@ -195,18 +195,15 @@ def stops(arm: Arm, shell: Shell) -> dict:
     recoveries = []
     rospy.Subscriber("franka_control/error_recovery/result", ErrorRecoveryActionResult, recoveries.append)
 
-    def until(condition, what):
-        wait_for(condition, what, PATIENCE)
-
     answers = {"press": shell.run(PRESS)}
-    until(lambda: arm.state.robot_mode == FrankaState.ROBOT_MODE_USER_STOPPED, "the stop")
+    wait_for(lambda: arm.state.robot_mode == FrankaState.ROBOT_MODE_USER_STOPPED, "The stop")
     answers["release"] = shell.run(RELEASE)
-    until(lambda: arm.state.robot_mode == FrankaState.ROBOT_MODE_IDLE, "the end of the stop")
+    wait_for(lambda: arm.state.robot_mode == FrankaState.ROBOT_MODE_IDLE, "The end of the stop")
     elsewhere = arm.state.q[0] + JOINT_STEP
     answers["configure"] = shell.run(CONFIGURE.format(elsewhere))
-    until(lambda: abs(arm.state.q[0] - elsewhere) < 0.1 * JOINT_STEP, "joint 1 where it was put")
+    wait_for(lambda: abs(arm.state.q[0] - elsewhere) < 0.1 * JOINT_STEP, "Joint 1 where it was put")
     shell.begin(RECOVER)
-    until(lambda: arm.state.robot_mode == FrankaState.ROBOT_MODE_MOVE and recoveries, "the recovery")
+    wait_for(lambda: arm.state.robot_mode == FrankaState.ROBOT_MODE_MOVE and recoveries, "The recovery")
     return {"answers": answers, "recovery": recoveries[-1].status.status}
 
 

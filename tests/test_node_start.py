@@ -23,18 +23,15 @@ ONE, ALL = "/franka_control", "/combined_panda"  # names of the nodes
 
 # The robot becomes silent, and shortly later a recovery is requested.
 ASK_RECOVERY = f"""
-import actionlib, os, rospy, rospy_connections, signal, sys, time
-from actionlib_msgs.msg import GoalStatus
+import actionlib, os, rospy, rospy_connections, signal, sys, threading
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal
 rospy_connections.init_node("asks_for_recovery")
 client = actionlib.ActionClient("{ONE}/error_recovery", ErrorRecoveryAction)
 assert client.wait_for_server(rospy.Duration(30))
 os.kill(int(sys.argv[1]), signal.SIGSTOP)
-goal = client.send_goal(ErrorRecoveryGoal())
-deadline = time.monotonic() + 30.0
-while goal.get_goal_status() != GoalStatus.ACTIVE:  # it has left before the program does
-    assert time.monotonic() < deadline, goal.get_goal_status()
-    time.sleep(0.01)  # between two looks
+active, is_active = threading.Event(), lambda goal: goal.get_comm_state() == actionlib.CommState.ACTIVE
+goal = client.send_goal(ErrorRecoveryGoal(), lambda goal: is_active(goal) and active.set())
+assert active.wait(30), goal.get_goal_status()  # it has left before the program does
 """
 
 
