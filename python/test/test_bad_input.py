@@ -6,13 +6,13 @@ import inspect
 import math
 import re
 import threading
-import time
 
 import numpy as np
 import pyfranka.gym
 import pyfranka.sim
 import pytest
 from pyfranka.sim import FR3, KINDS, Gripper, Panda, Remote, Robot, Simulation, SimulationBatch
+from waiting import wait_for
 
 NAN, INF = math.nan, math.inf
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
@@ -605,15 +605,14 @@ def test_while_another_thread_steps_each_call_is_refused(sim, name):
         for called, call in calls:
             if called in CACHED:
                 continue
-            refused, deadline = "", time.monotonic() + 60
-            while not refused and time.monotonic() < deadline:  # a call may come between two steps
+
+            def is_refused(call=call):
                 try:
-                    call()
+                    call()  # may come between two steps
                 except RuntimeError as error:
-                    refused = str(error)
-                    if "Another thread" not in refused:
-                        refused = ""
-            assert "Another thread uses this simulation" in refused, called
+                    return "Another thread uses this simulation" in str(error)
+
+            wait_for(is_refused, f"The refusal of {called}", pause=0.0)
     finally:
         ended.set()
         worker.join()

@@ -483,8 +483,7 @@ def test_reset_by_another_client_does_not_block_a_step(server):
             first.reset()
             thread = threading.Thread(target=first.step, args=(20000,))
             thread.start()
-            while second.time() < 0.5 and thread.is_alive():
-                pass
+            wait_for(lambda: second.time() >= 0.5 or not thread.is_alive(), pause=0.0)
             second.reset()
             thread.join(60)
             assert not thread.is_alive()

@@ -83,10 +83,12 @@ def begin_motion(sim, name, client, way, seconds):
 
     thread = threading.Thread(target=move)
     thread.start()
-    deadline = time.monotonic() + 30
-    while sim[name].state.robot_mode != pyfranka.RobotMode.Move:
-        assert time.monotonic() < deadline, errors
+
+    def moves():
         sim.step()
+        return sim[name].state.robot_mode == pyfranka.RobotMode.Move
+
+    wait_for(moves, lambda: f"The motion ({errors})", pause=0.0)
     return thread, errors
 
 
@@ -214,9 +216,8 @@ def test_a_reset_answers_the_client_whose_motion_it_ends(sim, name):
     moving, ended = begin_motion(sim, name, client, way=0.5, seconds=100.0)
     sim.step(200)
     sim.reset()
-    deadline = time.monotonic() + 30
-    while moving.is_alive() and time.monotonic() < deadline:
-        sim.step()
+    with Stepping(sim):
+        moving.join(60)
     assert ended and sim[name].state.robot_mode == pyfranka.RobotMode.Idle
     with Stepping(sim):
         move_joint(client, 6, 0.1, 1.0)
