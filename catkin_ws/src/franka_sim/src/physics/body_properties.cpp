@@ -23,10 +23,10 @@ BodyInertia bodyInertia(World& world, const std::string& body) {
   const Eigen::Map<const Eigen::Vector3d> principal(model.body_inertia + 3 * frame.body);
   const Eigen::Matrix3d inertia = axes * principal.asDiagonal() * axes.transpose();
   const double* center = model.body_ipos + 3 * frame.body;
-  return {model.body_mass[frame.body],
-          {center[0], center[1], center[2]},
-          {inertia(0, 0), inertia(0, 1), inertia(0, 2), inertia(1, 1), inertia(1, 2),
-           inertia(2, 2)}};
+  return {
+      model.body_mass[frame.body],
+      {center[0], center[1], center[2]},
+      {inertia(0, 0), inertia(0, 1), inertia(0, 2), inertia(1, 1), inertia(1, 2), inertia(2, 2)}};
 }
 
 void endPushes(World& world, const std::string& body) {

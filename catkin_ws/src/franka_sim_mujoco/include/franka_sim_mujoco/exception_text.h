@@ -10,7 +10,8 @@
 namespace franka_sim_mujoco {
 
 /// Text of the exception that is being handled: call it in `catch (...)`. Exceptions of XmlRpc, as
-/// other people's hardware throws for a parameter of the wrong type, are no std::exception.
+/// other people's hardware throws for a parameter of the wrong type, do not derive from
+/// std::exception.
 inline std::string exceptionText() {
   try {
     throw;
