@@ -7,6 +7,7 @@
 
 #include <franka_sim/physics/body_properties.h>
 #include <franka_sim/physics/pose_conversions.h>
+#include <franka_sim/physics/sizes.h>
 #include <franka_sim_mujoco/gazebo_models.h>
 #include <franka_sim_mujoco/pace.h>
 #include <franka_sim_mujoco/sim_messages.h>
@@ -25,7 +26,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <limits>
 #include <stdexcept>
 #include <string>
 
@@ -72,7 +72,7 @@ void applyWrench(Simulation& simulation, const gazebo_msgs::ApplyBodyWrench::Req
   checkFinite({point.x, point.y, point.z}, "reference_point");
   const double ticks = std::max(1.0, std::round(request.duration.toSec() / World::kTick));
   const std::uint64_t duration = request.duration < ros::Duration(0)
-                                     ? std::numeric_limits<std::uint64_t>::max()
+                                     ? franka_sim::sizes::kEndlessPush
                                      : static_cast<std::uint64_t>(ticks);
   simulation.withWorld([&](World& world) {
     const GazeboModels models(world);

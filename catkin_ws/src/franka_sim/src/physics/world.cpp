@@ -27,7 +27,7 @@ std::array<std::string, N> jointNames(const physics::RobotModel& robot, const st
 }
 
 void checkPush(std::size_t others, const std::string& body, std::uint64_t ticks) {
-  if (ticks > sizes::kMaxPushTicks) {
+  if (ticks > sizes::kMaxPushTicks && ticks != sizes::kEndlessPush) {
     throw std::runtime_error("The push on body '" + body + "' lasts " + std::to_string(ticks) +
                              " ms; give at most " + std::to_string(sizes::kMaxPushTicks) + ".");
   }

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <string>
 
 /// @file
@@ -18,6 +19,8 @@ constexpr double kMaxPosition = 1e3;  ///< from the world's origin [m]; of a joi
 constexpr double kMaxVelocity = 1e3;  ///< [m/s] or [rad/s]
 constexpr double kMaxForce = 1e4;     ///< [N] or [Nm]
 constexpr std::uint64_t kMaxPushTicks = 1000000;  ///< duration of a push [ticks]
+/// Duration of a push that lasts until it is ended (World::reset, endPushes) [ticks].
+constexpr std::uint64_t kEndlessPush = std::numeric_limits<std::uint64_t>::max();
 constexpr std::size_t kMaxPushes = 1000;          ///< at a time
 constexpr double kMaxGravity = 1e2;               ///< [m/s^2]
 
