@@ -5,6 +5,7 @@
 /// Commands of controllers on their way to the control unit.
 
 #include <franka_sim/robot/motion/joint_motion.h>
+#include <franka_sim/robot/tick.h>
 #include <franka_sim_mujoco/command_shaper.h>
 #include <franka_sim_mujoco/sim_arm.h>
 #include <gtest/gtest.h>
@@ -206,6 +207,41 @@ TEST_P(ShapedMotionToTheEnds, ComesToRestWithoutRefusal) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Fr3, ShapedMotionToTheEnds, testing::Values(6u, 9u, 10u));
+
+/// The elbow of a Cartesian controller whose desired velocity jumps before it is reached.
+class ShapedElbow : public testing::TestWithParam<unsigned> {};
+
+TEST_P(ShapedElbow, ReachesTheAccelerationLimitWithoutExceedingTheJerkLimit) {
+  using franka_hw::ControlMode;
+  using franka_sim::kTick;
+  const franka_sim::MotionLimits limits = limitsOf(GetParam());
+  const auto& [velocity, acceleration, jerk] = limits.arm.elbow;
+  for (const ControlMode mode : {ControlMode::CartesianPose, ControlMode::CartesianVelocity}) {
+    ShapingOptions options;
+    options.cutoff_frequency = 1000.0;
+    franka_core::RobotState state{};
+    ArmCommands desired;
+    state.O_T_EE_c = desired.pose = franka_core::kIdentityTransform;
+    double highest = 0.0;
+    for (int tick = 0; tick < 1000; ++tick) {
+      const double speed = tick / 50 % 2 == 0 ? 1.0 : -1.0;  // [rad/s]
+      desired.pose_elbow = desired.twist_elbow = {{state.elbow_c[0] + speed * kTick, -1.0}};
+      const double q3 = shapeCommand(options, mode, desired, state, limits).elbow_c[0];
+      const double dq3 = (q3 - state.elbow_c[0]) / kTick;
+      const double ddq3 = (dq3 - state.delbow_c[0]) / kTick;
+      ASSERT_LE(std::abs(ddq3 - state.ddelbow_c[0]) / kTick, jerk) << mode << " " << tick;
+      ASSERT_LE(std::abs(ddq3), acceleration) << mode << " " << tick;
+      ASSERT_LE(std::abs(dq3), velocity) << mode << " " << tick;
+      highest = std::max(highest, std::abs(ddq3));
+      state.elbow_c = {{q3, -1.0}};
+      state.delbow_c = {{dq3, 0.0}};
+      state.ddelbow_c = {{ddq3, 0.0}};
+    }
+    EXPECT_NEAR(acceleration, highest, 0.01) << mode;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(PandaAndFr3, ShapedElbow, testing::Values(5u, 10u));
 
 }  // namespace
 }  // namespace franka_sim_mujoco

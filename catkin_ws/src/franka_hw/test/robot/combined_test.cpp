@@ -166,6 +166,39 @@ TEST_F(Combined, AnErrorOfOneStopsAllUntilAllAreRecovered) {
   EXPECT_EQ(moves + 1, right_.robot.count(Command::kMove));
 }
 
+TEST_F(Combined, RecoveryFromErrorsOfAllArmsResetsTheControllers) {
+  start();
+  ASSERT_TRUE(bothMove());
+  ASSERT_FALSE(needed_reset_);
+  robot_.triggerError();  // no arm waits for another one
+  recover();
+  EXPECT_TRUE(bothMove());
+  EXPECT_TRUE(needed_reset_);
+}
+
+TEST_F(Combined, TorquesOfTheLastMotionAreNotSentInTheNext) {
+  start();
+  ASSERT_TRUE(bothMove());
+  const int moves = left_.robot.count(Command::kMove);
+  robot_.read(ros::Time::now(), ros::Duration(0.001));
+  command("left", 1.5);
+  robot_.triggerError();
+  for (franka_hw::FrankaCombinableHW* const arm : robot_.arms()) {
+    arm->resetError();
+  }
+  const auto answers = [&] {
+    return left_.robot.count(Command::kMove) > moves ? left_.robot.exchanges().size() : 0;
+  };
+  ASSERT_TRUE(waitUntil([&] { return answers() > 10; }));
+  robot_.write(ros::Time::now(), ros::Duration(0.001));  // of a state of the last motion
+  const std::size_t before = answers();
+  ASSERT_TRUE(waitUntil([&] { return answers() > before + 10; }));
+  for (const auto& exchange : left_.robot.exchanges()) {
+    ASSERT_EQ(0.0, exchange.command.tau_J_d[3]);
+  }
+  EXPECT_TRUE(bothMove()) << "with torques that the controllers computed since";
+}
+
 TEST_F(Combined, NanOnOneArmIsAnErrorAndReachesNoRobot) {
   start();
   ASSERT_TRUE(cycleUntil([&] { return torqueOf(left_) == 1.5; }));
