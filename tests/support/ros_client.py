@@ -11,7 +11,6 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 import actionlib
-import own_process
 import rospy
 import rospy_connections
 import yaml
@@ -57,8 +56,10 @@ def wait_for_launch(uri: str) -> None:
 @contextmanager
 def in_session(session: Session, **options):
     """Starts a session, and joins its master. @param options of rospy.init_node"""
+    from own_process import logs  # of pytest, which programs of rostest do not have
+
     with session:
-        own_process.logs.append(session.log)
+        logs.append(session.log)
         session.wait_for_master(START)
         wait_for_launch(session.environment["ROS_MASTER_URI"])
         join(session.environment["ROS_MASTER_URI"], **options)

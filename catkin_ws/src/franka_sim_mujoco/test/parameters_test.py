@@ -6,12 +6,12 @@
 import subprocess
 import sys
 import unittest
+from functools import partial
 from pathlib import Path
 
 import rospy
 import rospy_connections
 import rostest
-from controller_manager_msgs.srv import ListControllers, LoadController, SwitchController
 from franka_sim_mujoco.srv import (
     DeleteRobot,
     GetBodyPose,
@@ -26,6 +26,7 @@ from rosgraph_msgs.msg import Log
 from std_srvs.srv import Empty
 
 sys.path.insert(0, str(Path(__file__).resolve().parents[4] / "tests" / "support"))
+from ros_client import Controllers, call  # noqa: E402
 from waiting import wait_for  # noqa: E402
 
 WAIT = 60
@@ -91,24 +92,21 @@ PLATFORM = """
 """
 
 
-def service(name, kind):
-    rospy.wait_for_service(name, WAIT)
-    return rospy.ServiceProxy(name, kind)
-
-
 class ParametersTest(unittest.TestCase):
     @classmethod
     def setUpClass(cls):
         rospy_connections.init_node("parameters_test")
-        cls.spawn_service = service("/gazebo/spawn_robot", SpawnRobot)
-        cls.delete = service("/gazebo/delete_robot", DeleteRobot)
-        cls.push = service("/gazebo/push_body", PushBody)
-        cls.step = service("/gazebo/step", Step)
-        cls.joints = service("/gazebo/get_joint_states", GetJointStates)
-        cls.pose = service("/gazebo/get_body_pose", GetBodyPose)
-        cls.pause = service("/gazebo/pause_physics", Empty)
-        cls.unpause = service("/gazebo/unpause_physics", Empty)
-        cls.panda = rospy.get_param("/panda_description")
+
+    def setUp(self):
+        self.spawn_service = partial(call, "/gazebo/spawn_robot", SpawnRobot)
+        self.delete = partial(call, "/gazebo/delete_robot", DeleteRobot)
+        self.push = partial(call, "/gazebo/push_body", PushBody)
+        self.step = partial(call, "/gazebo/step", Step)
+        self.joints = partial(call, "/gazebo/get_joint_states", GetJointStates)
+        self.pose = partial(call, "/gazebo/get_body_pose", GetBodyPose)
+        self.pause = partial(call, "/gazebo/pause_physics", Empty)
+        self.unpause = partial(call, "/gazebo/unpause_physics", Empty)
+        self.panda = rospy.get_param("/panda_description")
 
     def spawn(self, name, namespace, urdf=None, joints=()):
         order = SpawnRobotRequest(
@@ -146,7 +144,8 @@ class ParametersTest(unittest.TestCase):
             rospy.set_param("/right/" + name, value)
         answer = self.spawn("panda", "/right")
         self.assertTrue(answer.success, answer.error)
-        services = subprocess.run(["rosservice", "list"], capture_output=True, text=True, check=True).stdout
+        _, _, (_, _, offered) = rospy.get_master().getSystemState()
+        services = [name for name, _ in offered]
         for name in (
             "set_EE_frame",
             "set_K_frame",
@@ -159,8 +158,8 @@ class ParametersTest(unittest.TestCase):
             "connect",
             "disconnect",
         ):
-            self.assertIn(f"/right/franka_control/{name}\n", services)
-        self.assertIn("/right/controller_manager/list_controllers\n", services)
+            self.assertIn(f"/right/franka_control/{name}", services)
+        self.assertIn("/right/controller_manager/list_controllers", services)
         topics = dict(rospy.get_published_topics())
         self.assertEqual(
             topics.get("/right/franka_control/error_recovery/result"),
@@ -261,7 +260,7 @@ class ParametersTest(unittest.TestCase):
         rospy.set_param("/own_name/arm_id", "panda")
         answer = self.spawn("panda", "/ordered", urdf)
         self.assertTrue(answer.success, answer.error)
-        service("/own_name/controller_manager/list_controllers", ListControllers)
+        Controllers("/own_name").states()
         self.assertFalse([topic for topic, _ in rospy.get_published_topics() if topic.startswith("/ordered")])
         self.expect_warning(messages, "uses the namespace /own_name")
         log.unregister()
@@ -292,9 +291,8 @@ class ParametersTest(unittest.TestCase):
         self.assertTrue(self.spawn("panda", "/soft", joints=bent).success)
         try:
             self.unpause()
-            self.assertTrue(service("/soft/controller_manager/load_controller", LoadController)("hold").ok)
-            switch = service("/soft/controller_manager/switch_controller", SwitchController)
-            self.assertTrue(switch(start_controllers=["hold"], strictness=2).ok)
+            Controllers("/soft").load("hold")
+            Controllers("/soft").start("hold")
             self.pause()
             before = self.joints(joints).state.position[0]
             push = PushBodyRequest(body="panda_link7", ticks=3000)
