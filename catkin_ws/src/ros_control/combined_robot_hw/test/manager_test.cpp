@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <ros/node_handle.h>
+#include <ros_test/eventually.h>
 
 #include <chrono>
 #include <future>
@@ -89,10 +90,10 @@ class Managed : public testing::Test {
     auto answer = std::async(std::launch::async, [&] {
       return manager_.switchController(start, stop, kStrict, false, 60.0);
     });
-    while (answer.wait_for(std::chrono::milliseconds(1)) != std::future_status::ready) {
-      during();
-      step();
-    }
+    const auto is_ready = [&] {
+      return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+    };
+    EXPECT_TRUE(ros_test::eventually([&] { return is_ready() || (during(), step(), false); }));
     return answer.get();
   }
   bool switched(const Names& start, const Names& stop) {

@@ -9,6 +9,7 @@
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <hardware_interface/robot_hw.h>
+#include <ros_test/eventually.h>
 
 #include <atomic>
 #include <list>
@@ -75,14 +76,11 @@ class ThrowingController : public DummyController {
 };
 
 /// Sets its parameter `loading` to true and is ready once a test sets it to false, or after a
-/// minute.
+/// deadline.
 class SlowController : public DummyController {
   bool init(hardware_interface::EffortJointInterface* hw, ros::NodeHandle& nh) override {
     nh.setParam("loading", true);
-    const ros::WallTime end = ros::WallTime::now() + ros::WallDuration(60.0);
-    while (nh.param("loading", false) && ros::WallTime::now() < end) {
-      ros::WallDuration(0.01).sleep();  // between two looks
-    }
+    ros_test::eventually([&nh] { return !nh.param("loading", false); });
     return DummyController::init(hw, nh);
   }
 };

@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
         time += period;
         manager.update(time, period);
       }
-      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // between two looks
+      std::this_thread::sleep_for(std::chrono::milliseconds(1));  // the loop's period
     }
   });
   ros::spin();

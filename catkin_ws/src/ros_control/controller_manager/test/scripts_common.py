@@ -5,8 +5,9 @@
 import os
 import signal
 import subprocess
+import sys
 import threading
-import time
+from pathlib import Path
 
 import roslib.packages
 import rospy
@@ -20,15 +21,11 @@ from controller_manager_msgs.srv import (
 )
 from std_srvs.srv import SetBool
 
+sys.path.append(str(Path(__file__).resolve().parents[5] / "tests" / "support"))
+from waiting import wait_for  # noqa: E402
+
 DEADLINE = 60.0  # [s]
 STRICT = SwitchControllerRequest.STRICT
-
-
-def wait_until(condition, message):
-    end = time.monotonic() + DEADLINE
-    while not condition():
-        assert time.monotonic() < end, message
-        time.sleep(0.02)  # between two looks
 
 
 class Manager:
@@ -96,7 +93,7 @@ class Running:
         self.process.stdout.close()
 
     def wait_to_print(self, text):
-        wait_until(lambda: text in self.output, f"never printed '{text}': {self.output}")
+        wait_for(lambda: text in self.output, lambda: f"{self.output}\n'{text}'")
 
     def is_running(self):
         return self.process.poll() is None

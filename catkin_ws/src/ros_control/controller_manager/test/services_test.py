@@ -12,7 +12,7 @@ import unittest
 import rospy
 import rostest
 from controller_manager_msgs.srv import ListControllerTypes
-from scripts_common import DEADLINE, STRICT, Manager, wait_until
+from scripts_common import DEADLINE, STRICT, Manager, wait_for
 
 
 class ServicesTest(unittest.TestCase):
@@ -72,7 +72,7 @@ class ServicesTest(unittest.TestCase):
         )
         switch_waits = self.manager.halt_loop()
         switch.start()
-        wait_until(switch_waits, "no switch")
+        wait_for(switch_waits, "The switch")
         self.assertTrue(self.manager.load("c").ok)
         self.assertTrue(self.manager.unload("c").ok)
         self.assertEqual({"a": "initialized"}, self.manager.states())
@@ -87,7 +87,7 @@ class ServicesTest(unittest.TestCase):
         answers = []
         load = threading.Thread(target=lambda: answers.append(self.manager.load("slow")))
         load.start()
-        wait_until(lambda: rospy.get_param("slow/loading", False), "slow was not loaded")
+        wait_for(lambda: rospy.get_param("slow/loading", False), "The loading of slow")
         self.assertEqual({"a": "initialized"}, self.manager.states())
         self.assertEqual([], answers)
         rospy.set_param("slow/loading", False)

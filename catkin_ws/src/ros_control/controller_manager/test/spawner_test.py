@@ -19,7 +19,7 @@ import rostest
 from controller_manager import spawner
 from rosgraph_msgs.msg import Clock
 from rospy.impl.registration import RegManager
-from scripts_common import STRICT, Manager, Running, wait_until
+from scripts_common import STRICT, Manager, Running, wait_for
 from std_msgs.msg import Bool
 
 # A controller manager that exits when it must stop a controller, as one in the same launch file does.
@@ -55,7 +55,7 @@ class SpawnerTest(unittest.TestCase):
 
     def expect(self, states, manager=None):
         manager = manager or self.manager
-        wait_until(lambda: manager.states() == states, f"never {states}: {manager.states()}")
+        wait_for(lambda: manager.states() == states, lambda: f"{manager.states()}\n{states}")
 
     def test_starts_and_unloads_controllers(self):
         with Running("spawner", "a", "c", "a") as spawner:
@@ -116,7 +116,7 @@ class SpawnerTest(unittest.TestCase):
         publisher = rospy.Publisher("initialized", Bool, queue_size=1, latch=True)
         publisher.publish(False)
         with Running("spawner", "--no-timeout", "--wait-for", "initialized", "a") as running:
-            wait_until(lambda: publisher.get_num_connections() > 0, "no subscriber")
+            wait_for(lambda: publisher.get_num_connections() > 0, "A subscriber")
             self.assertEqual({}, self.manager.states())
             publisher.publish(True)
             self.expect({"a": "running"})
@@ -131,16 +131,16 @@ class SpawnerTest(unittest.TestCase):
                 listener = spawner.Listener("overheard")
                 publisher = rospy.Publisher("overheard", Bool, queue_size=1, latch=True)
                 publisher.publish(True)
-                wait_until(lambda: any(call.args[1] for call in update.call_args_list), "not announced")
+                wait_for(lambda: any(call.args[1] for call in update.call_args_list), "The announcement")
                 self.assertFalse(listener.has_message())
             clock.monotonic = time.monotonic
             with contextlib.closing(listener):
-                wait_until(listener.has_message, "never heard")
+                wait_for(listener.has_message, "The message")
 
     def test_reports_the_topic_that_it_waits_for(self):
         publisher = rospy.Publisher("reported", Bool, queue_size=1, latch=True)
         reports = []
-        short_ending = mock.Mock(sleep=lambda duration: time.sleep(0.01))  # between two looks
+        short_ending = mock.Mock(sleep=lambda duration: time.sleep(0.01))  # the loop's period
 
         def take(text, *values):
             reports.append(text % values)
@@ -225,7 +225,7 @@ class SpawnerTest(unittest.TestCase):
     def test_can_be_interrupted_while_the_start_waits_for_the_loop(self):
         switch_waits = self.manager.halt_loop()
         with Running("spawner", "a") as spawner:
-            wait_until(switch_waits, "no switch")
+            wait_for(switch_waits, "The switch")
             status, output = spawner.interrupt()
         self.assertEqual(0, status, output)
         self.assertIn("Failed to unload controller: a", output)

@@ -15,7 +15,7 @@ import rosnode
 import rospy
 import rostest
 from controller_manager_msgs import utils
-from scripts_common import STRICT, Manager, Running, program, wait_until
+from scripts_common import STRICT, Manager, Running, program, wait_for
 
 EFFORT = "hardware_interface::EffortJointInterface"
 
@@ -90,10 +90,10 @@ class ToolsTest(unittest.TestCase):
     def test_unspawner(self):
         self.manager.spawn("a", "c")
         with Running("unspawner", "a") as unspawner:
-            wait_until(lambda: self.manager.states()["a"] == "stopped", "never stopped")
+            wait_for(lambda: self.manager.states()["a"] == "stopped", "The stop of a")
             self.assertEqual("running", self.manager.states()["c"])
             self.assertTrue(self.manager.switch(start_controllers=["a"], strictness=STRICT).ok)
-            wait_until(lambda: self.manager.states()["a"] == "stopped", "not kept stopped")
+            wait_for(lambda: self.manager.states()["a"] == "stopped", "The stop of a")
             status, _ = unspawner.interrupt()
         self.assertEqual(0, status)
         self.assertEqual({"a": "running", "c": "running"}, self.manager.states())
@@ -101,12 +101,12 @@ class ToolsTest(unittest.TestCase):
     def test_unspawner_ended_by_the_master(self):
         self.manager.spawn("a")
         with Running("unspawner", "a") as unspawner:
-            wait_until(lambda: self.manager.states()["a"] == "stopped", "never stopped")
+            wait_for(lambda: self.manager.states()["a"] == "stopped", "The stop of a")
             nodes = [name for name in rosnode.get_node_names() if name.startswith("/unspawner_")]
             kill = threading.Thread(target=rosnode.kill_nodes, args=(nodes,))
             switch_waits = self.manager.halt_loop()
             kill.start()
-            wait_until(switch_waits, "no restart")
+            wait_for(switch_waits, "The restart")
             self.assertTrue(unspawner.is_running())
             self.manager.run_loop(True)
             status, output = unspawner.finish()
