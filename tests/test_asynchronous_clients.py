@@ -34,7 +34,7 @@ for number in range(rounds):
         if way == "stream" or sent == 0:
             accepted = handler.set_joint_position_target(Handler.JointPositionTarget(goal))
             sent += 1
-        time.sleep(0.02)  # between two looks
+        time.sleep(0.02)  # the loop's period
         seen = handler.get_target_feedback()
         if seen.status.name != "kExecuting":
             break

@@ -40,9 +40,9 @@ def test_panda_python_starts_the_robot(desk_client, profile):
         assert client.value("desk.has_control()")
         client.run("desk.unlock(); desk.activate_fci()")
         desk.wait(is_ready)
-        client.run("events = []; desk.listen(events.append); wait_for(lambda: events, 60)")
+        client.run("events = []; desk.listen(events.append); wait_for(lambda: events)")
         with desk.held("button check"):
-            client.run("wait_for(lambda: {'check': True} in events, 60)")
+            client.run("wait_for(lambda: {'check': True} in events)")
         client.run("desk.stop_listen()")
         if profile.startswith("fer"):
             client.run(PANDA_MOTION)
@@ -246,10 +246,10 @@ def test_rcs_fr3_starts_the_robot(desk_client):
         assert is_ready(desk.report())
         move(desk.robot)
         client.run("clicks = []; desk.listen(lambda host, buttons: clicks.append(buttons))")
-        client.run("wait_for(lambda: desk._listening, 60)")
+        client.run("wait_for(lambda: desk._listening)")
         with desk.held("button cross"):
-            client.run("wait_for(lambda: desk._button_states['cross'], 60)")
-        client.run("wait_for(lambda: ['cross'] in clicks, 60); desk.stop_listen()")
+            client.run("wait_for(lambda: desk._button_states['cross'])")
+        client.run("wait_for(lambda: ['cross'] in clicks); desk.stop_listen()")
         client.run("fci.__exit__()")
         report = desk.report()
         assert is_locked(report) and report["operating_mode"] == "programming"

@@ -1,9 +1,10 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Finds tests whose verdict depends on how fast the machine is.
+"""Finds tests whose verdict depends on how fast the machine is, and those that wait in a loop of their own.
 
 A test outside of `./franka test --realtime` may wait with a deadline of at least 30 s. It neither asserts
-that something took less, nor sleeps until something has probably happened.
+that something took less, nor sleeps until something has probably happened. Two files have the loops that
+wait for a condition.
 """
 
 import ast
@@ -12,15 +13,17 @@ from collections.abc import Iterator
 
 DEADLINE = 30  # [s] the shortest upper bound on a wall time (chosen here)
 CLOCKS = {"monotonic", "monotonic_ns", "perf_counter", "perf_counter_ns", "time", "time_ns"}
-# What a line says that may sleep: the fault that the test is about, the pause of a poll, or the period of a
-# loop, on which no verdict depends.
-ALLOWED = ("the fault itself", "between two looks", "the loop's period")
-ADVICE = "wait for a state with a deadline (tests/support/waiting.py), or count ticks"
+WAITING = ("tests/support/waiting.py", "tests/include/ros_test/eventually.h")
+# What a line says that may sleep: the fault that the test is about, or the period of a loop, on which no
+# verdict depends.
+ALLOWED = ("the fault itself", "the loop's period")
+ADVICE = f"wait for a state with a deadline ({', '.join(WAITING)}), or count ticks"
 PYTHON_SLEEP = re.compile(r"\bsleep\(")
 CPP_SLEEP = re.compile(r"\b(sleep_for|sleep_until|u?sleep|nanosleep)\(")
 CPP_NOW = r"\w*(?:_clock|Clock|WallTime)::now\(\)"
 CPP_SPAN = re.compile(rf"(\w+)\s*=[^;=]*?(?:{CPP_NOW}\s*-|-\s*{CPP_NOW})")
 CPP_UPPER = re.compile(r"\b(?:EXPECT|ASSERT)_(?:LT|LE)\(([^;]*)\);")
+CPP_POLL = re.compile(rf"{CPP_NOW}\s*[+<>]|[<>]=?\s*(?:\w+::)*{CPP_NOW}")
 # Real-time cases end their names so, or carry the mark (CONTRIBUTING.md, "Tests").
 CPP_REALTIME = re.compile(r"\bTEST(?:_F|_P)?\((\w*OnWallClock,\s*\w+|\w+,\s*\w*OnWallClock)\)")
 
@@ -32,7 +35,7 @@ def is_test(name: str) -> bool:
 
 def findings(name: str, text: str) -> Iterator[str]:
     """Lines `file:line: what` about a test's text."""
-    if not is_test(name):
+    if not is_test(name) or name in WAITING:
         return
     python = name.endswith(".py")
     realtime = realtime_lines(text, python)
@@ -44,6 +47,9 @@ def findings(name: str, text: str) -> Iterator[str]:
     for number in python_bounds(text) if python else cpp_bounds(text):
         if number not in realtime:
             yield f"{name}:{number}: an upper bound below {DEADLINE} s on a wall time: {ADVICE}"
+    for number in python_polls(text) if python else cpp_polls(text):
+        if number not in realtime:
+            yield f"{name}:{number}: a loop of its own waits until a time: {ADVICE}"
 
 
 # ---- Python ----------------------------------------------------------------------------------------------
@@ -118,6 +124,14 @@ def wall_times(scope: ast.AST) -> set[str]:
     return {each.id for holder in holders for each in ast.walk(holder) if isinstance(each, ast.Name)}
 
 
+def python_polls(text: str) -> Iterator[int]:
+    """Lines of loops that compare a clock's reading."""
+    for loop in ast.walk(ast.parse(text)):
+        compared = [node for node in ast.walk(loop) if isinstance(node, ast.Compare)]
+        if isinstance(loop, ast.While) and any(reads_clock(n) for node in compared for n in ast.walk(node)):
+            yield loop.lineno
+
+
 def upper_bounds(node: ast.AST) -> Iterator[tuple[ast.AST, ast.AST]]:
     """Pairs (larger, smaller) of what an assertion compares."""
     if isinstance(node, ast.Assert):
@@ -161,3 +175,8 @@ def cpp_bounds(text: str) -> Iterator[int]:
             seconds = re.search(r"(?:seconds\(|\b)(\d+)(?:\)|s\b)", match[1].rsplit(",", 1)[-1])
             if not seconds or int(seconds[1]) < DEADLINE:
                 yield text.count("\n", 0, match.start()) + 1
+
+
+def cpp_polls(text: str) -> Iterator[int]:
+    for match in CPP_POLL.finditer(text):
+        yield text.count("\n", 0, match.start()) + 1

@@ -290,7 +290,7 @@ def slow(case, seed):
     note(f"{case} {os.getpid()}")
     time.sleep(0.1)  # rows are written each second; a longer sleep changes nothing: the fault itself
     while case >= 40 and not Path("again").exists():
-        time.sleep(0.01)  # between two looks
+        time.sleep(0.01)  # the fault itself
     return {"double": 2 * case}
 
 done = pyfranka.sweep(slow, CASES, workers=2, output="out.NAME")

@@ -87,7 +87,7 @@ def silent(address: str) -> None:
             except OSError:  # the robot has closed it
                 connection.close()
                 open_one(index)
-        time.sleep(PAUSE)  # between two looks
+        time.sleep(PAUSE)  # the loop's period
 
 
 KINDS = {attack.__name__: attack for attack in (models, limits, silent)}

@@ -9,7 +9,12 @@ error's type and text. What a client prints goes to standard error.
 
 import json
 import sys
-import time
+from pathlib import Path
+
+sys.path.append(str(Path(__file__).resolve().parents[1]))
+from waiting import wait_for  # noqa: E402
+
+sys.path.pop()  # the client's packages only
 
 
 def execute(task: dict, names: dict) -> object:
@@ -24,16 +29,6 @@ def answer(task: dict, names: dict) -> dict:
         return {"value": execute(task, names)}
     except Exception as error:  # noqa: BLE001 - its type and text are tested
         return {"error": type(error).__name__, "text": str(error)}
-
-
-def wait_for(condition, limit: float = 60.0):
-    """The first true value of condition()."""
-    deadline = time.monotonic() + limit
-    while not (value := condition()):
-        if time.monotonic() > deadline:
-            raise TimeoutError(f"Not within {limit:g} s.")
-        time.sleep(0.01)  # between two looks
-    return value
 
 
 def main() -> None:
