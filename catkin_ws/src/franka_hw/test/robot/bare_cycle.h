@@ -23,7 +23,7 @@ class BareCycle : public franka_hw::FrankaHW {
       manager_.switchController({name}, {}, 2, false, 60.0);
       done = true;
     });
-    waitUntil([&] {
+    eventually([&] {
       manager_.update(time_, ros::Duration(0.001));
       return done.load();
     });

@@ -49,7 +49,7 @@ class Combined : public testing::Test {
     robot_.write(now, ros::Duration(0.001));
   }
   bool cycleUntil(const std::function<bool()>& condition) {
-    return waitUntil([&] {
+    return eventually([&] {
       cycle();
       return condition();
     });
@@ -202,7 +202,7 @@ TEST_F(Combined, TorquesOfTheLastMotionAreNotSentInTheNext) {
 TEST_F(Combined, NanOnOneArmIsAnErrorAndReachesNoRobot) {
   start();
   ASSERT_TRUE(cycleUntil([&] { return torqueOf(left_) == 1.5; }));
-  ASSERT_TRUE(waitUntil([&] {
+  ASSERT_TRUE(eventually([&] {
     robot_.read(ros::Time::now(), ros::Duration(0.001));
     command("left", std::numeric_limits<double>::quiet_NaN());
     robot_.write(ros::Time::now(), ros::Duration(0.0));
@@ -367,7 +367,7 @@ TEST_F(Combined, ResponseTimesCountFromTheStateThatTheControllersSaw) {
     robot_.read(ros::Time::now(), ros::Duration(0.001));
     std::this_thread::sleep_for(kWork);  // the fault itself
     const std::uint64_t state = left_.robot.state().message_id;
-    ASSERT_TRUE(waitUntil([&] { return left_.robot.state().message_id > state + 2; }));
+    ASSERT_TRUE(eventually([&] { return left_.robot.state().message_id > state + 2; }));
     robot_.write(ros::Time::now(), ros::Duration(0.001));
   };
   slowCycle();

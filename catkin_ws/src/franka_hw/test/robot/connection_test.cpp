@@ -41,7 +41,7 @@ TEST_F(Connection, IsKeptWhileAControllerRuns) {
   EXPECT_FALSE(robot_.disconnect());
   EXPECT_NE(std::string::npos, log.text().find("while a controller is active"));
   EXPECT_TRUE(robot_.connected());
-  EXPECT_TRUE(waitUntil([&] { return loop.controller("JT").updates_since_start > 10; }));
+  EXPECT_TRUE(eventually([&] { return loop.controller("JT").updates_since_start > 10; }));
   EXPECT_TRUE(loop.switchTo({}, {"JT"}));
   EXPECT_FALSE(robot_.controllerActive());
 }
@@ -57,7 +57,7 @@ TEST_F(Connection, LossEndsTheMotionWithAMessage) {
   Loop loop(robot_, arm_);
   arm_.robot.script([](auto& script) { script.close_after = 50; });
   ASSERT_TRUE(loop.switchTo({"JT"}, {}));
-  ASSERT_TRUE(waitUntil([&] { return !loop.errors().empty(); }));
+  ASSERT_TRUE(eventually([&] { return !loop.errors().empty(); }));
   EXPECT_NE(std::string::npos, loop.errors()[0].find("libfranka")) << loop.errors()[0];
   // As the node does: the connection is dropped, and the controllers can still be stopped.
   robot_.dropConnection();
@@ -121,7 +121,7 @@ TEST_F(Connection, ReadOnlyLoopDoesNotBlockSwitches) {
   Loop loop(robot_, arm_, false);
   for (int i = 0; i < 10; i++) {
     ASSERT_TRUE(loop.switchTo({"JP"}, {})) << i;
-    ASSERT_TRUE(waitUntil([&] { return loop.controller("JP").updates_since_start > 3; }));
+    ASSERT_TRUE(eventually([&] { return loop.controller("JP").updates_since_start > 3; }));
     ASSERT_TRUE(loop.switchTo({}, {"JP"})) << i;
     franka_msgs::SetLoad load;
     ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_load"), load));
@@ -135,7 +135,7 @@ TEST_F(Connection, SettersOfAMovingRobotAreRefused) {
   franka_hw::setupServices(robot_.robot(), robot_.armConnection().mutex(), arm_.robot_nh, services);
   Loop loop(robot_, arm_);
   ASSERT_TRUE(loop.switchTo({"JP"}, {}));
-  ASSERT_TRUE(waitUntil([&] { return loop.controller("JP").updates_since_start > 10; }));
+  ASSERT_TRUE(eventually([&] { return loop.controller("JP").updates_since_start > 10; }));
   franka_msgs::SetJointImpedance impedance;
   impedance.request.joint_stiffness.fill(1000.0);
   ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_joint_impedance"), impedance));

@@ -29,11 +29,11 @@ TEST(Cycle, IsMeasuredFromTheStateToTheCommand) {
   loop.controller("JT+JP").fault = TestController::Fault::kSleep;  // two milliseconds
   ASSERT_TRUE(loop.switchTo({"JT+JP"}, {}));
   const std::atomic<int>& updates = loop.controller("JT+JP").updates_since_start;
-  ASSERT_TRUE(waitUntil([&] { return updates > 5; }));
+  ASSERT_TRUE(eventually([&] { return updates > 5; }));
   const int earliest = updates;
   robot.responseTimes().take();
   const int first = updates;
-  ASSERT_TRUE(waitUntil([&] { return updates >= first + 20; }));
+  ASSERT_TRUE(eventually([&] { return updates >= first + 20; }));
   const franka_hw::ResponseTimes::Report report = robot.responseTimes().take();
   // Counted once for the two callbacks of a cycle.
   EXPECT_GE(report.cycles, 18u);

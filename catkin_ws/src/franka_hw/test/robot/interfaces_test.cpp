@@ -176,7 +176,7 @@ TEST(Warnings, NameTheJointsNearTheirEnds) {
   state.q[3] = urdf.getJoint(joints[3])->limits->lower + 0.05;
   robot.update(state);
   robot.checkJointLimits();
-  EXPECT_TRUE(waitUntil([&] {
+  EXPECT_TRUE(eventually([&] {
     const std::string text = log.text(ros::console::levels::Warn);
     return text.find(joints[3] + ": 2.86") != std::string::npos;  // 0.05 rad in degrees
   })) << log.text();

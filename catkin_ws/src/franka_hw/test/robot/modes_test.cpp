@@ -45,7 +45,7 @@ class Modes : public testing::Test {
   std::vector<franka_test::FakeRobot::Exchange> run(const std::string& claims, size_t count = 20) {
     TestController& controller = loop_->controller(claims);
     EXPECT_TRUE(loop_->switchTo({claims}, {})) << claims;
-    EXPECT_TRUE(waitUntil([&] {
+    EXPECT_TRUE(eventually([&] {
       return controller.updates_since_start > 3 && arm_.robot.exchanges().size() >= count;
     })) << claims;
     auto exchanges = arm_.robot.exchanges();
@@ -96,7 +96,7 @@ TEST_F(Modes, TwoControllersMayShareTheArmAsOneMay) {
       EXPECT_TRUE(loop_->controller(one).isRunning()) << one << " and " << other;
       EXPECT_EQ(legal, loop_->controller(second).isRunning()) << one << " and " << other;
       const int before = loop_->controller(one).updates;
-      EXPECT_TRUE(waitUntil([&] { return loop_->controller(one).updates > before + 3; }));
+      EXPECT_TRUE(eventually([&] { return loop_->controller(one).updates > before + 3; }));
       std::vector<std::string> running{one};
       if (legal) {
         running.push_back(second);
@@ -166,7 +166,7 @@ TEST_F(Modes, ControllersRunOnceAMillisecondAlsoBesideAGenerator) {
   for (const std::string claims : {"JT", "JT+JP"}) {
     TestController& controller = loop_->controller(claims);
     ASSERT_TRUE(loop_->switchTo({claims}, {}));
-    ASSERT_TRUE(waitUntil([&] { return controller.updates_since_start > 200; }));
+    ASSERT_TRUE(eventually([&] { return controller.updates_since_start > 200; }));
     const int before = controller.updates_since_start;
     const int exchanges = static_cast<int>(arm_.robot.exchanges().size());
     const int after = controller.updates_since_start;
@@ -184,7 +184,7 @@ TEST_F(Modes, RateLimitingIsReadAgainAtASwitch) {
     loop_->controller("JT").torque = 5.0;
     double largest = 0.0;
     // The parameter is cached: the node receives a change a little later.
-    ASSERT_TRUE(waitUntil([&] {
+    ASSERT_TRUE(eventually([&] {
       largest = 0.0;
       for (const auto& exchange : run("JT")) {
         largest = std::max(largest, exchange.command.tau_J_d[0] - exchange.state.tau_J_d[0]);
@@ -202,7 +202,7 @@ TEST_F(Modes, FilterIsReadAgainAtASwitch) {
   arm_.robot_nh.setParam("cutoff_frequency", kCutoff);
   loop_->controller("JT").torque = 5.0;
   std::vector<franka_test::FakeRobot::Exchange> exchanges;
-  ASSERT_TRUE(waitUntil([&] {
+  ASSERT_TRUE(eventually([&] {
     exchanges = run("JT");
     return exchanges.size() > 1 && exchanges[1].command.tau_J_d[0] < 4.9;
   }));
@@ -215,13 +215,13 @@ TEST_F(Modes, FilterIsReadAgainAtASwitch) {
 
 TEST_F(Modes, InternalControllerIsReadAgainAtASwitch) {
   arm_.robot_nh.setParam("internal_controller", "cartesian_impedance");
-  ASSERT_TRUE(waitUntil([&] {
+  ASSERT_TRUE(eventually([&] {
     run("JV", 3);
     return lastMove().controller_mode == ControllerMode::kCartesianImpedance;
   }));
   const LogCatcher log;
   arm_.robot_nh.setParam("internal_controller", "telepathy");
-  ASSERT_TRUE(waitUntil([&] {
+  ASSERT_TRUE(eventually([&] {
     run("JV", 3);
     return lastMove().controller_mode == ControllerMode::kJointImpedance;
   }));

@@ -172,7 +172,7 @@ TEST(Parameters, ARobotThatIsStillStartingIsWaitedFor) {
   arm.robot_nh.setParam("connect_timeout", 60.0);
   const int before = arm.robot.connections();
   std::thread start([&] {
-    EXPECT_TRUE(waitUntil([&] { return arm.robot.connections() > before; }));
+    EXPECT_TRUE(eventually([&] { return arm.robot.connections() > before; }));
     arm.robot.script([](auto& script) { script.fatal.clear(); });
   });
   EXPECT_TRUE(FrankaHW().init(arm.nh, arm.robot_nh));

@@ -48,7 +48,7 @@ TEST_F(Refusals, AnFr3IsNotCommandedAsAPanda) {
 
   arm_.robot_nh.setParam("ignore_robot_mismatch", true);
   EXPECT_TRUE(loop.switchTo({"JT"}, {}));
-  EXPECT_TRUE(waitUntil([&] { return arm_.robot.count(Command::kMove) == 1; }));
+  EXPECT_TRUE(eventually([&] { return arm_.robot.count(Command::kMove) == 1; }));
 }
 
 TEST_F(Refusals, JointsNamedAfterAnotherArmAreNotCommanded) {

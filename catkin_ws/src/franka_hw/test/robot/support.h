@@ -28,12 +28,8 @@
 namespace franka_hw_test {
 
 using franka_core::fci::Command;
+using ros_test::eventually;
 using ros_test::LogCatcher;
-
-/// Waits for a condition. @returns false after a deadline
-inline bool waitUntil(const std::function<bool()>& condition) {
-  return ros_test::eventually(condition, std::chrono::microseconds(200));
-}
 
 /// The name under which Loop loads the controller with these claims.
 std::string nameOf(std::string claims);

@@ -44,7 +44,7 @@ class Switching : public testing::Test {
   void expectRuns(const std::string& claims) {
     TestController& controller = loop_->controller(claims);
     const int before = controller.updates;
-    EXPECT_TRUE(waitUntil([&] { return controller.updates > before + 5; })) << claims;
+    EXPECT_TRUE(eventually([&] { return controller.updates > before + 5; })) << claims;
     EXPECT_TRUE(moves(claims)) << claims;
   }
 
@@ -78,7 +78,7 @@ TEST_F(Switching, LosesNoControllerBetweenAllOrderedPairsOfKinds) {
     const int starts = to.starts;
     const bool switched = loop_->switchTo({next}, {current});
     const bool runs =
-        switched && waitUntil([&] { return to.updates_since_start > 2 && !from.isRunning(); });
+        switched && eventually([&] { return to.updates_since_start > 2 && !from.isRunning(); });
     if (!runs || !to.isRunning() || !moves(next.substr(0, 2)) || to.starts < starts + 1) {
       failures++;
       ADD_FAILURE() << "switch " << i << " from " << current << " to " << next << ": "
@@ -111,7 +111,7 @@ TEST_F(Switching, ReadOnlyControllerDoesNotDisturbAMotion) {
   const int moves_before = arm_.robot.count(Command::kMove);
   TestController& looker = loop_->controller("looks");  // claims nothing
   ASSERT_TRUE(loop_->switchTo({"looks"}, {}));
-  EXPECT_TRUE(waitUntil([&] { return looker.updates > 5; }));
+  EXPECT_TRUE(eventually([&] { return looker.updates > 5; }));
   expectRuns("JP");
   EXPECT_EQ(moves_before, arm_.robot.count(Command::kMove));
 }
@@ -121,7 +121,7 @@ TEST_F(Switching, TorquesPassFromOneControllerToTheNextWithinAMotion) {
   expectRuns("JT");
   const int moves_before = arm_.robot.count(Command::kMove);
   ASSERT_TRUE(loop_->switchTo({"JT:2"}, {"JT"}));
-  ASSERT_TRUE(waitUntil([&] { return loop_->controller("JT:2").updates_since_start > 5; }));
+  ASSERT_TRUE(eventually([&] { return loop_->controller("JT:2").updates_since_start > 5; }));
   EXPECT_EQ(moves_before, arm_.robot.count(Command::kMove));
 }
 
@@ -130,7 +130,7 @@ TEST_F(Switching, RemainingControllerIsStartedAgainWithTheNewMotion) {
   expectRuns("JT");
   const int starts = loop_->controller("JT").starts;
   ASSERT_TRUE(loop_->switchTo({"JP"}, {}));  // in addition to the torques
-  ASSERT_TRUE(waitUntil([&] { return loop_->controller("JP").updates_since_start > 5; }));
+  ASSERT_TRUE(eventually([&] { return loop_->controller("JP").updates_since_start > 5; }));
   EXPECT_EQ(starts + 1, loop_->controller("JT").starts);
 }
 
@@ -169,11 +169,11 @@ TEST_F(Switching, AControllerThatThrowsEndsTheMotionWithItsMessage) {
   ASSERT_TRUE(loop_->switchTo({"JP"}, {}));
   expectRuns("JP");
   controller.fault = Fault::kThrow;
-  ASSERT_TRUE(waitUntil([&] { return !loop_->errors().empty(); }));
+  ASSERT_TRUE(eventually([&] { return !loop_->errors().empty(); }));
   controller.fault = Fault::kNone;
   EXPECT_EQ("this controller has had enough", loop_->errors()[0]);
   EXPECT_TRUE(
-      waitUntil([&] { return arm_.robot.state().robot_mode == franka_core::RobotMode::kIdle; }));
+      eventually([&] { return arm_.robot.state().robot_mode == franka_core::RobotMode::kIdle; }));
   loop_->forgetErrors();
   expectRuns("JP");
 }
@@ -184,7 +184,7 @@ TEST_F(Switching, NanReachesTheRobotInNoMode) {
     ASSERT_TRUE(loop_->switchTo({kind}, {}));
     expectRuns(kind);
     controller.fault = Fault::kNan;
-    ASSERT_TRUE(waitUntil([&] { return !loop_->errors().empty(); })) << kind;
+    ASSERT_TRUE(eventually([&] { return !loop_->errors().empty(); })) << kind;
     controller.fault = Fault::kNone;
     EXPECT_NE(std::string::npos, loop_->errors()[0].find("fr3")) << loop_->errors()[0];
     EXPECT_NE(std::string::npos, loop_->errors()[0].find("NaN")) << loop_->errors()[0];
@@ -212,7 +212,7 @@ TEST_F(Switching, PoseWithARoundingErrorIsSentOrRefusedButEndsNothingElse) {
     const int before = controller.updates;
     controller.dusty_entry = static_cast<int>(perturbed.entry);
     controller.dust = perturbed.error;
-    ASSERT_TRUE(waitUntil([&] {
+    ASSERT_TRUE(eventually([&] {
       return !loop_->errors().empty() || (perturbed.accepted && controller.updates > before + 5);
     }));
     controller.dust = 0.0;
@@ -229,7 +229,7 @@ TEST_F(Switching, SlowControllerRunsWithoutAnError) {
   TestController& controller = loop_->controller("JT");
   controller.fault = Fault::kSleep;
   ASSERT_TRUE(loop_->switchTo({"JT"}, {}));
-  ASSERT_TRUE(waitUntil([&] { return controller.updates_since_start > 50; }));
+  ASSERT_TRUE(eventually([&] { return controller.updates_since_start > 50; }));
   EXPECT_TRUE(loop_->errors().empty());
   ASSERT_TRUE(loop_->switchTo({"JP"}, {"JT"}));
   expectRuns("JP");
@@ -241,9 +241,9 @@ TEST_F(Switching, AReflexIsReportedAndAfterItTheControllerGoesOn) {
     script.abort_errors = {6};
   });
   ASSERT_TRUE(loop_->switchTo({"JT"}, {}));
-  ASSERT_TRUE(waitUntil([&] { return !loop_->errors().empty(); }));
+  ASSERT_TRUE(eventually([&] { return !loop_->errors().empty(); }));
   EXPECT_NE(std::string::npos, loop_->errors()[0].find("joint_reflex")) << loop_->errors()[0];
-  EXPECT_TRUE(waitUntil([&] { return robot_.robotMode() == franka::RobotMode::kReflex; }));
+  EXPECT_TRUE(eventually([&] { return robot_.robotMode() == franka::RobotMode::kReflex; }));
   arm_.robot.script([](auto& script) { script.abort_after = -1; });
   {
     const std::lock_guard<std::mutex> lock(robot_.robotMutex());
