@@ -4,6 +4,7 @@
 // Connecting: versions, addresses, and robots that do not answer.
 #include <franka_core/limits.h>
 #include <franka_core/robot_versions.h>
+#include <ros_test/eventually.h>
 
 #include <cmath>
 
@@ -64,7 +65,7 @@ TEST(Reading, IgnoresStatesFromBeforeTheCall) {
   FakeRobot fake(5);
   const auto robot = connect(fake);
   const std::uint64_t last_read = robot->readOnce().time.toMSec();
-  ASSERT_TRUE(fake.waitUntil([&] { return fake.state().message_id > last_read + 20; }));
+  ASSERT_TRUE(ros_test::eventually([&] { return fake.state().message_id > last_read + 20; }));
   fake.script([](FakeRobot::Script& s) { s.sends_states = false; });
   EXPECT_THROW(robot->read([](const franka::RobotState&) {
     ADD_FAILURE() << "a state from before the call";

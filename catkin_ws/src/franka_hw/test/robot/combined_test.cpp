@@ -189,10 +189,10 @@ TEST_F(Combined, TorquesOfTheLastMotionAreNotSentInTheNext) {
   const auto answers = [&] {
     return left_.robot.count(Command::kMove) > moves ? left_.robot.exchanges().size() : 0;
   };
-  ASSERT_TRUE(waitUntil([&] { return answers() > 10; }));
+  ASSERT_TRUE(eventually([&] { return answers() > 10; }));
   robot_.write(ros::Time::now(), ros::Duration(0.001));  // of a state of the last motion
   const std::size_t before = answers();
-  ASSERT_TRUE(waitUntil([&] { return answers() > before + 10; }));
+  ASSERT_TRUE(eventually([&] { return answers() > before + 10; }));
   for (const auto& exchange : left_.robot.exchanges()) {
     ASSERT_EQ(0.0, exchange.command.tau_J_d[3]);
   }

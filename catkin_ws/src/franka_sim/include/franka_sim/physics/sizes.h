@@ -21,8 +21,8 @@ constexpr double kMaxForce = 1e4;     ///< [N] or [Nm]
 constexpr std::uint64_t kMaxPushTicks = 1000000;  ///< duration of a push [ticks]
 /// Duration of a push that lasts until it is ended (World::reset, endPushes) [ticks].
 constexpr std::uint64_t kEndlessPush = std::numeric_limits<std::uint64_t>::max();
-constexpr std::size_t kMaxPushes = 1000;          ///< at a time
-constexpr double kMaxGravity = 1e2;               ///< [m/s^2]
+constexpr std::size_t kMaxPushes = 1000;  ///< at a time
+constexpr double kMaxGravity = 1e2;       ///< [m/s^2]
 
 /// @param what the start of the sentence, for example "The force"
 /// @throws std::runtime_error with a sentence that names the first number which is not finite or
