@@ -106,6 +106,7 @@ class Shared {
       const Use use(*this);
       closed_ = true;
       server_.reset();
+      renderer_.reset();
     }
   }
 

@@ -3,21 +3,40 @@
 #pragma once
 
 #include <memory>
+#include <mutex>
 #include <string>
 
 namespace franka_sim::physics {
 
-/// An OpenGL context without a window. One thread at a time. In a process that was forked after the
+/// An OpenGL context without a window. In a process that was forked after the
 /// first context was made it must not be used, nor destroyed: graphics drivers have threads, which
 /// a forked process does not have, and would wait for them for ever.
 class GlContext {
  public:
   virtual ~GlContext() = default;
-  /// @throws std::runtime_error when the driver refuses, as while it is current in another thread.
-  virtual void makeCurrent() = 0;
-  /// Call in the thread in which it is current: then another thread may make it so.
-  virtual void release() noexcept = 0;
   virtual std::string name() const = 0;
+
+ protected:
+  friend class CurrentContext;
+  /// @throws std::runtime_error when the driver refuses
+  virtual void makeCurrent() = 0;
+  /// Makes current again what was so before.
+  virtual void release() noexcept = 0;
+};
+
+/// Makes a context current in this thread for its life, and then what was current before. Threads
+/// wait for each other. Thread-safe.
+class CurrentContext {
+ public:
+  /// @throws std::runtime_error as requireGlProcess, and when the driver refuses
+  explicit CurrentContext(GlContext& context);
+  ~CurrentContext();
+  CurrentContext(const CurrentContext&) = delete;
+  CurrentContext& operator=(const CurrentContext&) = delete;
+
+ private:
+  std::unique_lock<std::mutex> lock_;
+  GlContext& context_;
 };
 
 /// EGL surfaceless, else OSMesa. The environment variable FRANKA_SIM_RENDERER (egl or osmesa)

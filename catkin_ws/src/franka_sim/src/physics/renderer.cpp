@@ -75,21 +75,6 @@ Pose opticalFrame(const mjData& data, int camera) {
   return {{p[0], p[1], p[2]}, {q.w(), q.x(), q.y(), q.z()}};
 }
 
-/// Makes a context current for its life; between pictures any thread may draw the next one.
-class Current {
- public:
-  explicit Current(physics::GlContext& context) : context_(context) {
-    physics::requireGlProcess();
-    context_.makeCurrent();
-  }
-  ~Current() { context_.release(); }
-  Current(const Current&) = delete;
-  Current& operator=(const Current&) = delete;
-
- private:
-  physics::GlContext& context_;
-};
-
 }  // namespace
 
 struct Renderer::Impl {
@@ -104,7 +89,7 @@ struct Renderer::Impl {
   }
   ~Impl() {
     try {
-      const Current current(*gl);
+      const physics::CurrentContext current(*gl);
       mjr_freeContext(&context);
     } catch (const std::runtime_error&) {  // NOLINT(bugprone-empty-catch)
       // What the driver holds ends with its context.
@@ -170,7 +155,7 @@ Picture Renderer::render(const Scene& scene, const Camera& camera, int width, in
   }
   mjvCamera view = freeCamera(camera);
   const physics::EngineErrorScope scope;
-  const Current current(*impl_->gl);
+  const physics::CurrentContext current(*impl_->gl);
   impl_->prepare(scene.mjcf, width, height);
   impl_->drawn.pose(scene);
   impl_->drawn.model()->vis.global.fovy = static_cast<float>(camera.field_of_view);
@@ -184,7 +169,7 @@ Picture Renderer::render(const Scene& scene, const Camera& camera, int width, in
 Picture Renderer::render(const Scene& scene, const std::string& camera, int width, int height) {
   checkSize(width, height);
   const physics::EngineErrorScope scope;
-  const Current current(*impl_->gl);
+  const physics::CurrentContext current(*impl_->gl);
   impl_->prepare(scene.mjcf, width, height);
   impl_->drawn.pose(scene);
   const mjModel& model = *impl_->drawn.model();

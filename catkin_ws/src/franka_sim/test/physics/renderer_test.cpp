@@ -1,10 +1,17 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <EGL/egl.h>
+#include <EGL/eglext.h>
+#include <GL/osmesa.h>
 #include <franka_sim/physics/renderer.h>
 
+#include <array>
 #include <cstdlib>
 #include <memory>
+#include <thread>
+#include <vector>
 
+#include "physics/run_time_library.h"
 #include "test_support.h"
 
 namespace franka_sim::test {
@@ -124,6 +131,78 @@ TEST_F(RendererTest, RefusesInvalidSizesAndCameras) {
   camera = Camera();
   camera.field_of_view = 200;
   expectSentence([&] { renderer_->render(scene, camera, 10, 10); }, {"field of view"});
+}
+
+TEST_F(RendererTest, DrawsAfterAnotherRendererHasEnded) {
+  const Scene scene = captureScene(*world_);
+  const Picture before = renderer_->render(scene, above(), 200, 100);
+  {
+    Renderer other;
+    EXPECT_EQ(before.rgb, other.render(captureScene(*world_), above(), 200, 100).rgb);
+    renderer_->render(scene, above(), 200, 100);
+  }
+  EXPECT_EQ(before.rgb, renderer_->render(scene, above(), 200, 100).rgb);
+}
+
+TEST_F(RendererTest, RenderersOfSeveralThreadsWaitForEachOther) {
+  const Scene scene = captureScene(*world_);
+  const Picture expected = renderer_->render(scene, above(), 64, 48);
+  Renderer made_here;  // and used there
+  std::array<int, 3> equal{};
+  std::vector<std::thread> threads;
+  for (std::size_t i = 0; i < equal.size(); i++) {
+    threads.emplace_back([&, i] {
+      const auto own = i == 0 ? nullptr : std::make_unique<Renderer>();
+      Renderer& renderer = own ? *own : made_here;
+      for (int k = 0; k < 5; k++) {
+        equal[i] += renderer.render(scene, above(), 64, 48).rgb == expected.rgb ? 1 : 0;
+      }
+    });
+  }
+  for (std::thread& thread : threads) {
+    thread.join();
+  }
+  EXPECT_EQ((std::array<int, 3>{5, 5, 5}), equal);
+}
+
+/// A program may draw with contexts of its own.
+TEST_F(RendererTest, LeavesTheContextOfTheCallersThreadCurrent) {
+  if (renderer_->backend() == "EGL") {
+    const physics::RunTimeLibrary egl("libEGL.so.1");
+    const auto current = egl.find<decltype(&eglGetCurrentContext)>("eglGetCurrentContext");
+    const auto make_current = egl.find<decltype(&eglMakeCurrent)>("eglMakeCurrent");
+    const auto address = egl.find<decltype(&eglGetProcAddress)>("eglGetProcAddress");
+    const auto display_of =
+        reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(address("eglGetPlatformDisplayEXT"));
+    EGLDisplay display = display_of(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, nullptr);
+    egl.find<decltype(&eglBindAPI)>("eglBindAPI")(EGL_OPENGL_API);
+    EGLContext own = egl.find<decltype(&eglCreateContext)>("eglCreateContext")(
+        display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, nullptr);
+    ASSERT_EQ(EGL_TRUE, make_current(display, EGL_NO_SURFACE, EGL_NO_SURFACE, own));
+    renderer_->render(captureScene(*world_), above(), 64, 48);
+    EXPECT_EQ(own, current());
+    {
+      Renderer other;
+    }
+    EXPECT_EQ(own, current());
+    make_current(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    egl.find<decltype(&eglDestroyContext)>("eglDestroyContext")(display, own);
+  } else {
+    const physics::RunTimeLibrary mesa("libOSMesa.so.8");
+    const auto current = mesa.find<decltype(&OSMesaGetCurrentContext)>("OSMesaGetCurrentContext");
+    OSMesaContext own =
+        mesa.find<decltype(&OSMesaCreateContext)>("OSMesaCreateContext")(OSMESA_RGBA, nullptr);
+    std::array<unsigned char, 4 * 16 * 16> buffer;
+    ASSERT_EQ(GL_TRUE, mesa.find<decltype(&OSMesaMakeCurrent)>("OSMesaMakeCurrent")(
+                           own, buffer.data(), GL_UNSIGNED_BYTE, 16, 16));
+    renderer_->render(captureScene(*world_), above(), 64, 48);
+    EXPECT_EQ(own, current());
+    {
+      Renderer other;
+    }
+    EXPECT_EQ(own, current());
+    mesa.find<decltype(&OSMesaDestroyContext)>("OSMesaDestroyContext")(own);
+  }
 }
 
 TEST(RendererChoice, RefusesUnknownBackends) {

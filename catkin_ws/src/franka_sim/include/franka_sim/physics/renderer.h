@@ -42,9 +42,10 @@ struct Picture {
 Scene captureScene(World& world);
 
 /// Draws scenes without a display, by EGL surfaceless or OSMesa, whichever the machine has. To save
-/// memory the shadow map has at most 1024 texels a side, without multisampling (decision 38). One
-/// thread at a time. In a process that was forked after the first picture, all functions but
-/// the destructor throw.
+/// memory the shadow map has at most 1024 texels a side, without multisampling (decision 38). Each
+/// is used by one thread at a time; those of several threads wait for each other. What the caller's
+/// thread draws with remains current in it. In a process that was forked after the first picture,
+/// all functions but the destructor throw.
 class Renderer {
  public:
   static constexpr int kMaxPictureSide = 4096;  ///< [pixel] per side, chosen here
