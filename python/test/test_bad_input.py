@@ -40,6 +40,8 @@ SIMULATION = {
         "seed must be a whole number, not 'a'": lambda x: Simulation(seed="a"),
         "seed must be 0 to": lambda x: Simulation(seed=-1),
         "'reel' is not known": lambda x: Simulation(robots=[Panda(realism="reel")]),
+        "urdf must be the name of a file": lambda x: Simulation(robots=[Panda(urdf="<robot/>")]),
+        "world must be the name of a file, not its text": lambda x: Simulation("<mujoco/>"),
         "Cannot read the file": lambda x: Simulation(robots=[Panda(urdf="/nowhere.urdf")]),
         "position of the robot": lambda x: Simulation(robots=[Panda(base=(FAR, 0, 0))]),
         "10 kg": lambda x: Simulation(robots=[Panda(load=(100.0, (0, 0, 0)))]),
@@ -250,7 +252,8 @@ SETUP = {
         "it cannot be 'a b'": lambda x: x(name="a b"),
         "hand must be True or False, not 'yes'": lambda x: x(hand="yes"),
         "realism must be a text": lambda x: x(realism=1),
-        "urdf must be the name of a file": lambda x: x(urdf=5),
+        "urdf must be the name of a file, not 5": lambda x: x(urdf=5),
+        "urdf must be the name of a file, not its text (2007": lambda x: x(urdf="<robot>" + 2000 * " "),
     }
 }
 

@@ -50,7 +50,13 @@ def path(value: typing.Any, name: str) -> str:
         result = os.fspath(value)
     except TypeError:
         raise TypeError(f"{name} must be the name of a file, not {value!r}.") from None
-    return os.fsdecode(result)
+    result = os.fsdecode(result)
+    if result.lstrip().startswith("<") or "\n" in result:
+        raise ValueError(
+            f"{name} must be the name of a file, not its text ({len(result)} characters that begin with "
+            f"{result.strip()[:20]!r}). Write the text to a file."
+        )
+    return result
 
 
 def text(value: typing.Any, name: str) -> str:
