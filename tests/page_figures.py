@@ -18,6 +18,7 @@ import yaml
 SOURCES = Path(__file__).resolve().parent.parent / "catkin_ws/src"
 NUMBER = r"[-+−]?\d+(?:\.\d+)?(?:e[-+]?\d+)?"
 SEVEN = "#, #, #, #, #, #, #"
+SIX = "#, #, #, #, # and #"
 
 CORE = "libfranka/include/franka_core/"
 HEADERS = "franka_sim/include/franka_sim/"
@@ -86,15 +87,17 @@ def profiles(physics):
     assert seen[0] == pytest.approx([a / 2 for a in panda["friction"]["amplitude"]])
     assert seen[1] == [a / 2 for a in fr3["friction"]["amplitude"]]
     fit = [float(figure) for figure in re.search(r"sign alone: ([\d., ]+)", comment)[1].split(",")]
-    share = 100 * constant(realism, "coulomb, # * expected[i])")
+    share = 100 * constant(realism, "hysteresis, # * expected[i])")
     noise_share = 100 * constant(realism, "# * recorded.dq_noise")
     second = [data["noise"]["tau_J_second_difference"] for data in (fr3, panda)]
+    ripple = panda["noise"]
+    seen_ripple = constant(realism, f"isPanda() ? Array7{{{{{SEVEN}}}}} : Array7{{}};")
+    assert seen_ripple == ripple["tau_J_ripple"]
     resolution = [data["noise"]["tau_J_resolution"] for data in (fr3, panda)]
     offsets = constant("franka_sim/src/physics/physics_config.cpp", f"kGravityError{{{SEVEN}}};")
     decisions = "../../docs/design/decisions.md"
     return [
         ("R2: mean # N, largest # N", constant(decisions, "a force of # N on average and # N at most in")),
-        ("by up to # Nm between # and # Hz", constant(decisions, "ripples by up to # Nm between # and # Hz")),
         ("command after about # ms", constant(decisions, "dq follows its command after about # ms")),
         ("hand | approximation | about # s even", constant(decisions, "about # s for a gripper command")),
         ("FR3: # kg m² (joints 1 to 4) and # kg m² (joints", [inertia[0], inertia[4]]),
@@ -110,11 +113,11 @@ def profiles(physics):
         ("within # s of that", constant(realism, "EXPECT_NEAR(0.1, time_to_tenth, #);")),
         (f"first order, {seven} Hz", panda["bandwidth"]["tau_ext_hat_filtered"]),
         ("`ideal` # Hz", constant(HEADERS + "robot/tick.h", "kSignalCutoff = #;")),
-        ("a push of # N reads", constant(realism, 'push(id() + "_hand_tcp", {{#, 0, 0}}')),
-        ("reads # % after", round(10 * constant(realism, "O_F_ext_hat_K[0] - before) < #)"))),
+        ("a push of # N along x, y or z reads", constant(realism, "force[axis] = #;")),
+        ("reads # % after", round(10 * constant(realism, "O_F_ext_hat_K[axis] - before) < #)"))),
         (
             "after # to # ms",
-            [constant(realism, "EXPECT_GE(ticks, #);"), constant(realism, "EXPECT_LE(ticks, #);")],
+            [constant(realism, "EXPECT_GE(ticks, #)"), constant(realism, "EXPECT_LE(ticks, #)")],
         ),
         ("freely below # rad/s", constant(realism, "EXPECT_LT(fastest, #);")),
         (
@@ -127,7 +130,14 @@ def profiles(physics):
             "FR3 # and # Nm, Panda # and # Nm",
             [resolution[0][0], resolution[0][6], resolution[1][0], resolution[1][6]],
         ),
-        (f"R2 {seven} Nm, R1 {seven} Nm. `recorded`: within # %", second[0] + second[1] + [noise_share]),
+        (
+            f"R2 at rest {seven} Nm, R1 in its slowest # s {seven} Nm. `recorded`: within # %",
+            second[0] + [constant(decisions, "in its slowest # s")] + second[1] + [noise_share],
+        ),
+        ("R1, from # to # Hz, joints", constant(realism, "bandRms(tau[i], #, #)")),
+        (f"Hz, joints 1 to 6: {SIX} Nm, because", ripple["tau_J_ripple"][:6]),
+        ("these, within # %, as a sine", 100 * constant(realism, "rms, # * recorded[i])")),
+        ("as a sine of # or # Hz", [ripple["ripple_frequency"][0], ripple["ripple_frequency"][6]]),
         ("FR3 #, Panda # rad/s", [fr3["noise"]["dq_noise"][0], panda["noise"]["dq_noise"][0]]),
         ("rad/s. `recorded`: within # %", noise_share),
         ("adds up to # ms", constant(HEADERS + "robot/realism.h", "kMaxCommandDelay = #;")),

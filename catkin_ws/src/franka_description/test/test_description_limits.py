@@ -110,5 +110,5 @@ def test_friction_is_that_of_the_publications(physics):
     for amplitude, coulomb, total in zip(fr3["amplitude"], fr3["coulomb"], identified):
         assert amplitude / 2 + coulomb == pytest.approx(total, abs=1e-12)
     assert fr3["amplitude"] == [2 * hysteresis for hysteresis in (0.50, 0.35, 0.27, 0.22, 0.28, 0.30, 0.14)]
-    assert fr3["viscous"] == [0.21] * 7
+    assert fr3["damping"] == [0.21] * 7 and "viscous" not in fr3
     assert panda["coulomb"] == fr3["coulomb"]

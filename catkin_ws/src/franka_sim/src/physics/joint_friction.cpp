@@ -24,7 +24,7 @@ double linkSide(const JointFrictions::Joint& joint, double dq) noexcept {
 double motorSide(JointFrictions::Joint& joint, double dq, double period) noexcept {
   const double coulomb = joint.law.coulomb;
   joint.held = std::clamp(joint.held + joint.stiffness * dq * period, -coulomb, coulomb);
-  return std::clamp(joint.held + joint.damping * dq, -coulomb, coulomb);
+  return std::clamp(joint.held + joint.damping * dq, -coulomb, coulomb) + joint.law.damping * dq;
 }
 
 }  // namespace
@@ -38,7 +38,8 @@ void JointFrictions::add(const mjModel& model, const std::string& joint, const J
   added.stiffness = law.coulomb / kSlipsAfter;
   // Damps the lightest arm that can hang on the joint, which is the motor alone, critically.
   added.damping = 2.0 * std::sqrt(added.stiffness * model.dof_armature[added.dof]);
-  const double steepest = added.damping + law.viscous + 0.25 * law.amplitude * law.slope;
+  const double steepest =
+      added.damping + law.viscous + law.damping + 0.25 * law.amplitude * law.slope;
   if (steepest > 0.0) {
     longest_step_ = std::min(longest_step_, model.dof_armature[added.dof] / steepest);
   }

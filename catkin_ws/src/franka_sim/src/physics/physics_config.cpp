@@ -94,12 +94,11 @@ void readFriction(const YAML::Node& part, const std::string& where,
     const char* key;
     double JointFriction::* member;
   };
-  constexpr Entry kEntries[] = {{"amplitude", &JointFriction::amplitude},
-                                {"slope", &JointFriction::slope},
-                                {"offset", &JointFriction::offset},
-                                {"coulomb", &JointFriction::coulomb},
-                                {"viscous", &JointFriction::viscous}};
-  checkKeys(part, {"amplitude", "slope", "offset", "coulomb", "viscous"}, where);
+  constexpr Entry kEntries[] = {
+      {"amplitude", &JointFriction::amplitude}, {"slope", &JointFriction::slope},
+      {"offset", &JointFriction::offset},       {"coulomb", &JointFriction::coulomb},
+      {"viscous", &JointFriction::viscous},     {"damping", &JointFriction::damping}};
+  checkKeys(part, {"amplitude", "slope", "offset", "coulomb", "viscous", "damping"}, where);
   for (const Entry& entry : kEntries) {
     std::array<double, 7> values;
     for (std::size_t i = 0; i < 7; ++i) {
@@ -113,11 +112,16 @@ void readFriction(const YAML::Node& part, const std::string& where,
 }
 
 void readNoise(const YAML::Node& part, const std::string& where, SensorPhysics& sensors) {
-  checkKeys(part, {"tau_J_resolution", "tau_J_second_difference", "dq_noise"}, where);
+  checkKeys(part,
+            {"tau_J_resolution", "tau_J_second_difference", "dq_noise", "tau_J_ripple",
+             "ripple_frequency"},
+            where);
   std::array<double, 7> second_difference{};
   readNumbers(part, "tau_J_resolution", where, sensors.tau_J_resolution);
   readNumbers(part, "tau_J_second_difference", where, second_difference);
   readNumbers(part, "dq_noise", where, sensors.dq_noise);
+  readNumbers(part, "tau_J_ripple", where, sensors.tau_J_ripple);
+  readNumbers(part, "ripple_frequency", where, sensors.ripple_frequency);
   for (std::size_t i = 0; i < 7; ++i) {
     // The second difference of independent readings has six (1 + 4 + 1) times the variance of one
     // reading; rounding contributes step^2 / 12 to that variance.

@@ -140,6 +140,7 @@ void checkFriction(const RobotModel& robot) {
     checkNames(robot, {{joint, law.offset}}, "an offset of friction", true);
     checkNames(robot, {{joint, law.coulomb}}, "a Coulomb friction", false);
     checkNames(robot, {{joint, law.viscous}}, "a viscous friction", false);
+    checkNames(robot, {{joint, law.damping}}, "a viscous friction of the motor side", false);
   }
 }
 

@@ -194,7 +194,7 @@ void MotionSupervisor::finishMotion() noexcept {
 void MotionSupervisor::advanceRest() noexcept {
   const bool reflex = mode() == RobotMode::kReflex || mode() == RobotMode::kAutomaticErrorRecovery;
   const RestSequence::Step step =
-      rest_.step(reflex, state_->q, estimator_->estimate().dq, brakingRate());
+      rest_.step(reflex, state_->q, estimator_->estimate().dq, brakingLimits());
   switch (step) {
     case RestSequence::Step::kNone:
       break;

@@ -385,9 +385,9 @@ void MotionSupervisor::brake() noexcept {
                        state_->motion_generator_mode != MotionGeneratorMode::kNone &&
                        state_->controller_mode != ControllerMode::kExternalController;
   if (desired || rest_.isBraking()) {
-    rest_.brake(state_->q_d, state_->dq_d, brakingRate());
+    rest_.brake(state_->q_d, state_->dq_d, state_->ddq_d, brakingLimits());
   } else {
-    rest_.brake(state_->q, estimator_->estimate().dq, brakingRate());
+    rest_.brake(state_->q, estimator_->estimate().dq, {}, brakingLimits());
   }
 }
 

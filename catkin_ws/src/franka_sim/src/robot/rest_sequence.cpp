@@ -12,15 +12,16 @@ constexpr int kReflexTicks = 200;  // then braking restarts (decision 16)
 }  // namespace
 
 void RestSequence::brake(const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d,
-                         const std::array<double, 7>& ddq) noexcept {
-  brake_.start(q_d, dq_d, ddq);
+                         const std::array<double, 7>& ddq_d,
+                         const franka_core::ArmLimits& limits) noexcept {
+  brake_.start(q_d, dq_d, ddq_d, limits);
   phase_ = Phase::kBraking;
   ticks_ = 0;
 }
 
 RestSequence::Step RestSequence::step(bool reflex, const std::array<double, 7>& q,
                                       const std::array<double, 7>& dq,
-                                      const std::array<double, 7>& ddq) noexcept {
+                                      const franka_core::ArmLimits& limits) noexcept {
   if (phase_ == Phase::kReached) {
     return Step::kNone;
   }
@@ -32,7 +33,7 @@ RestSequence::Step RestSequence::step(bool reflex, const std::array<double, 7>& 
   brake_.step();
   if (reflex && ticks_ == kReflexTicks && !brake_.atRest()) {
     // From here on the arm does not press on an obstacle (decision 16).
-    brake_.start(q, dq, ddq);
+    brake_.start(q, dq, {}, limits);
   }
   if (!brake_.atRest()) {
     return Step::kBrakes;

@@ -9,6 +9,7 @@
 #include <franka_sim/robot/transforms.h>
 
 #include <cstddef>
+#include <numeric>
 
 namespace franka_sim {
 
@@ -23,6 +24,10 @@ bool isFinite(const ArmMeasurement& m) noexcept {
          franka_core::allFinite(m.tau_J);
 }
 
+double mean(const std::array<double, 7>& values) noexcept {
+  return std::accumulate(values.begin(), values.end(), 0.0) / 7.0;
+}
+
 ArmMeasurement restingAt(const std::array<double, 7>& q) noexcept {
   ArmMeasurement measurement;
   measurement.q = q;
@@ -30,6 +35,14 @@ ArmMeasurement restingAt(const std::array<double, 7>& q) noexcept {
 }
 
 }  // namespace
+
+StateEstimator::StateEstimator(const Configuration& configuration,
+                               franka_core::RobotState& state) noexcept
+    : configuration_(&configuration),
+      state_(&state),
+      noise_(configuration.parameters().sensors),
+      tau_ext_filter_(configuration.parameters().sensors.tau_ext_cutoff),
+      wrench_filter_(mean(configuration.parameters().sensors.tau_ext_cutoff)) {}
 
 void StateEstimator::update(const ArmMeasurement& measurement,
                             const CollisionThresholds& thresholds) noexcept {
@@ -62,7 +75,7 @@ void StateEstimator::update(const ArmMeasurement& measurement,
 
 void StateEstimator::updateTorques(const ArmMeasurement& measurement) noexcept {
   estimate_.tau_J = estimate_.measured ? measurement.tau_J : estimate_.dynamics.gravity;
-  const std::array<double, 7> tau_J = noise_.torques(estimate_.tau_J);
+  const std::array<double, 7> tau_J = noise_.torques(estimate_.tau_J, estimate_.dq);
   std::array<double, 7> difference;
   for (std::size_t i = 0; i < 7; i++) {
     difference[i] = (tau_J[i] - state_->tau_J[i]) / kTick;
@@ -88,7 +101,7 @@ void StateEstimator::updateTorques(const ArmMeasurement& measurement) noexcept {
 void StateEstimator::updateContacts(const CollisionThresholds& thresholds) noexcept {
   external_wrench_.update(estimate_.dynamics.pose, estimate_.dynamics.zero_jacobian,
                           state_->EE_T_K);
-  state_->O_F_ext_hat_K = external_wrench_.inBase(state_->tau_ext_hat_filtered);
+  state_->O_F_ext_hat_K = external_wrench_.inBase(wrench_filter_.update(estimate_.tau_ext));
   state_->K_F_ext_hat_K = external_wrench_.inStiffness(state_->O_F_ext_hat_K);
 
   const bool in_base = judgesWrenchInBase(configuration_->parameters().rules);
@@ -138,6 +151,7 @@ void StateEstimator::restart() noexcept {
   continuous_ = false;
   noise_.restart();
   tau_ext_filter_.restart();
+  wrench_filter_.restart();
   dtau_J_filter_.restart();
   joint_contacts_.clear();
   cartesian_contacts_.clear();

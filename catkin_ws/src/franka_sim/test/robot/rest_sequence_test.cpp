@@ -12,14 +12,14 @@ namespace {
 using Joints = std::array<double, 7>;
 
 const Joints kSwing{{0.3, 0, 0, 0, 0, 0, 0}};
-const Joints kRate{{10, 10, 10, 10, 10, 10, 10}};  // [rad/s^2]: kSwing stops within 30 ms
+const franka_core::ArmLimits kLimits = franka_core::kFr3Limits;
 
 TEST(RestSequence, YieldsForTwoHundredTicksAfterAReflex) {
   RestSequence rest;
-  rest.brake(kReady, {}, kRate);
-  EXPECT_EQ(RestSequence::Step::kStops, rest.step(true, kReady, {}, kRate));
+  rest.brake(kReady, {}, {}, kLimits);
+  EXPECT_EQ(RestSequence::Step::kStops, rest.step(true, kReady, {}, kLimits));
   int yielded = 0;
-  while (rest.step(true, kReady, {}, kRate) == RestSequence::Step::kYields) {
+  while (rest.step(true, kReady, {}, kLimits) == RestSequence::Step::kYields) {
     ASSERT_LT(++yielded, 1000);
   }
   EXPECT_EQ(200, yielded);
@@ -27,11 +27,12 @@ TEST(RestSequence, YieldsForTwoHundredTicksAfterAReflex) {
 }
 
 TEST(RestSequence, BrakesAgainFromTheMeasuredMotionWhenAReflexTakesTooLong) {
-  const Joints slow{{1, 1, 1, 1, 1, 1, 1}};
+  franka_core::ArmLimits slow = kLimits;
+  slow.ddq.fill(1);
   Joints met = kReady;
   met[0] += 0.01;
   RestSequence rest;
-  rest.brake(kReady, {{0.5, 0, 0, 0, 0, 0, 0}}, slow);  // takes 500 ms
+  rest.brake(kReady, {{0.5, 0, 0, 0, 0, 0, 0}}, {}, slow);  // takes 500 ms
   for (int i = 0; i < 199; i++) {
     EXPECT_EQ(RestSequence::Step::kBrakes, rest.step(true, met, {}, slow));
   }

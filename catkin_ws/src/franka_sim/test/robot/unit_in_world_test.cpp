@@ -296,20 +296,25 @@ TEST_P(UnitInWorldTest, StopsAtSpeedBrakeLikeAReflexAndThenClamp) {
     turnFirstJoint(1.0);
     const double from = unit->state().q[0];
     const double ddq = unit->limits().arm.ddq[0];
+    const double jerk = unit->limits().arm.dddq[0];
     const std::array<double, 7> held = unit->state().tau_J;
     unit->request(stop);
     double furthest = from;
     double braking_torque = 0.0;   // strongest change of a joint's torque, while the motors brake
     double clamping_torque = 0.0;  // and from then on
+    double steepest = 0.0;         // change of a joint's torque in a tick
     int braking = 0;
     int closed = 0;
     for (int i = 0; i < 1000; i++) {
       const double desired = unit->state().dq_d[0];
+      const double acceleration = unit->state().ddq_d[0];
+      const std::array<double, 7> before = unit->state().tau_J;
       tick();
       const RobotState& state = unit->state();
       if (state.dq_d[0] > 0.0) {
         braking++;
-        EXPECT_NEAR(ddq * 1e-3, desired - state.dq_d[0], 1e-9);
+        EXPECT_LE(desired - state.dq_d[0], ddq * 1e-3 + 1e-9);
+        EXPECT_LE(std::abs(state.ddq_d[0] - acceleration), jerk * 1e-3 + 1e-6);
       }
       closed += unit->status().brakes_closed ? 1 : 0;
       furthest = std::max(furthest, state.q[0]);
@@ -317,14 +322,15 @@ TEST_P(UnitInWorldTest, StopsAtSpeedBrakeLikeAReflexAndThenClamp) {
         EXPECT_LT(std::abs(state.tau_J[j]), unit->configuration().max_torque[j]);
         double& strongest = closed > 2 ? clamping_torque : braking_torque;
         strongest = std::max(strongest, std::abs(state.tau_J[j] - held[j]));
+        steepest = std::max(steepest, std::abs(state.tau_J[j] - before[j]));
       }
     }
     const double rebound = furthest - unit->state().q[0];
     std::printf(
         "%s stops from 1 rad/s: %d ms, %.1f mrad, rebound %.3f mrad; torques change by %.1f "
-        "Nm, after the brakes have closed by %.1f Nm\n",
+        "Nm, after the brakes have closed by %.1f Nm, in a tick by at most %.1f Nm\n",
         GetParam(), braking, 1e3 * (furthest - from), 1e3 * rebound, braking_torque,
-        clamping_torque);
+        clamping_torque, steepest);
     EXPECT_NEAR(1.0 / ddq * 1e3, braking, 2);
     EXPECT_NEAR(0.5 / ddq, furthest - from, 0.001);
     EXPECT_LT(rebound, 1e-3);

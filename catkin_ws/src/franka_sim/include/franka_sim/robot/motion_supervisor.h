@@ -84,7 +84,7 @@ class MotionSupervisor {
   bool hasReflexes() const noexcept { return configuration_->hasReflexes(); }
   bool controlledOutside() const noexcept;
   const CollisionThresholds& thresholds() const noexcept;
-  const std::array<double, 7>& brakingRate() const noexcept { return generator_.limits().arm.ddq; }
+  const franka_core::ArmLimits& brakingLimits() const noexcept { return generator_.limits().arm; }
 
   // a tick
   void initializeFromMeasurement() noexcept;

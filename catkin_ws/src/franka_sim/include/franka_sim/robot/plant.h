@@ -22,7 +22,7 @@ struct ArmMeasurement {
 ///
 ///   link side:   amplitude (s(slope (dq + offset)) - s(slope offset)) + viscous dq,
 ///                s(x) = 1 / (1 + exp(-x))
-///   motor side:  coulomb sign(dq); at rest it holds the joint like a stiff spring
+///   motor side:  damping dq + coulomb sign(dq); at rest it holds the joint like a stiff spring
 ///
 /// The torque sensor lies between the two: tau_J contains the friction of the link side only.
 struct JointFriction {
@@ -31,9 +31,12 @@ struct JointFriction {
   double offset{0};     ///< [rad/s]
   double viscous{0};    ///< [Nm s/rad]
   double coulomb{0};    ///< [Nm]
+  double damping{0};    ///< [Nm s/rad]
 
   /// Whether there is any friction.
-  bool acts() const noexcept { return amplitude != 0.0 || coulomb != 0.0 || viscous != 0.0; }
+  bool acts() const noexcept {
+    return amplitude != 0.0 || coulomb != 0.0 || viscous != 0.0 || damping != 0.0;
+  }
 };
 
 /// The joints' properties that no URDF carries (decision 1), joints 1 to 7.

@@ -21,15 +21,15 @@ class RestSequence {
     kYields,  ///< follows the measured pose
   };
 
-  /// Brakes from a desired motion. @param ddq deceleration [rad/s^2]
+  /// Brakes from a desired motion, as BrakeTrajectory.
   void brake(const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d,
-             const std::array<double, 7>& ddq) noexcept;
+             const std::array<double, 7>& ddq_d, const franka_core::ArmLimits& limits) noexcept;
   /// The arm is held where it is.
   void finish() noexcept { phase_ = Phase::kReached; }
 
   /// One tick. @param reflex whether the arm brakes because of an error @param q, dq measured
   Step step(bool reflex, const std::array<double, 7>& q, const std::array<double, 7>& dq,
-            const std::array<double, 7>& ddq) noexcept;
+            const franka_core::ArmLimits& limits) noexcept;
 
   bool isBraking() const noexcept { return phase_ == Phase::kBraking; }
   bool isFinished() const noexcept { return phase_ == Phase::kReached; }

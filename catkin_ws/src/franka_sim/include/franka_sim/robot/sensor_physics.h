@@ -18,17 +18,22 @@ struct SensorPhysics {
   std::array<double, 7> tau_J_resolution{};  ///< [Nm]; 0: continuous
   std::array<double, 7> tau_J_noise{};       ///< standard deviation before rounding [Nm]
   std::array<double, 7> dq_noise{};          ///< standard deviation [rad/s]
+  std::array<double, 7> tau_J_ripple{};      ///< of the elastic gears in motion, RMS [Nm]
+  std::array<double, 7> ripple_frequency{};  ///< [Hz]
   std::uint64_t seed{1};                     ///< of the noise
 };
 
-/// White noise and resolution of the readings of torque and velocity that the robot reports. The
-/// robot's own loops use the signals without them: how it filters those is not published.
+/// White noise and resolution of the readings of torque and velocity that the robot reports, and
+/// the ripple of tau_J in motion: a sine, whose amplitude grows with the speed up to 0.05 rad/s.
+/// The robot's own loops use the signals without them: how it filters those is not published.
 /// Called by one thread. Real-time safe.
 class SensorNoise {
  public:
   explicit SensorNoise(const SensorPhysics& physics) noexcept;
 
-  std::array<double, 7> torques(const std::array<double, 7>& tau_J) noexcept;
+  /// @param dq measured [rad/s]
+  std::array<double, 7> torques(const std::array<double, 7>& tau_J,
+                                const std::array<double, 7>& dq) noexcept;
   std::array<double, 7> velocities(const std::array<double, 7>& dq) noexcept;
   /// Repeats the same noise from the start.
   void restart() noexcept;
@@ -39,6 +44,7 @@ class SensorNoise {
 
   SensorPhysics physics_;
   bool noisy_torque_, noisy_velocity_;
+  std::uint64_t ticks_{0};
   std::mt19937_64 engine_;
   std::normal_distribution<double> normal_;
 };

@@ -35,11 +35,7 @@ struct Estimate {
 class StateEstimator {
  public:
   /// @param configuration, state outlive the estimator.
-  StateEstimator(const Configuration& configuration, franka_core::RobotState& state) noexcept
-      : configuration_(&configuration),
-        state_(&state),
-        noise_(configuration.parameters().sensors),
-        tau_ext_filter_(configuration.parameters().sensors.tau_ext_cutoff) {}
+  StateEstimator(const Configuration& configuration, franka_core::RobotState& state) noexcept;
 
   /// One tick. The first sample after the start or a restart has no motor torques of a previous
   /// tick: tau_J is then gravity, as the sensor of a resting arm measures, and the external torque
@@ -70,6 +66,9 @@ class StateEstimator {
   ExternalTorque external_torque_;
   ExternalWrench external_wrench_;
   LowPass<7> tau_ext_filter_, dtau_J_filter_;
+  /// Of the torques that become the wrench, all at the joints' mean bandwidth: the wrench of
+  /// torques with different delays would be later than each of them.
+  LowPass<7> wrench_filter_;
   ContactMonitor<7> joint_contacts_;
   ContactMonitor<6> cartesian_contacts_;
 };

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/robot/motion/async_joint_generator.h>
+#include <franka_sim/robot/motion/brake_trajectory.h>
 #include <franka_sim/robot/tick.h>
 
 #include <algorithm>
@@ -11,15 +12,6 @@ namespace franka_sim {
 namespace {
 
 constexpr double kShare = 0.999;  // used share of the limits, so that rounding never exceeds them
-
-// The highest velocity of this tick from which braking by `step` per tick ends on a target
-// `distance` ahead. Braking from v covers kTick (v + (v - step) + ...); with n whole steps in v
-// that is kTick ((n + 1) v - step n (n + 1) / 2).
-double landingVelocity(double distance, double step) noexcept {
-  const double units = distance / (step * kTick);
-  const double n = std::floor((std::sqrt(1.0 + 8.0 * units) - 1.0) * 0.5);
-  return (distance / kTick + step * n * (n + 1.0) * 0.5) / (n + 1.0);
-}
 
 }  // namespace
 
@@ -42,7 +34,7 @@ void AsyncJointGenerator::step(const MotionLimits& limits) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
     const double step = kShare * limits.arm.ddq[i] * kTick;
     const double distance = target_[i] - q_[i];
-    const double landing = std::copysign(landingVelocity(std::abs(distance), step), distance);
+    const double landing = std::copysign(landingRate(std::abs(distance), step), distance);
     const double up = kShare * std::min(maximum_velocity_[i], limits.highestVelocity(i, q_[i]));
     const double down = kShare * std::max(-maximum_velocity_[i], limits.lowestVelocity(i, q_[i]));
     const double desired = stopping_ ? 0.0 : std::min(std::max(landing, down), up);

@@ -9,20 +9,34 @@
 
 namespace franka_sim {
 
+// From the rate r the value changes by kTick (r + (r - step) + ...); with n whole steps in r that
+// is kTick ((n + 1) r - step n (n + 1) / 2).
+double landingRate(double distance, double step) noexcept {
+  const double units = distance / (step * kTick);
+  const double n = std::floor((std::sqrt(1.0 + 8.0 * units) - 1.0) * 0.5);
+  return (distance / kTick + step * n * (n + 1.0) * 0.5) / (n + 1.0);
+}
+
 void BrakeTrajectory::start(const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d,
-                            const std::array<double, 7>& ddq_max) noexcept {
+                            const std::array<double, 7>& ddq_d,
+                            const franka_core::ArmLimits& limits) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
     q_[i] = q_d[i];
     dq_[i] = std::isfinite(dq_d[i]) ? dq_d[i] : 0.0;
+    ddq_max_[i] = limits.ddq[i];
+    change_[i] = limits.dddq[i] * kTick;
+    ddq_[i] = std::isfinite(ddq_d[i]) ? std::clamp(ddq_d[i], -ddq_max_[i], ddq_max_[i]) : 0.0;
   }
-  ddq_.fill(0.0);
-  ddq_max_ = ddq_max;
 }
 
 void BrakeTrajectory::step() noexcept {
   for (std::size_t i = 0; i < 7; i++) {
-    const double change = std::min(std::abs(dq_[i]), ddq_max_[i] * kTick);
-    const double next = dq_[i] - std::copysign(change, dq_[i]);
+    const double direction = dq_[i] < 0.0 ? -1.0 : 1.0;
+    const double landing = landingRate(std::abs(dq_[i]), change_[i]);
+    const double braking = std::min({landing, ddq_max_[i], -direction * ddq_[i] + change_[i]});
+    // The last step sets 0 itself, without rounding.
+    const bool landed = braking == landing && landing <= change_[i];
+    const double next = landed ? 0.0 : dq_[i] - direction * braking * kTick;
     ddq_[i] = (next - dq_[i]) / kTick;
     dq_[i] = next;
     q_[i] += next * kTick;

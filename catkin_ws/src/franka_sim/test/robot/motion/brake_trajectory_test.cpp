@@ -13,34 +13,47 @@ namespace franka_sim::test {
 
 namespace {
 
-TEST(BrakeTrajectory, StopsEachJointAtItsFullAcceleration) {
+TEST(BrakeTrajectory, StopsEachJointAtItsFullAccelerationWithinItsJerkLimit) {
   const auto& arm = franka_core::kFerLimits;
   Joints dq = arm.dq;
   dq[2] = -dq[2];
   dq[4] = 0.0;
   BrakeTrajectory brake;
-  brake.start(kReady, dq, arm.ddq);
+  brake.start(kReady, dq, {}, arm);
   EXPECT_FALSE(brake.atRest());
   int ticks = 0;
   for (; !brake.atRest(); ticks++) {
     ASSERT_LT(ticks, 1000);
     const Joints before = brake.q();
+    const Joints ddq_before = brake.ddq();
     brake.step();
     for (std::size_t i = 0; i < 7; i++) {
-      EXPECT_LE(std::abs(brake.ddq()[i]), arm.ddq[i] * (1 + 1e-12));
+      EXPECT_LE(std::abs(brake.ddq()[i]), arm.ddq[i] * (1 + 1e-9));
+      EXPECT_LE(std::abs(brake.ddq()[i] - ddq_before[i]), arm.dddq[i] * kTick * (1 + 1e-9));
       EXPECT_NEAR((brake.q()[i] - before[i]) / kTick, brake.dq()[i], 1e-12);
       EXPECT_GE(brake.dq()[i] * dq[i], 0.0);  // never reverses
     }
   }
-  EXPECT_EQ(static_cast<int>(std::ceil(2.175 / 7.5 / kTick)), ticks);  // joint 2 takes longest
+  // Joint 2 takes longest: at half of its acceleration in its first and in its last tick.
+  EXPECT_EQ(static_cast<int>(std::ceil(2.175 / 7.5 / kTick)) + 1, ticks);
   for (std::size_t i = 0; i < 7; i++) {
-    const double way = std::copysign(0.5 * dq[i] * dq[i] / arm.ddq[i], dq[i]);
+    const double ramp = arm.ddq[i] / arm.dddq[i];
+    const double way = 0.5 * dq[i] * (std::abs(dq[i]) / arm.ddq[i] + 0.5 * ramp);
     EXPECT_NEAR(kReady[i] + way, brake.q()[i], 0.5 * std::abs(dq[i]) * kTick + 1e-12);
   }
   brake.step();
   EXPECT_EQ(Joints{}, brake.ddq());
-  brake.start(kReady, {{NAN, 0, 0, 0, 0, 0, 0}}, arm.ddq);
+  brake.start(kReady, {{NAN, 0, 0, 0, 0, 0, 0}}, {}, arm);
   EXPECT_TRUE(brake.atRest());
+}
+
+TEST(BrakeTrajectory, ContinuesTheAccelerationOfTheMotion) {
+  const auto& arm = franka_core::kFr3Limits;
+  BrakeTrajectory brake;
+  brake.start(kReady, {{1, 1, 0, 0, 0, 0, 0}}, {{10, -10, 0, 0, 0, 0, 0}}, arm);
+  brake.step();
+  EXPECT_NEAR(5, brake.ddq()[0], 1e-9);
+  EXPECT_NEAR(-10, brake.ddq()[1], 1e-9);
 }
 
 }  // namespace

@@ -2,20 +2,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/limits.h>
+
 #include <array>
 
 namespace franka_sim {
 
-/// Brings a desired motion to rest, each joint alone at its full acceleration (decision 16): the
-/// stop after a reflex, lost packets, StopMove or the user stop. No jerk limit: a stop must be
-/// short. Called by one thread. Real-time safe.
+/// The highest rate of this tick from which a decrease by `step` per tick ends after `distance`: of
+/// a position's velocity, or of a velocity's deceleration. None is negative. Real-time safe.
+double landingRate(double distance, double step) noexcept;
+
+/// Brings a desired motion to rest, each joint alone at its full acceleration and with its jerk
+/// limit (decision 16): the stop after a reflex, lost packets, StopMove or the user stop. A joint
+/// that is about to rest stops at once, whatever its jerk is. Called by one thread. Real-time safe.
 class BrakeTrajectory {
  public:
-  /// @param q_d, dq_d desired position and velocity [rad, rad/s]; a velocity that is not finite
-  /// counts as 0
-  /// @param ddq_max deceleration, positive [rad/s^2]
+  /// @param q_d, dq_d, ddq_d desired position, velocity and acceleration [rad, rad/s, rad/s^2];
+  /// the last two count as 0 where they are not finite
   void start(const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d,
-             const std::array<double, 7>& ddq_max) noexcept;
+             const std::array<double, 7>& ddq_d, const franka_core::ArmLimits& limits) noexcept;
   /// One tick (1 ms). At rest only ddq changes, to 0.
   void step() noexcept;
 
@@ -26,6 +31,7 @@ class BrakeTrajectory {
 
  private:
   std::array<double, 7> q_{}, dq_{}, ddq_{}, ddq_max_{};
+  std::array<double, 7> change_{};  ///< of the acceleration in a tick [rad/s^2]
 };
 
 }  // namespace franka_sim
