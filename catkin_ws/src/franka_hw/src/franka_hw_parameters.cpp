@@ -29,11 +29,20 @@ bool require(const ros::NodeHandle& nh, const std::string& name, const char* wha
 }
 
 template <std::size_t size>
-void readThresholds(const ros::NodeHandle& nh, const std::string& name,
+bool readThresholds(const ros::NodeHandle& nh, const std::string& name,
                     const std::vector<double>& defaults, std::array<double, size>& values) {
-  const std::vector<double> read =
-      FrankaHW::getCollisionThresholds("collision_config/" + name, nh, defaults);
+  const std::string parameter = "collision_config/" + name;
+  std::vector<double> read;
+  if (nh.hasParam(parameter) && (!nh.getParam(parameter, read) || read.size() != size)) {
+    ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName(parameter)
+                                                 << "' is not a list of " << size
+                                                 << " numbers. Correct it, or leave it out for "
+                                                    "the defaults.");
+    return false;
+  }
+  read = FrankaHW::getCollisionThresholds(parameter, nh, defaults);
   std::copy_n(read.begin(), size, values.begin());
+  return true;
 }
 
 franka::ControllerMode controllerOf(const std::string& name) {
@@ -75,10 +84,9 @@ bool FrankaHW::initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_h
     ROS_INFO_STREAM("FrankaHW: no parameter joint_limit_warning_threshold, warning "
                     << joint_limit_warning_threshold_ << " rad before the ends of the joints.");
   }
-  if (!readConnectTimeout(robot_hw_nh)) {
+  if (!readConnectTimeout(robot_hw_nh) || !readCollisionConfig(robot_hw_nh)) {
     return false;
   }
-  readCollisionConfig(robot_hw_nh);
   readJointRanges();
   return readRealtimeConfig(robot_hw_nh) && readIgnoreMismatch(robot_hw_nh);
 }
@@ -155,24 +163,24 @@ bool FrankaHW::readIgnoreMismatch(const ros::NodeHandle& nh) {
   return true;
 }
 
-void FrankaHW::readCollisionConfig(const ros::NodeHandle& nh) {
+bool FrankaHW::readCollisionConfig(const ros::NodeHandle& nh) {
   CollisionConfig& config = collision_config_;
-  readThresholds(nh, "lower_torque_thresholds_acceleration", kTorqueThresholds,
-                 config.lower_torque_thresholds_acceleration);
-  readThresholds(nh, "upper_torque_thresholds_acceleration", kTorqueThresholds,
-                 config.upper_torque_thresholds_acceleration);
-  readThresholds(nh, "lower_torque_thresholds_nominal", kTorqueThresholds,
-                 config.lower_torque_thresholds_nominal);
-  readThresholds(nh, "upper_torque_thresholds_nominal", kTorqueThresholds,
-                 config.upper_torque_thresholds_nominal);
-  readThresholds(nh, "lower_force_thresholds_acceleration", kForceThresholds,
-                 config.lower_force_thresholds_acceleration);
-  readThresholds(nh, "upper_force_thresholds_acceleration", kForceThresholds,
-                 config.upper_force_thresholds_acceleration);
-  readThresholds(nh, "lower_force_thresholds_nominal", kForceThresholds,
-                 config.lower_force_thresholds_nominal);
-  readThresholds(nh, "upper_force_thresholds_nominal", kForceThresholds,
-                 config.upper_force_thresholds_nominal);
+  return readThresholds(nh, "lower_torque_thresholds_acceleration", kTorqueThresholds,
+                        config.lower_torque_thresholds_acceleration) &&
+         readThresholds(nh, "upper_torque_thresholds_acceleration", kTorqueThresholds,
+                        config.upper_torque_thresholds_acceleration) &&
+         readThresholds(nh, "lower_torque_thresholds_nominal", kTorqueThresholds,
+                        config.lower_torque_thresholds_nominal) &&
+         readThresholds(nh, "upper_torque_thresholds_nominal", kTorqueThresholds,
+                        config.upper_torque_thresholds_nominal) &&
+         readThresholds(nh, "lower_force_thresholds_acceleration", kForceThresholds,
+                        config.lower_force_thresholds_acceleration) &&
+         readThresholds(nh, "upper_force_thresholds_acceleration", kForceThresholds,
+                        config.upper_force_thresholds_acceleration) &&
+         readThresholds(nh, "lower_force_thresholds_nominal", kForceThresholds,
+                        config.lower_force_thresholds_nominal) &&
+         readThresholds(nh, "upper_force_thresholds_nominal", kForceThresholds,
+                        config.upper_force_thresholds_nominal);
 }
 
 std::vector<double> FrankaHW::getCollisionThresholds(const std::string& name,

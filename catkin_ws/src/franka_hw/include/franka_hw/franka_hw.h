@@ -384,7 +384,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   bool readConnectTimeout(const ros::NodeHandle& nh);
   bool readRealtimeConfig(const ros::NodeHandle& nh);
   bool readIgnoreMismatch(const ros::NodeHandle& nh);
-  void readCollisionConfig(const ros::NodeHandle& nh);
+  bool readCollisionConfig(const ros::NodeHandle& nh);
   bool readLimits(size_t joint, joint_limits_interface::JointLimits& limits,
                   joint_limits_interface::SoftJointLimits& soft_limits) const;
   void readJointRanges();

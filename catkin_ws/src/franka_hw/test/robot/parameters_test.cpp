@@ -45,6 +45,12 @@ std::vector<Case> refusals() {
       {"robot_ip a number", with("robot_ip", 1.5), {"robot_ip", "is not a string"}},
       {"realtime_config", with("realtime_config", std::string("often")), {"'often'", "enforce"}},
       {"ignore_robot_mismatch", with("ignore_robot_mismatch", 1), {"mismatch' is not true or"}},
+      {"five thresholds",
+       with("collision_config/lower_torque_thresholds_nominal", std::vector<double>(5, 9.0)),
+       {"lower_torque_thresholds_nominal", "list of 7 numbers"}},
+      {"thresholds a string",
+       with("collision_config/upper_force_thresholds_acceleration", std::string("much")),
+       {"upper_force_thresholds_acceleration", "list of 6 numbers"}},
       {"no description",
        [](FakeArm& arm) { arm.nh.deleteParam("robot_description"); },
        {"robot_description", "launch file"}},
@@ -113,9 +119,9 @@ TEST(Parameters, CollisionThresholdsGoToTheRobot) {
   const std::vector<double> forces{11.0, 12.0, 13.0, 14.0, 15.0, 16.0};
   arm.robot_nh.setParam("collision_config/lower_torque_thresholds_nominal", torques);
   arm.robot_nh.setParam("collision_config/upper_force_thresholds_acceleration", forces);
-  // One has the wrong length, one the wrong type: the defaults are used, and a log line reports it.
-  arm.robot_nh.setParam("collision_config/upper_torque_thresholds_nominal", forces);
-  arm.robot_nh.setParam("collision_config/lower_force_thresholds_nominal", "much");
+  for (const char* name : {"upper_torque_thresholds_nominal", "lower_force_thresholds_nominal"}) {
+    arm.robot_nh.deleteParam(std::string("collision_config/") + name);  // the defaults are used
+  }
   FrankaHW robot;
   const LogCatcher log;
   ASSERT_TRUE(robot.init(arm.nh, arm.robot_nh));
