@@ -12,12 +12,13 @@
 #include <sys/mman.h>
 
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
+#include <cstring>
 #include <deque>
 #include <exception>
-#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -41,15 +42,25 @@ constexpr std::chrono::milliseconds kIdleInterval{10};
 
 void requestEnd(int /*signal*/) { end_requested = true; }
 
-// Gives the ticks priority over other processes, if the system allows it; otherwise their
-// punctuality depends on the load of the machine. Memory stays in place from its first use on:
+// Gives the ticks priority over other processes, or reports why the system does not allow it: their
+// punctuality then depends on the load of the machine. Memory stays in place from its first use on:
 // the ticks use the same pages again and again, and the rest of the libraries needs none.
 void preferThisThread() {
   constexpr int kPriority = 70;
   sched_param parameters{};
   parameters.sched_priority = kPriority;
-  if (sched_setscheduler(0, SCHED_FIFO, &parameters) == 0) {
-    mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT);
+  if (sched_setscheduler(0, SCHED_FIFO, &parameters) != 0) {
+    std::fprintf(
+        stderr,
+        "franka_sim: runs without real-time priority (SCHED_FIFO: %s), and may be late on "
+        "a busy machine. Allow your user one of %d (rtprio in /etc/security/limits.conf).\n",
+        std::strerror(errno), kPriority);
+  } else if (mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) != 0) {
+    std::fprintf(
+        stderr,
+        "franka_sim: its memory can be swapped out (mlockall: %s), and it may then be late. "
+        "Allow your user more (memlock in /etc/security/limits.conf).\n",
+        std::strerror(errno));
   }
 }
 
@@ -102,23 +113,8 @@ void serve(const Options& options) {
       robots.back()->serve(true);  // closes its ports before a client can connect
     }
   }
-  std::mutex mutex;
-  const bool viewed = options.viewer;
-  // Without a window only this thread uses the world.
-  const auto lock = [&mutex, viewed] {
-    return viewed ? std::unique_lock<std::mutex>(mutex) : std::unique_lock<std::mutex>();
-  };
   WorldWatch watch(world, robots);
-  fci::Host host(
-      [&watch, lock] {
-        const auto locked = lock();
-        watch.step();
-      },
-      options.pace,
-      [&world, lock] {
-        const auto locked = lock();
-        world.prepareStep();
-      });
+  fci::Host host([&watch] { watch.step(); }, options.pace, [&world] { world.prepareStep(); });
   host.setIdleInterval(kIdleInterval);
   std::atomic<bool> ended{false};
   Shutdown shutdown(end_requested, ended, std::chrono::duration<double>(options.linger), robots);
@@ -141,8 +137,8 @@ void serve(const Options& options) {
     host.add(desk.emplace(options));
   }
   std::optional<Viewer> viewer;
-  if (viewed) {
-    host.add(viewer.emplace(world, mutex, [&arms] {
+  if (options.viewer) {
+    host.add(viewer.emplace(world, [&arms] {
       std::vector<std::string> lines;
       for (ServedArm& arm : arms) {
         lines.push_back(conditionText(arm.options().arm_id, arm.robot().unit().state()));

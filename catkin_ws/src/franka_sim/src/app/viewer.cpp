@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "viewer.h"
 
-#include <franka_sim/physics/window.h>
-
 #include <chrono>
 #include <cstdio>
 #include <exception>
-#include <optional>
 #include <utility>
 
 namespace franka_sim {
@@ -16,8 +13,7 @@ namespace {
 constexpr std::chrono::milliseconds kFrame{33};
 }  // namespace
 
-Viewer::Viewer(World& world, std::mutex& mutex, Lines lines)
-    : world_(world), mutex_(mutex), lines_(std::move(lines)) {
+Viewer::Viewer(World& world, Lines lines) : world_(world), lines_(std::move(lines)) {
   std::promise<void> opened;
   std::future<void> open = opened.get_future();
   thread_ =
@@ -37,17 +33,19 @@ Viewer::~Viewer() {
 
 void Viewer::serve() {
   const auto now = std::chrono::steady_clock::now();
-  if (now >= next_texts_) {
-    next_texts_ = now + kFrame;
-    std::vector<std::string> texts = lines_();
-    const std::lock_guard<std::mutex> lock(texts_mutex_);
-    texts_ = std::move(texts);
+  if (closed_ || now < next_view_) {
+    return;
   }
-}
-
-std::vector<std::string> Viewer::copyOfTexts() {
-  const std::lock_guard<std::mutex> lock(texts_mutex_);
-  return texts_;
+  next_view_ = now + kFrame;
+  std::optional<BodyPush> pull;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    pull = pull_;
+  }
+  push_.act(world_, pull);
+  View view{captureScene(world_), lines_()};
+  const std::lock_guard<std::mutex> lock(mutex_);
+  view_ = std::move(view);
 }
 
 void Viewer::loop(std::promise<void> opened) {
@@ -61,21 +59,25 @@ void Viewer::loop(std::promise<void> opened) {
   opened.set_value();
   try {
     bool open = true;
-    PushByMouse push;
+    std::optional<View> shown;
     while (open && !stop_) {
       const auto next = std::chrono::steady_clock::now() + kFrame;
-      Scene scene;
       {
         const std::lock_guard<std::mutex> lock(mutex_);
-        push.act(world_, window->push());
-        scene = captureScene(world_);
+        if (view_) {
+          shown = std::exchange(view_, std::nullopt);
+        }
+        pull_ = window->push();
       }
-      open = window->draw(scene, copyOfTexts());
+      if (shown) {
+        open = window->draw(shown->scene, shown->texts);
+      }
       std::this_thread::sleep_until(next);
     }
   } catch (const std::exception& error) {
     std::fprintf(stderr, "franka_sim runs without its window: %s\n", error.what());
   }
+  closed_ = true;
 }
 
 }  // namespace franka_sim

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_sim/fci/host.h>
+#include <franka_sim/physics/window.h>
 #include <franka_sim/physics/world.h>
 
 #include <atomic>
@@ -10,6 +11,7 @@
 #include <functional>
 #include <future>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -17,36 +19,42 @@
 namespace franka_sim {
 
 /// A window with the world, in its own thread. If it is closed, the simulation continues. As a
-/// service of the host it copies the states of the robots' units, in the thread that runs them.
+/// service of the host it copies what the window shows, and pushes what the mouse pulls at, in the
+/// thread that runs the world.
 class Viewer final : public fci::Service {
  public:
   /// One line per robot for the user: its mode and errors.
   using Lines = std::function<std::vector<std::string>()>;
 
   /// Returns when the window is open.
-  /// @param mutex is held while the world is stepped, and by the viewer while it copies the state
-  /// or pushes a body.
-  /// @param lines called by the host's thread
+  /// @param world, lines used by the host's thread
   /// @throws std::runtime_error if there is no display
-  Viewer(World& world, std::mutex& mutex, Lines lines);
+  Viewer(World& world, Lines lines);
   ~Viewer() override;
   Viewer(const Viewer&) = delete;
   Viewer& operator=(const Viewer&) = delete;
 
   void serve() override;
+  bool idle() const override { return closed_; }
   void addDescriptors(std::vector<pollfd>&) const override {}
 
  private:
+  /// What a frame shows.
+  struct View {
+    Scene scene;
+    std::vector<std::string> texts;
+  };
+
   void loop(std::promise<void> opened);
-  std::vector<std::string> copyOfTexts();
 
   World& world_;
-  std::mutex& mutex_;
   Lines lines_;
-  std::chrono::steady_clock::time_point next_texts_;
-  std::mutex texts_mutex_;
-  std::vector<std::string> texts_;
-  std::atomic<bool> stop_{false};
+  PushByMouse push_;
+  std::chrono::steady_clock::time_point next_view_;
+  std::mutex mutex_;          ///< of the next two
+  std::optional<View> view_;  ///< not drawn yet
+  std::optional<BodyPush> pull_;
+  std::atomic<bool> stop_{false}, closed_{false};
   std::thread thread_;
 };
 
