@@ -122,7 +122,9 @@ void ServedRobot::offerSwitch(const std::string& name,
 void ServedRobot::offerSwitches() {
   offerSwitch("set_user_stop", franka_sim::setUserStop);
   offerSwitch("set_guiding", franka_sim::setGuiding);
-  offerSwitch("set_fci", franka_sim::setFci);
+  offer<std_srvs::SetBool>("set_fci", [this](auto& request, auto& /*response*/) {
+    franka_sim::setFci(robot_, request.data != 0);
+  });
   offerSwitch("set_brakes", franka_sim::setBrakes);
 }
 

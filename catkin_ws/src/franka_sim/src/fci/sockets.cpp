@@ -125,9 +125,16 @@ void Listener::close() noexcept {
 
 bool Listener::open() noexcept {
   if (!open_) {
-    // Fails if the socket still has its name, as it does unless the system chose it.
+    // Fails if the socket still has its name, as it does unless the system chose it; or if another
+    // program has it: then the socket listens at any other port.
     ::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&name_), sizeof(name_));
     open_ = ::listen(socket_.get(), kBacklog) == 0;
+    sockaddr_in now{};
+    socklen_t size = sizeof(now);
+    ::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&now), &size);
+    if (open_ && now.sin_port != name_.sin_port) {
+      close();
+    }
   }
   return open_;
 }

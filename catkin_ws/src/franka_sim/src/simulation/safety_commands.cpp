@@ -123,8 +123,7 @@ void addBrakes(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
 void addFci(LineServer& lines, fci::SimRobot& robot) {
   SafetyController& safety = robot.whole().safety();
   lines.add("fci on|off", [&](const Words& words) {
-    setFci(robot.whole(), toSwitch(words.at(0)));
-    robot.serve(true);  // the port opens or closes before the answer is sent
+    setFci(robot, toSwitch(words.at(0)));
     return "";
   });
   lines.add("operating_mode execution|programming", [&](const Words& words) {
@@ -325,11 +324,19 @@ void setBrakes(WholeRobot& robot, bool closed) {
   }
 }
 
-void setFci(WholeRobot& robot, bool active) {
+void setFci(fci::SimRobot& robot, bool active) {
+  SafetyController& safety = robot.whole().safety();
   if (active) {
-    require(robot.safety().activateFci());
+    require(safety.activateFci());
   } else {
-    robot.safety().deactivateFci();
+    safety.deactivateFci();
+  }
+  robot.serve(true);  // the port opens or closes before the answer is sent
+  if (active && !robot.server().isOpen()) {
+    safety.deactivateFci();
+    throw std::runtime_error("The FCI stays off, because its port " +
+                             std::to_string(robot.server().port()) +
+                             " cannot be opened: another program has taken it. End that program.");
   }
 }
 

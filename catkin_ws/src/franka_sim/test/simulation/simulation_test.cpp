@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Robots that a program drives in its own process: commands, laws, refusals, resets.
 #include <franka_core/robot_error.h>
+#include <franka_sim/fci/serving.h>
+#include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/simulation/operator_commands.h>
 #include <franka_sim/simulation/simulation.h>
 #include <gtest/gtest.h>
 #include <rt_guard/rt_guard.h>
@@ -9,8 +12,10 @@
 #include <algorithm>
 #include <cmath>
 #include <memory>
+#include <string>
 
 #include "../physics/test_support.h"
+#include "../robot/arm_fixture.h"
 
 namespace franka_sim::test {
 namespace {
@@ -47,6 +52,28 @@ class SimulationTest : public ::testing::TestWithParam<const char*> {
   }
   SimulatedRobot& arm(Simulation& simulation) const { return simulation.robot(GetParam()); }
 };
+
+/// A robot whose ports the system has chosen.
+TEST(OperatorSwitches, FciStaysOffWhileAnotherProgramHasItsPort) {
+  const franka_core::ArmModel model = pandaModel();
+  FakeArm arm(model, kReady);
+  ControlUnitParameters unit = pandaWithHand();
+  unit.rules = InterfaceRules::kFci;
+  fci::RobotServerParameters server = fci::servedAt("127.0.0.1", {6, 10}, pandaModel());
+  server.port = 0;
+  fci::SimRobot robot(unit, arm, server, std::nullopt);
+  robot.observe();
+  setFci(robot, false);
+  EXPECT_FALSE(robot.server().isOpen());
+  {
+    const fci::Listener other("127.0.0.1", robot.server().port());
+    expectSentence([&] { setFci(robot, true); },
+                   {"port", std::to_string(robot.server().port()).c_str()});
+    EXPECT_FALSE(robot.unit().status().fci_active);
+  }
+  setFci(robot, true);
+  EXPECT_TRUE(robot.server().isOpen());
+}
 
 INSTANTIATE_TEST_SUITE_P(Robots, SimulationTest, ::testing::Values("panda", "fr3"),
                          [](const auto& param) { return std::string(param.param); });

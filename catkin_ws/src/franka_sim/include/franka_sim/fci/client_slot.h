@@ -78,6 +78,7 @@ class ClientSlot {
   void drop() noexcept;
 
   /// Whether new connections are accepted; when closed, the port refuses. The present client stays.
+  bool isOpen() const noexcept { return listener_.isOpen(); }
   void setOpen(bool open) noexcept {
     open ? static_cast<void>(listener_.open()) : listener_.close();
   }

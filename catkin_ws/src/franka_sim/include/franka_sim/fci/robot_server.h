@@ -50,6 +50,8 @@ class RobotServer {
   ~RobotServer();
 
   std::uint16_t port() const noexcept { return slot_.port(); }
+  /// Whether clients can connect, since the last serve().
+  bool isOpen() const noexcept { return slot_.isOpen(); }
   bool hasClient() const noexcept { return version_ != 0; }
   bool idle() const noexcept { return slot_.idle(); }
   /// See ClientSlot::onRefusal.

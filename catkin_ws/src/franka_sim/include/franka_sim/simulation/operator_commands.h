@@ -30,12 +30,13 @@ void addOperatorCommands(fci::LineServer& lines, const OperatorContext& context)
 
 /// @name The switches of the operator
 /// By the rules that the robot has (SafetyRules).
-/// @throws std::runtime_error "CODE: Sentence." if a rule refuses it
+/// @throws std::runtime_error "CODE: Sentence." if a rule refuses it; setFci also when the port
+/// cannot be opened
 /// @{
 void setUserStop(WholeRobot& robot, bool pressed);
 void setGuiding(WholeRobot& robot, bool active);
 void setBrakes(WholeRobot& robot, bool closed);
-void setFci(WholeRobot& robot, bool active);
+void setFci(fci::SimRobot& robot, bool active);
 /// @}
 
 /// The line `reset` of a world in which all robots are served.
