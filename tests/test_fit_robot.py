@@ -23,6 +23,7 @@ HIDDEN = {
         "offset": [0, 0, 0, 0, 0, 0, 0],
         "viscous": [0.3, 0.2, 0.25, 0.3, 0.2, 0.15, 0.1],
         "coulomb": [0.5, 0.6, 0.7, 0.8, 0.4, 0.2, 0.15],
+        "damping": [0.3, 0.1, 0.2, 0.4, 0.25, 0.2, 0.1],
     },
     "torque_offset": [0.2, -0.3, 0.1, 0.25, -0.1, 0.05, -0.04],
     "payload": {"mass": 0.35, "centre": [0.02, -0.01, 0.08]},
@@ -43,6 +44,12 @@ def friction_at(robot, speed):
         np.array(robot["friction"][key]) for key in ("amplitude", "slope", "viscous")
     )
     return amplitude * (1 / (1 + np.exp(-slope * speed)) - 0.5) + viscous * speed
+
+
+def motor_friction_at(robot, speed):
+    """Of the motor side, joints 1 to 7 [Nm]."""
+    coulomb, damping = (np.array(robot["friction"][key]) for key in ("coulomb", "damping"))
+    return coulomb * np.sign(speed) + damping * speed
 
 
 def fit_module():
@@ -72,6 +79,7 @@ def test_the_fit_finds_hidden_friction_and_payload(robot, seed, tmp_path):
     print(found)
     for speed in (0.1, 0.3, -0.3):
         assert friction_at(found, speed) == pytest.approx(friction_at(HIDDEN, speed), rel=0.1)
+        assert motor_friction_at(found, speed) == pytest.approx(motor_friction_at(HIDDEN, speed), rel=0.1)
     assert found["friction"]["coulomb"] == pytest.approx(HIDDEN["friction"]["coulomb"], rel=0.1)
     assert found["payload"]["mass"] == pytest.approx(HIDDEN["payload"]["mass"], abs=0.02)
     assert found["payload"]["centre"] == pytest.approx(HIDDEN["payload"]["centre"], abs=0.02)
