@@ -39,6 +39,7 @@ ORIGINAL = "under the names and for the callers of the original"
 LEFT_OUT = {
     "pyfranka.franka_plot": PROGRAM,
     "pyfranka.run": PROGRAM,
+    "pyfranka.command_line": INSIDE,
     "pyfranka.refusals": INSIDE,
     "controller_manager": ORIGINAL,
     "controller_manager_msgs": ORIGINAL,

@@ -25,7 +25,7 @@ if ! command -v setarch >/dev/null; then
 fi
 
 # The headers of every workspace on the prefix path, and of the neighbours in the source tree.
-includes="-I$package/include"
+includes="-I$package/include -I$package/../../../../tests/include"
 for neighbour in boost_bind_compat hardware_interface controller_interface; do
   includes="$includes -I$package/../$neighbour/include"
 done
