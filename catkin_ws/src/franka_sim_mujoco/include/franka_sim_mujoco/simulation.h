@@ -119,9 +119,10 @@ class Simulation {
   double timeTicks(std::uint32_t ticks);
   void standStill();
   void finishStepping();
-  /// Reports faults of the world; one that has stopped pauses the simulation.
+  /// Of an object that a URDF describes.
   void placeJoints(const SpawnOrder& order);
   void reportWarnings();
+  /// Reports faults of the world; one that has stopped pauses the simulation.
   void watchWorld();
   /// @throws std::runtime_error with a sentence if the world has stopped
   void requireRunningWorld() const;
