@@ -136,6 +136,26 @@ def test_a_signal_ends_command_and_robot():
     assert process.returncode == 128 + signal.SIGTERM and "ended by SIGTERM" in output
 
 
+SIGNALLED_WHILE_STARTING = """
+import os, signal, subprocess, sys
+from pyfranka import run
+
+class Popen(subprocess.Popen):
+    def __init__(self, words, **options):
+        super().__init__(words, **options)
+        if words[0] == "sleep":
+            os.kill(os.getpid(), signal.SIGTERM)
+
+subprocess.Popen = Popen
+sys.exit(run.main(["--", "sleep", "1000"]))
+"""
+
+
+def test_a_signal_while_the_command_starts_ends_it():
+    done = subprocess.run([sys.executable, "-c", SIGNALLED_WHILE_STARTING], timeout=60, check=False)
+    assert done.returncode == 128 + signal.SIGTERM
+
+
 # ---- roslaunch -------------------------------------------------------------------------------------------
 
 

@@ -27,8 +27,8 @@ import sys
 import tempfile
 import time
 import types
-from collections.abc import Sequence
-from contextlib import suppress
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from pyfranka.command_line import Parser
@@ -55,6 +55,20 @@ class Interrupted(Exception):
     def __init__(self, number: int):
         super().__init__(number)
         self.number = number
+
+
+@contextmanager
+def held() -> Iterator[None]:
+    """Signals that end this program wait for the end of the block: what it starts is known by then."""
+    received: list[int] = []
+    before = {each: signal.signal(each, lambda number, _: received.append(number)) for each in ENDING}
+    try:
+        yield
+    finally:
+        for each, handler in before.items():
+            signal.signal(each, handler)
+    if received and callable(handler := before[signal.Signals(received[0])]):
+        handler(received[0], None)
 
 
 class ServedRobot:
@@ -108,18 +122,21 @@ class LaunchedRobot:
         }
         self.name = options.launch
         self._log = tempfile.TemporaryFile(prefix="roslaunch.")
-        self._process = subprocess.Popen(
-            ["roslaunch", f"--port={port}", *shlex.split(options.launch)],
-            env={**os.environ, **self.variables},
-            stdin=subprocess.DEVNULL,
-            stdout=self._log,
-            stderr=subprocess.STDOUT,
-            process_group=0,
-        )
+        started = None
         try:
+            with held():
+                started = self._process = subprocess.Popen(
+                    ["roslaunch", f"--port={port}", *shlex.split(options.launch)],
+                    env={**os.environ, **self.variables},
+                    stdin=subprocess.DEVNULL,
+                    stdout=self._log,
+                    stderr=subprocess.STDOUT,
+                    process_group=0,
+                )
             self._wait_for(options.ready_topic, options.start_timeout)
         except BaseException:
-            end_group(self._process, signal.SIGINT)
+            if started is not None:
+                end_group(started, signal.SIGINT)
             raise
 
     def log(self) -> str:
@@ -142,7 +159,8 @@ class LaunchedRobot:
                     raise RobotError(f"{last_lines(self.log())}\n{message}")
                 # Ends at once while there is no master yet.
                 if listener is None or listener.poll() not in (None, 0):
-                    listener = self._listener(topic)
+                    with held():
+                        listener = self._listener(topic)
                 elif listener.poll() == 0:
                     return
                 time.sleep(PAUSE)
@@ -188,24 +206,25 @@ def end_group(process: subprocess.Popen, number: int) -> None:
 
 def run_command(words: Sequence[str], variables: dict[str, str], seconds: float) -> int:
     """Runs the user's command; returns the status for our own exit."""
+    process = None
     try:
-        process = subprocess.Popen(
-            words, env={**os.environ, **variables}, stdin=subprocess.DEVNULL, process_group=0
-        )
+        with held():
+            process = subprocess.Popen(
+                words, env={**os.environ, **variables}, stdin=subprocess.DEVNULL, process_group=0
+            )
+        code = process.wait(seconds or None)
     except FileNotFoundError:
         say(f"there is no program {words[0]}.")
         return NOT_FOUND
     except OSError as error:
         say(f"{words[0]} cannot be run: {error.strerror}.")
         return NOT_RUN
-    try:
-        code = process.wait(seconds or None)
     except subprocess.TimeoutExpired:
         say(f"the command did not end within {seconds:g} s.")
         return TIMED_OUT
     finally:
-        # Also what the command has left running.
-        end_group(process, signal.SIGTERM)
+        if process is not None:  # also what the command has left running
+            end_group(process, signal.SIGTERM)
     return code if code >= 0 else SIGNALLED - code
 
 
@@ -218,7 +237,11 @@ def with_robot(options: argparse.Namespace) -> int:
     robot = None
     status = NO_ROBOT
     try:
-        robot = LaunchedRobot(options) if options.launch else ServedRobot(options)
+        if options.launch:
+            robot = LaunchedRobot(options)
+        else:
+            with held():
+                robot = ServedRobot(options)
         say(f"the robot is ready: {robot.name}")
         status = run_command(options.command, robot.variables, options.timeout)
         if message := robot.ended():
