@@ -71,8 +71,9 @@ def test_all_modules_can_be_imported_with_optimization(options):
     code = (
         "import importlib, pkgutil, pyfranka\n"
         "for module in pkgutil.walk_packages(pyfranka.__path__, 'pyfranka.'):\n"
-        "    importlib.import_module(module.name)\n"
-        "print(pyfranka.sim.Simulation().add('fr3').q)"
+        "    if not module.name.endswith('__main__'):\n"
+        "        importlib.import_module(module.name)\n"
+        "pyfranka.sim.Simulation(robots=[pyfranka.sim.FR3()]).step()"
     )
     done = subprocess.run([sys.executable, *options, "-c", code], text=True, capture_output=True, timeout=120)
     assert done.returncode == 0, done.stderr

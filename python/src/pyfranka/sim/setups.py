@@ -103,8 +103,7 @@ class _Setup:
 class Panda(_Setup):
     """A Panda to add to a world."""
 
-    if _Setup.__doc__:  # not under python -OO
-        __doc__ += _Setup.__doc__.partition("\n")[2]
+    __doc__ = (__doc__ or "") + _Setup.__doc__.partition("\n")[2]  # none under python -OO
     kind: typing.ClassVar[str] = "panda"
 
 
@@ -112,8 +111,7 @@ class Panda(_Setup):
 class FR3(_Setup):
     """An FR3 to add to a world."""
 
-    if _Setup.__doc__:  # not under python -OO
-        __doc__ += _Setup.__doc__.partition("\n")[2]
+    __doc__ = (__doc__ or "") + _Setup.__doc__.partition("\n")[2]  # none under python -OO
     kind: typing.ClassVar[str] = "fr3"
 
 

@@ -13,8 +13,6 @@ namespace franka_sim {
 namespace physics {
 namespace {
 
-using tinyxml2::XMLElement;
-
 class SceneBuilder {
  public:
   SceneBuilder(const UrdfRobot& urdf, const std::string& name, const ResourceResolver& resolve)
@@ -56,7 +54,7 @@ class SceneBuilder {
     scene_.links.push_back(std::move(result));
     scene_.models.front().links.push_back(own);
     for (const CameraSensor& camera : link.cameras) {
-      scene_.cameras.push_back({camera, own});
+      scene_.cameras.emplace_back(camera, own);
     }
     for (const int child : link.child_joints) {
       addJoint(urdf_.joints[child], own, pose);
