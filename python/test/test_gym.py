@@ -362,7 +362,7 @@ def test_worlds_of_a_vector_equal_single_environments(randomize):
         for row, observation in zip(rows, single, strict=True):
             assert same({name: values[i] for name, values in row.items()}, observation)
         env.close()
-    assert same(vector.reset(seed=10)[0], rows[0]), "a seed begins again"
+    assert same(vector.reset(seed=10)[0], rows[0]), "the same seed, the same episodes"
     loads = {float(each.robots[0].state.m_load) for each in vector.unwrapped.episodes}
     assert len(loads) == (3 if randomize else 1)
     vector.close()

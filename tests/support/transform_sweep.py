@@ -49,6 +49,7 @@ def check(
     """Sends every perturbed matrix through an entrance.
 
     @param refusal returns the entrance's message if it refuses a matrix, else "" @param because a part of it
+    @param exponents of ten, of the errors
     """
     disagreeing = []
     for perturbed in perturbations(matrix, exponents):

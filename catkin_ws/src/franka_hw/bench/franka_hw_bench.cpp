@@ -53,7 +53,8 @@ void switchToFirstCommand(benchmark::State& state) {
   for (auto _ : state) {
     const auto begin = Clock::now();
     loop.switchTo({"JV"}, {"JP"});
-    franka_hw_test::eventually([&] { return arm.robot.state().dq_d[0] == 0.001; });
+    franka_hw_test::eventually([&] { return arm.robot.state().dq_d[0] == 0.001; },
+                               std::chrono::microseconds(200));
     milliseconds.push_back(std::chrono::duration<double, std::milli>(Clock::now() - begin).count());
     state.SetIterationTime(milliseconds.back() * 1e-3);
     loop.switchTo({"JP"}, {"JV"});

@@ -101,7 +101,7 @@ def lift_to(robot, height):
     )
 
 
-def gives(states):
+def largest_yield(states):
     """How far the arm's joints, held by springs, yield at most when the lift starts and stops [rad]: until
     the springs hold the kinetic energy of the whole load at the lift's speed. Then they return."""
     weakest = 2000.0  # [Nm/rad], of the joints' default stiffness
@@ -127,7 +127,7 @@ def test_the_lift_raises_the_arm_within_its_speed_limit(robot, arm):
     base = call("/gazebo/get_body_pose", GetBodyPose, body="panda_link0").pose
     assert base.position.z == pytest.approx(0.2 + 0.3, abs=2e-4)
     for state in arm[arm.index(before) :]:
-        assert np.abs(np.array(state.q) - before.q).max() < gives(states)
+        assert np.abs(np.array(state.q) - before.q).max() < largest_yield(states)
         assert state.current_errors == type(state.current_errors)()
     robot.when(lambda _: np.abs(np.array(arm[-1].q) - before.q).max() < 1e-3, "The arm to stand again")
 
@@ -154,7 +154,7 @@ def test_an_arm_controller_runs_beside_the_lift(robot, arm):
     assert len(states) > 10
     # The control unit does not know the lift's accelerations at start and stop.
     deviations = [np.abs(np.array(state.q) - state.q_d).max() for state in states]
-    assert max(deviations) < gives(moves) and np.median(deviations) < 1e-3
+    assert max(deviations) < largest_yield(moves) and np.median(deviations) < 1e-3
     # It reports them as external forces, at least at the end; at rest it reports 1e-6 N.
     assert max(abs(state.O_F_ext_hat_K[2]) for state in states) > 1e-3
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/camera_sensor.h"
 
+#include <franka_sim/physics/renderer.h>
+
 #include <cmath>
 #include <stdexcept>
 
@@ -14,13 +16,13 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-constexpr double kMaxEdge = 4096;  ///< [pixel], of what the renderer draws
-
 int readEdge(const XMLElement& image, const char* name, int fallback, const std::string& camera) {
   const double edge = childNumbers(image, name, {static_cast<double>(fallback)}, camera)[0];
-  if (!(edge >= 1 && edge <= kMaxEdge) || edge != std::floor(edge)) {
+  constexpr int kMax = Renderer::kMaxPictureSide;
+  if (!(edge >= 1 && edge <= kMax) || edge != std::floor(edge)) {
     throw std::runtime_error(camera + ": the " + name + " of its image is " + toText({edge}) +
-                             "; it must be a whole number of pixels from 1 to 4096.");
+                             "; it must be a whole number of pixels from 1 to " +
+                             std::to_string(kMax) + ".");
   }
   return static_cast<int>(edge);
 }

@@ -193,10 +193,15 @@ std::unique_ptr<GlContext> attempt(const char* name, std::string* problems) {
 /// Drivers, and MuJoCo's table of their functions, are used by one thread at a time.
 std::mutex gl_mutex;
 
+/// In a forked process another thread may have held the mutex, which nobody releases there.
+std::unique_lock<std::mutex> lockGl() {
+  requireGlProcess();
+  return std::unique_lock<std::mutex>(gl_mutex);
+}
+
 }  // namespace
 
-CurrentContext::CurrentContext(GlContext& context)
-    : lock_((requireGlProcess(), gl_mutex)), context_(context) {
+CurrentContext::CurrentContext(GlContext& context) : lock_(lockGl()), context_(context) {
   context_.makeCurrent();
 }
 CurrentContext::~CurrentContext() { context_.release(); }

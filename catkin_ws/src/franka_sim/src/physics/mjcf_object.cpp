@@ -161,12 +161,10 @@ void readMjcf(const std::string& text, double angle_unit, const std::string& tit
     scaleAngles(root, own_unit / angle_unit, title);
   }
   makeFilesAbsolute(root, "");
-  XMLElement* compiler = root->FirstChildElement("compiler");
-  while (compiler != nullptr) {
-    root->DeleteChild(compiler);
-    compiler = root->FirstChildElement("compiler");
+  while (XMLElement* own = root->FirstChildElement("compiler")) {
+    root->DeleteChild(own);
   }
-  compiler = append(root, "compiler");
+  XMLElement* compiler = append(root, "compiler");
   compiler->SetAttribute("angle", angle_unit == 1 ? "radian" : "degree");
   compiler->SetAttribute("autolimits", "true");
   int bodies = 0, geoms = 0;

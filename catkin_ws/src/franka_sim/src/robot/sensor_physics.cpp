@@ -32,9 +32,11 @@ std::array<double, 7> SensorNoise::torques(const std::array<double, 7>& tau_J,
   std::array<double, 7> reading = noisy(tau_J, physics_.tau_J_noise);
   ticks_++;
   for (std::size_t i = 0; i < 7; i++) {
-    const double moves = std::min(1.0, std::abs(dq[i]) / kFullRipple);
-    const double turns = physics_.ripple_frequency[i] * kTick * static_cast<double>(ticks_);
-    reading[i] += kPeakOfRms * physics_.tau_J_ripple[i] * moves * std::sin(kTurn * turns);
+    if (physics_.tau_J_ripple[i] > 0.0) {
+      const double moves = std::min(1.0, std::abs(dq[i]) / kFullRipple);
+      const double turns = physics_.ripple_frequency[i] * kTick * static_cast<double>(ticks_);
+      reading[i] += kPeakOfRms * physics_.tau_J_ripple[i] * moves * std::sin(kTurn * turns);
+    }
     const double resolution = physics_.tau_J_resolution[i];
     if (resolution > 0.0) {
       reading[i] = resolution * std::round(reading[i] / resolution);

@@ -8,10 +8,10 @@ import sys
 import time
 
 import rospy
+from controller_manager.command_line import Parser
 from geometry_msgs.msg import Pose, Quaternion, Vector3
 from std_srvs.srv import Empty
 
-from franka_sim_mujoco.command_line import Parser
 from franka_sim_mujoco.srv import (
     DeleteObject,
     DeleteRobot,

@@ -90,10 +90,14 @@ class Managed : public testing::Test {
     auto answer = std::async(std::launch::async, [&] {
       return manager_.switchController(start, stop, kStrict, false, 60.0);
     });
-    const auto is_ready = [&] {
-      return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
-    };
-    EXPECT_TRUE(ros_test::eventually([&] { return is_ready() || (during(), step(), false); }));
+    EXPECT_TRUE(ros_test::eventually([&] {
+      if (answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
+        return true;
+      }
+      during();
+      step();
+      return false;
+    }));
     return answer.get();
   }
   bool switched(const Names& start, const Names& stop) {

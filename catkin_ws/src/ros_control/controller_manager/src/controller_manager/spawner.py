@@ -2,10 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Loads controllers, starts them, and unloads them when the spawner exits."""
 
-import argparse
 import contextlib
 import os
-import re
 import socket
 import time
 
@@ -24,6 +22,7 @@ from controller_manager_msgs.srv import (
 from rosgraph_msgs.msg import Clock
 from std_msgs.msg import Bool
 
+from controller_manager.command_line import Parser
 from controller_manager.ending import POLL_PERIOD, Ended, Ending
 
 DEFAULT_TIMEOUT = 30.0  # [s]
@@ -44,7 +43,7 @@ class SpawnerError(Exception):
 
 
 def parse_arguments(arguments):
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="spawner",
         description="Loads and starts controllers, and stops and unloads them when it is ended.",
     )
@@ -63,8 +62,6 @@ def parse_arguments(arguments):
         "limit, as a paused simulation may stay so for long",
     )
     parser.add_argument("--namespace", metavar="NS", default="", help="namespace of the controller manager")
-    # Also -1e-05, -1. and -inf are numbers, not options.
-    parser._negative_number_matcher = re.compile(r"-(\d.*|\.\d.*|inf|infinity)$")
     timeouts = parser.add_mutually_exclusive_group()
     timeouts.add_argument(
         "--timeout",

@@ -8,8 +8,9 @@
 
 namespace franka_sim {
 
-/// The highest rate of this tick from which a decrease by `step` per tick ends after `distance`: of
-/// a position's velocity, or of a velocity's deceleration. None is negative. Real-time safe.
+/// The highest rate of change in this tick from which the value still stops after `distance`, if
+/// the rate decreases by `step` per tick: a velocity for a position, a deceleration for a velocity.
+/// @param distance, step not negative. Real-time safe.
 double landingRate(double distance, double step) noexcept;
 
 /// Brings a desired motion to rest, each joint alone at its full acceleration and with its jerk
