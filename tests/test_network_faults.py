@@ -58,9 +58,11 @@ def wait_for_mode(fixture, mode: str) -> None:
 
 
 def reconnect_after_error(fixture):
+    """The old connection may still hold states of the motion, whatever ended it."""
     wait_for(lambda: fixture.sim.remote.state().mode != "Move", "The end of the motion")
+    fixture.proxy.set()
+    assert fixture.client.run_task("connect", address=fixture.proxy.address)["outcome"] == "ok"
     if fixture.sim.remote.state().mode == "Reflex":
-        assert fixture.client.run_task("connect", address=fixture.proxy.address)["outcome"] == "ok"
         fixture.client.run_task("recover")
 
 

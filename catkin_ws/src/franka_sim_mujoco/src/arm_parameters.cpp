@@ -195,11 +195,12 @@ std::string gainsWithoutEffect(const ros::NodeHandle& node, const std::string& a
 franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
                                                     const RobotHandle& robot,
                                                     const urdf::Model& model,
-                                                    const std::string& arm_id) {
+                                                    const SimulatedArm& arm) {
+  const std::string& arm_id = arm.arm_id;
   franka_sim::ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(robot.urdf, arm_id)};
-  parameters.protocol_version = franka_sim::protocolsOf(robot.robot_type).newest;
+  parameters.protocol_version = franka_sim::protocolsOf(arm.type).newest;
   parameters.has_hand = robot.world->hasHand(robot.name, arm_id);
-  franka_sim::applyPhysics(robot.arm_physics, parameters);
+  franka_sim::applyPhysics(arm.physics, parameters);
   parameters.gravity = gravityInBase(*robot.world, arm_id + "_link0");
   readArray(node, "gravity_vector", parameters.gravity);
 

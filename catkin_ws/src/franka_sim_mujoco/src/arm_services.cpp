@@ -124,12 +124,14 @@ class UnitSetters {
 
 }  // namespace
 
-ArmServices::ArmServices(const ros::NodeHandle& node, const std::string& arm_id, SimArm& arm,
+ArmServices::ArmServices(const ros::NodeHandle& node, const SimulatedArm& described, SimArm& arm,
                          BetweenTicks between_ticks, PlaceJoint place_joint,
                          bool restart_controllers)
-    : node_(node),
-      control_node_(node, "franka_control"),
-      arm_id_(arm_id),
+    : robot_node_(node),
+      arm_node_(node, described.service_namespace),
+      control_node_(arm_node_, "franka_control"),
+      arm_id_(described.arm_id),
+      is_only_arm_(described.service_namespace.empty()),
       arm_(arm),
       between_ticks_(std::move(between_ticks)),
       place_joint_(std::move(place_joint)),
@@ -219,7 +221,7 @@ void ArmServices::offerConnection(const std::string& name, bool connects) {
 // --- another configuration of the joints ---------------------------------------------------------
 
 void ArmServices::offerConfiguration() {
-  offer<franka_msgs::SetJointConfiguration>(node_, "set_franka_model_configuration",
+  offer<franka_msgs::SetJointConfiguration>(arm_node_, "set_franka_model_configuration",
                                             [this](const auto& request) { placeJoints(request); });
 }
 
@@ -309,7 +311,7 @@ bool ArmServices::recovering() {
 }
 
 std::vector<std::string> ArmServices::runningArmControllers() {
-  const std::string service = node_.resolveName("controller_manager/list_controllers");
+  const std::string service = robot_node_.resolveName("controller_manager/list_controllers");
   controller_manager_msgs::ListControllers list;
   // waitForService would sleep in simulated time, without an end while the simulation is paused.
   if (!ros::service::exists(service, false) || !ros::service::call(service, list)) {
@@ -337,10 +339,21 @@ void ArmServices::restartArmControllers() {
   if (names.empty()) {
     return;
   }
-  const std::string service = node_.resolveName("controller_manager/switch_controller");
+  if (is_only_arm_) {
+    switchControllers(names, names);
+  } else {
+    // A restart in one step does not tell the hardware whose controllers they are.
+    switchControllers({}, names);
+    switchControllers(names, {});
+  }
+}
+
+void ArmServices::switchControllers(const std::vector<std::string>& start,
+                                    const std::vector<std::string>& stop) {
+  const std::string service = robot_node_.resolveName("controller_manager/switch_controller");
   controller_manager_msgs::SwitchController restart;
-  restart.request.start_controllers = names;
-  restart.request.stop_controllers = names;
+  restart.request.start_controllers = start;
+  restart.request.stop_controllers = stop;
   restart.request.strictness = controller_manager_msgs::SwitchController::Request::STRICT;
   restart.request.start_asap = true;
   restart.request.timeout = kSwitchTimeout;

@@ -119,14 +119,14 @@ std::string describe(const SimArm::Abort& abort) {
 FrankaHWSim::FrankaHWSim() = default;
 FrankaHWSim::~FrankaHWSim() = default;
 
-bool FrankaHWSim::initSim(const std::string& robot_namespace, ros::NodeHandle model_nh,
+bool FrankaHWSim::initSim(const std::string& /*robot_namespace*/, ros::NodeHandle model_nh,
                           RobotHandle robot, const urdf::Model* urdf_model,
                           std::vector<TransmissionInfo> transmissions) {
   try {
-    if (robot.world == nullptr || urdf_model == nullptr) {
-      throw std::invalid_argument("it was given no world or no robot model");
+    if (robot.world == nullptr || urdf_model == nullptr || robot.arms.size() != 1) {
+      throw std::invalid_argument("it was given no world, no robot model or not one arm");
     }
-    arm_id_ = readArmId(model_nh, robot_namespace, robot.name);
+    arm_id_ = robot.arms.front().arm_id;
     start(model_nh, robot, *urdf_model, transmissions);
     return true;
   } catch (...) {
@@ -141,7 +141,8 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
   franka_sim::World& world = *robot.world;
   const bool has_hand = world.hasHand(robot.name, arm_id_);
   nameJoints(model, has_hand);
-  franka_sim::ControlUnitParameters parameters = readArmParameters(node, robot, model, arm_id_);
+  franka_sim::ControlUnitParameters parameters =
+      readArmParameters(node, robot, model, robot.arms.front());
   parameters.rules = readBool(node, "reflexes").value_or(false)
                          ? franka_sim::InterfaceRules::kRosControlWithReflexes
                          : franka_sim::InterfaceRules::kRosControl;
@@ -169,8 +170,8 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
     }
     world.setJointPosition(joint, position);
   };
-  services_ = std::make_unique<ArmServices>(node, arm_id_, *arm_, robot.between_ticks, place_joint,
-                                            restart_controllers);
+  services_ = std::make_unique<ArmServices>(node, robot.arms.front(), *arm_, robot.between_ticks,
+                                            place_joint, restart_controllers);
   initialized_ = std::make_unique<realtime_tools::RealtimePublisher<std_msgs::Bool>>(
       node, "initialized", 1, true);
   publishInitialized(false);

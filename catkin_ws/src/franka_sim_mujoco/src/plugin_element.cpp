@@ -61,23 +61,33 @@ std::vector<PluginElement> readElements(const XMLElement& robot) {
   return elements;
 }
 
-/// Two arms in one robot would share one state, model and hand.
-void checkArms(const XMLElement& robot) {
-  std::string first;
+/// The arm_id of each transmission of the type franka_hw/FrankaStateInterface.
+std::vector<std::string> armsIn(const XMLElement& robot) {
+  constexpr char kFirstJoint[] = "_joint1";
+  constexpr std::size_t kLength = sizeof(kFirstJoint) - 1;
+  std::vector<std::string> arms;
   for (const auto* transmission = robot.FirstChildElement("transmission"); transmission != nullptr;
        transmission = transmission->NextSiblingElement("transmission")) {
     if (childText(*transmission, "type") != "franka_hw/FrankaStateInterface") {
       continue;
     }
-    const std::string name = attributeText(*transmission, "name");
-    if (!first.empty()) {
-      throw std::runtime_error("The robot description has several arms, with the transmissions '" +
-                               first + "' and '" + name +
-                               "' (franka_hw/FrankaStateInterface). A robot has one: give each arm "
-                               "a description of its own, and spawn each in its own namespace.");
+    for (const auto* joint = transmission->FirstChildElement("joint"); joint != nullptr;
+         joint = joint->NextSiblingElement("joint")) {
+      const std::string name = attributeText(*joint, "name");
+      if (name.size() <= kLength || name.substr(name.size() - kLength) != kFirstJoint) {
+        continue;
+      }
+      const std::string arm_id = name.substr(0, name.size() - kLength);
+      if (std::find(arms.begin(), arms.end(), arm_id) != arms.end()) {
+        throw std::runtime_error(
+            "The robot description has two transmissions of the type "
+            "franka_hw/FrankaStateInterface for the arm '" +
+            arm_id + "'.");
+      }
+      arms.push_back(arm_id);
     }
-    first = name;
   }
+  return arms;
 }
 
 bool isOfArm(const PluginElement& plugin) {
@@ -101,13 +111,15 @@ PluginElement readPluginElement(const std::string& urdf, const std::string& spaw
     throw std::runtime_error("The robot description is not XML: " +
                              std::string(document.ErrorStr()));
   }
-  checkArms(*document.RootElement());
   const std::vector<PluginElement> elements = readElements(*document.RootElement());
   if (elements.empty()) {
     return {};
   }
   const auto of_arm = std::find_if(elements.begin(), elements.end(), isOfArm);
-  const PluginElement& chosen = of_arm != elements.end() ? *of_arm : elements.front();
+  PluginElement chosen = of_arm != elements.end() ? *of_arm : elements.front();
+  if (isOfArm(chosen)) {
+    chosen.arms = armsIn(*document.RootElement());
+  }
   const std::string chosen_namespace = namespaceOf(chosen, spawn_namespace);
   for (const PluginElement& other : elements) {
     const std::string other_namespace = namespaceOf(other, spawn_namespace);

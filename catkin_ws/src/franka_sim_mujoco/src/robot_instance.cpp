@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/physics/urdf_text.h>
 #include <franka_sim/robot/condition_text.h>
+#include <franka_sim_mujoco/combined_hw_sim.h>
 #include <franka_sim_mujoco/exception_text.h>
 #include <franka_sim_mujoco/joint_state_publisher.h>
 #include <franka_sim_mujoco/log_names.h>
@@ -54,9 +55,12 @@ class Stopwatch {
 RobotInstance::RobotInstance(const RobotPlan& plan, franka_sim::World& world,
                              HardwareLoader& loader, BetweenTicks between_ticks,
                              const OperatorAccess& access)
-    : name_(plan.description.name),
-      in_scene_{plan.arm_id, plan.robot_type},
-      control_ticks_(plan.control_ticks) {
+    : name_(plan.description.name), control_ticks_(plan.control_ticks) {
+  for (const SimulatedArm& arm : plan.arms) {
+    if (!arm.type.empty()) {
+      in_scene_.push_back({arm.arm_id, arm.type});
+    }
+  }
   for (const auto& joint : plan.urdf.joints_) {
     joints_.insert(joint.first);
   }
@@ -77,12 +81,8 @@ RobotInstance::~RobotInstance() = default;
 
 void RobotInstance::start(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
                           BetweenTicks between_ticks, const OperatorAccess& access) {
-  const RobotHandle robot{&world,
-                          name_,
-                          franka_sim::withHeldJoints(plan.description.urdf),
-                          plan.arm_physics,
-                          std::move(between_ticks),
-                          plan.robot_type};
+  const RobotHandle robot{&world, name_, franka_sim::withHeldJoints(plan.description.urdf),
+                          std::move(between_ticks), plan.arms};
   if (!plan.fci_ip.empty()) {
     serve(plan, robot, access);
   } else if (!plan.hardware_type.empty()) {
@@ -104,15 +104,28 @@ void RobotInstance::serve(const RobotPlan& plan, const RobotHandle& robot,
   ROS_INFO_NAMED(kLog, "'%s' is served over the FCI at %s.", name_.c_str(), plan.fci_ip.c_str());
 }
 
-void RobotInstance::startHardware(const RobotPlan& plan, const RobotHandle& robot,
-                                  HardwareLoader& loader) {
-  const std::string type = availableName(loader, plan.hardware_type);
+void RobotInstance::loadHardware(const std::string& type, std::size_t arms,
+                                 HardwareLoader& loader) {
   try {
-    hardware_ = loader.createSharedInstance(type);
+    if (arms == 1) {
+      hardware_ = loader.createSharedInstance(type);
+      return;
+    }
+    std::vector<std::shared_ptr<RobotHWSim>> members;
+    while (members.size() < arms) {
+      members.push_back(loader.createSharedInstance(type));
+    }
+    hardware_ = std::make_shared<CombinedHWSim>(std::move(members));
   } catch (const pluginlib::PluginlibException& error) {
     throw std::runtime_error("The hardware plugin '" + type + "' of '" + name_ +
                              "' cannot be loaded: " + error.what());
   }
+}
+
+void RobotInstance::startHardware(const RobotPlan& plan, const RobotHandle& robot,
+                                  HardwareLoader& loader) {
+  const std::string type = availableName(loader, plan.hardware_type);
+  loadHardware(type, plan.arms.size(), loader);
   const ros::NodeHandle node(plan.robot_namespace);
   if (!hardware_->initSim(plan.robot_namespace, node, robot, &plan.urdf, plan.transmissions)) {
     const std::string reason = hardware_->failure();

@@ -19,6 +19,7 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
 
 namespace franka_sim_mujoco {
 
@@ -27,23 +28,22 @@ namespace {
 constexpr double kFirstFciPort = 1337;  // robot, gripper, vacuum gripper
 constexpr double kLastFciPort = 1339;
 
-/// "panda" or "fr3"; the result and its reason are logged.
-std::string chooseRobotType(const ros::NodeHandle& node, const RobotPlan& plan) {
+/// "panda" or "fr3"; the result and its reason are logged. @param name of arm or robot in the log
+std::string chooseRobotType(const ros::NodeHandle& node, const urdf::Model& urdf,
+                            const std::string& arm_id, const std::string& name) {
   const std::string parameter = node.resolveName("robot_type");
   const std::optional<std::string> configured = readString(node, "robot_type");
   if (configured && !isRobotType(*configured)) {
     throw std::invalid_argument("The parameter " + parameter + " is '" + *configured +
                                 "'; it must be panda or fr3.");
   }
-  const RobotType type = determineRobotType(configured, plan.urdf, plan.arm_id);
+  const RobotType type = determineRobotType(configured, urdf, arm_id);
   if (!type.warning.empty()) {
     ROS_WARN_NAMED(kLog, "'%s' is simulated as %s, as the parameter %s says, although %s.",
-                   plan.description.name.c_str(), type.name.c_str(), parameter.c_str(),
-                   type.warning.c_str());
+                   name.c_str(), type.name.c_str(), parameter.c_str(), type.warning.c_str());
   } else {
-    ROS_INFO_NAMED(kLog, "'%s' is simulated as %s: %s (parameter %s).",
-                   plan.description.name.c_str(), type.name.c_str(), type.why.c_str(),
-                   parameter.c_str());
+    ROS_INFO_NAMED(kLog, "'%s' is simulated as %s: %s (parameter %s).", name.c_str(),
+                   type.name.c_str(), type.why.c_str(), parameter.c_str());
   }
   return type.name;
 }
@@ -110,6 +110,24 @@ void readServing(const ros::NodeHandle& node, RobotPlan* plan) {
   plan->locked = start == "locked";
 }
 
+/// @param name in the log
+void addArm(const ros::NodeHandle& node, const std::string& arm_id, const std::string& name,
+            const std::string& service_namespace, RobotPlan* plan) {
+  SimulatedArm arm{arm_id, "", {}, service_namespace};
+  if (plan->urdf.getJoint(arm_id + "_joint1")) {
+    const bool served = !plan->fci_ip.empty();
+    arm.type = chooseRobotType(node, plan->urdf, arm_id, name);
+    arm.physics = readPhysics(node, arm.type,
+                              served ? franka_sim::kServedProfile : franka_sim::kInProcessProfile);
+    franka_sim::applyPhysics(arm.physics, arm_id, plan->description);
+    if (served) {
+      // As a real robot, it rests with a small distance from its initial positions.
+      franka_sim::applyRestOffset(franka_sim::kJointStiffness, arm_id, plan->description);
+    }
+  }
+  plan->arms.push_back(std::move(arm));
+}
+
 }  // namespace
 
 RobotPlan planRobot(const SpawnOrder& order) {
@@ -149,22 +167,17 @@ RobotPlan planRobot(const SpawnOrder& order) {
                              " Hz; it must be above 0 and at most 1000 Hz.");
   }
 
-  plan.arm_id = readArmId(node, plan.robot_namespace, order.name);
   plan.description.name = order.name;
   plan.description.urdf = order.urdf;
   plan.description.resolve = resolveUri;
   plan.description.base = order.pose;
   plan.description.initial_positions = knownPositions(order, plan.urdf);
-  if (plan.urdf.getJoint(plan.arm_id + "_joint1")) {
-    plan.robot_type = chooseRobotType(node, plan);
-    plan.arm_physics = readPhysics(
-        node, plan.robot_type,
-        plan.fci_ip.empty() ? franka_sim::kInProcessProfile : franka_sim::kServedProfile);
-    franka_sim::applyPhysics(plan.arm_physics, plan.arm_id, plan.description);
-    if (!plan.fci_ip.empty()) {
-      // As a real robot, it rests with a small distance from its initial positions.
-      franka_sim::applyRestOffset(franka_sim::kJointStiffness, plan.arm_id, plan.description);
+  if (plugin.arms.size() > 1) {
+    for (const std::string& arm_id : plugin.arms) {
+      addArm(node, arm_id, arm_id, arm_id, &plan);
     }
+  } else {
+    addArm(node, readArmId(node, plan.robot_namespace, order.name), order.name, "", &plan);
   }
   return plan;
 }

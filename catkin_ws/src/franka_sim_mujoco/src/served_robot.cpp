@@ -24,21 +24,27 @@ namespace {
 /// The configuration, which users of a real robot enter in Desk, is read from the same parameters
 /// as for controllers in this process; the behaviour is that of the FCI.
 franka_sim::fci::SimRobot makeRobot(const RobotPlan& plan, const RobotHandle& robot) {
-  if (!plan.urdf.getJoint(plan.arm_id + "_joint1")) {
-    throw std::runtime_error("its URDF has no joint '" + plan.arm_id +
-                             "_joint1'. Does the parameter arm_id ('" + plan.arm_id +
+  const SimulatedArm& arm = plan.arms.front();
+  if (arm.type.empty()) {
+    throw std::runtime_error("its URDF has no joint '" + arm.arm_id +
+                             "_joint1'. Does the parameter arm_id ('" + arm.arm_id +
                              "') say the same as the URDF's argument arm_id?");
   }
+  if (plan.arms.size() > 1) {
+    throw std::runtime_error("it has the arms '" + arm.arm_id + "' and '" + plan.arms[1].arm_id +
+                             "', and one address is that of one arm. Give each arm a description "
+                             "and a namespace of its own.");
+  }
   const franka_sim::ControlUnitParameters unit =
-      readArmParameters(ros::NodeHandle(plan.robot_namespace), robot, plan.urdf, plan.arm_id);
+      readArmParameters(ros::NodeHandle(plan.robot_namespace), robot, plan.urdf, arm);
   std::optional<franka_sim::fci::SimRobot::Hand> hand;
   if (unit.has_hand) {
-    hand = franka_sim::fci::servedHand(robot.world->hand(robot.name, plan.arm_id),
-                                       plan.arm_physics.gripper);
+    hand =
+        franka_sim::fci::servedHand(robot.world->hand(robot.name, arm.arm_id), arm.physics.gripper);
   }
-  return franka_sim::fci::servedRobot(plan.fci_ip, franka_sim::protocolsOf(plan.robot_type), unit,
-                                      robot.world->arm(robot.name, plan.arm_id), hand, {},
-                                      plan.arm_physics.command_delay);
+  return franka_sim::fci::servedRobot(plan.fci_ip, franka_sim::protocolsOf(arm.type), unit,
+                                      robot.world->arm(robot.name, arm.arm_id), hand, {},
+                                      arm.physics.command_delay);
 }
 
 void fill(franka_sim::fci::SimRobot& robot, GetServedRobot::Response& response) {
@@ -83,7 +89,7 @@ void ServedRobot::openControlInterface(const RobotPlan& plan, franka_sim::World&
                                        const OperatorAccess& access) {
   lines_ = std::make_unique<franka_sim::fci::LineServer>(plan.fci_ip, plan.control_port);
   franka_sim::addOperatorCommands(
-      *lines_, {robot_, plan.arm_id, access.host, world, access.reset, access.quit});
+      *lines_, {robot_, plan.arms.front().arm_id, access.host, world, access.reset, access.quit});
   franka_sim::addSceneCommands(*lines_, world, access.scene);
 }
 

@@ -284,9 +284,7 @@ OperatorAccess Simulation::operatorAccess() {
 std::vector<franka_sim::SceneRobot> Simulation::sceneRobots() const {
   std::vector<franka_sim::SceneRobot> robots;
   for (const auto& robot : robots_) {
-    if (!robot->inScene().type.empty()) {
-      robots.push_back(robot->inScene());
-    }
+    robots.insert(robots.end(), robot->inScene().begin(), robot->inScene().end());
   }
   return robots;
 }

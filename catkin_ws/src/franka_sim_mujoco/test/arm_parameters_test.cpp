@@ -44,8 +44,7 @@ class ArmParameters : public testing::Test {
     robot.world = const_cast<franka_sim::World*>(&world_);
     robot.name = "panda";
     robot.urdf = urdf_;
-    robot.robot_type = "panda";
-    return readArmParameters(node_, robot, model_, "panda");
+    return readArmParameters(node_, robot, model_, SimulatedArm{"panda", "panda", {}, ""});
   }
 
   template <std::size_t N>

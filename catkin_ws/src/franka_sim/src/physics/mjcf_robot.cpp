@@ -291,12 +291,8 @@ class Writer {
   }
 
   /// Neighbours overlap by construction, and the convex hulls of link5 and link7 do too (their
-  /// joint stops, not their shapes, keep them apart). Fingers meet at their stop.
-  bool mayCollide(int a, int b) const {
-    const bool fingers = isFinger(robot_.urdf.links[robot_.segments[a].link]) &&
-                         isFinger(robot_.urdf.links[robot_.segments[b].link]);
-    return robot_.urdf.self_collide && distance(a, b) > 2 && !fingers;
-  }
+  /// joint stops, not their shapes, keep them apart). So the fingers of a hand meet at their stop.
+  bool mayCollide(int a, int b) const { return robot_.urdf.self_collide && distance(a, b) > 2; }
 
   void writeExcludes() {
     const int count = static_cast<int>(robot_.segments.size());

@@ -261,6 +261,36 @@ TEST_F(SdfWorldTest, ReadsSelfCollideOfAUrdf) {
   }
 }
 
+/// Fingers of one hand pass through each other, those of two hands do not.
+TEST_F(SdfWorldTest, ArmsOfOneDescriptionCollide) {
+  std::string urdf =
+      "<robot name='two'><link name='world'/><gazebo><self_collide>true"
+      "</self_collide></gazebo>";
+  RobotDescription both = robot("panda", "left");
+  for (const std::string side : {"left", "right"}) {
+    const RobotDescription arm = robot("panda", side);
+    const std::size_t begin = arm.urdf.find("<robot name=\"panda\">") + 20;
+    urdf += arm.urdf.substr(begin, arm.urdf.rfind("</robot>") - begin) + "<joint name='" + side +
+            "_mount' type='fixed'><origin xyz='" +
+            (side == "left" ? "0 0 0" : "0.614 0.02 0.02' rpy='0 0 3.14159265") +
+            "'/><parent link='world'/><child link='" + side + "_link0'/></joint>";
+    both.initial_positions.insert(arm.initial_positions.begin(), arm.initial_positions.end());
+  }
+  both.urdf = urdf + "</robot>";
+  World world;
+  world.addRobot(both);
+  world.step();
+  int within = 0, between = 0;
+  for (const Contact& contact : world.contacts()) {
+    if (contact.body1.find("finger") != std::string::npos &&
+        contact.body2.find("finger") != std::string::npos) {
+      ++(contact.body1[0] == contact.body2[0] ? within : between);
+    }
+  }
+  EXPECT_GT(between, 0);
+  EXPECT_EQ(within, 0);
+}
+
 TEST_F(SdfWorldTest, CamerasKeepTheirViewAndSize) {
   World world(file(
       "<model name='m'><static>true</static><pose>0 0 1 0 0 0</pose><link name='l'>"

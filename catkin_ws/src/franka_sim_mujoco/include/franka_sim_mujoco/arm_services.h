@@ -20,14 +20,15 @@ namespace franka_sim_mujoco {
 using PlaceJoint = std::function<void(const std::string& joint, double position)>;
 
 /// The services and the recovery action of a simulated arm: those of the robot's own node and
-/// set_user_stop under `franka_control` in its namespace, set_franka_model_configuration in the
-/// namespace itself. They run in service and action threads and access the arm between ticks.
+/// set_user_stop under `franka_control` in its service namespace, set_franka_model_configuration in
+/// that namespace itself. They run in service and action threads and access the arm between ticks.
 /// Invalid requests return success = false and a message, and change nothing.
 class ArmServices {
  public:
+  /// @param node of the robot's namespace @param described names the arm
   /// @param restart_controllers restarts the controllers that command the arm, after a recovery and
   /// after a teleport of the joints
-  ArmServices(const ros::NodeHandle& node, const std::string& arm_id, SimArm& arm,
+  ArmServices(const ros::NodeHandle& node, const SimulatedArm& described, SimArm& arm,
               BetweenTicks between_ticks, PlaceJoint place_joint, bool restart_controllers);
   ~ArmServices();
   ArmServices(const ArmServices&) = delete;
@@ -49,11 +50,13 @@ class ArmServices {
   void recoverUnit();
   bool recovering();
   void restartArmControllers();
+  void switchControllers(const std::vector<std::string>& start,
+                         const std::vector<std::string>& stop);
   std::vector<std::string> runningArmControllers();
 
-  ros::NodeHandle node_;
-  ros::NodeHandle control_node_;
+  ros::NodeHandle robot_node_, arm_node_, control_node_;
   std::string arm_id_;
+  bool is_only_arm_;
   SimArm& arm_;
   BetweenTicks between_ticks_;
   PlaceJoint place_joint_;

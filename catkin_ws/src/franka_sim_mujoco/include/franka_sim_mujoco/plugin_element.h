@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 namespace franka_sim_mujoco {
 
@@ -12,14 +13,16 @@ struct PluginElement {
   std::string hardware_type;    ///< its robotSimType; empty: the URDF has no such element
   std::string robot_namespace;  ///< empty: the spawner's
   double control_period{1e-3};  ///< [s]
+  /// The arm_id of each arm that FrankaHWSim drives: one for each transmission of the type
+  /// franka_hw/FrankaStateInterface.
+  std::vector<std::string> arms;
 };
 
 /// Reads the plugin element. Of several in one namespace, that of FrankaHWSim is preferred, which
 /// drives all joints of the URDF.
 /// @param spawn_namespace of plugins that name none
-/// @throws std::runtime_error with a sentence: not XML, a wrong controlPeriod; what one robot
-/// cannot have, naming both: plugins in several namespaces, and several arms (transmissions of the
-/// type franka_hw/FrankaStateInterface)
+/// @throws std::runtime_error with a sentence: not XML, a wrong controlPeriod, one arm twice, and,
+/// naming both, plugins in several namespaces
 PluginElement readPluginElement(const std::string& urdf, const std::string& spawn_namespace);
 
 }  // namespace franka_sim_mujoco

@@ -25,14 +25,22 @@ namespace franka_sim_mujoco {
 /// Not real-time safe.
 using BetweenTicks = std::function<void(const std::function<void()>& work)>;
 
+/// A Franka arm of a robot.
+struct SimulatedArm {
+  std::string arm_id;  ///< prefix of its joints
+  std::string type;    ///< "panda" or "fr3"; empty if the URDF has no such arm
+  franka_sim::RobotPhysics physics;
+  /// Of its services, below the robot's namespace: empty for the only arm of a robot, else arm_id.
+  std::string service_namespace;
+};
+
 /// A robot of the simulated world, as passed to a RobotHWSim plugin.
 struct RobotHandle {
-  franka_sim::World* world;  ///< use only in initSim, readSim, writeSim and between ticks
-  std::string name;          ///< of the robot in the world
-  std::string urdf;          ///< text of its description
-  franka_sim::RobotPhysics arm_physics;  ///< rotor inertia and friction of the world's joints
-  BetweenTicks between_ticks;            ///< runs a function between two ticks
-  std::string robot_type;  ///< type of the arm, "panda" or "fr3"; empty without an arm
+  franka_sim::World* world;        ///< use only in initSim, readSim, writeSim and between ticks
+  std::string name;                ///< of the robot in the world
+  std::string urdf;                ///< text of its description
+  BetweenTicks between_ticks;      ///< runs a function between two ticks
+  std::vector<SimulatedArm> arms;  ///< not empty; the first has no type in a robot without arms
 };
 
 /// Base class of simulated hardware, shaped like gazebo_ros_control's (decision 34): plugins of

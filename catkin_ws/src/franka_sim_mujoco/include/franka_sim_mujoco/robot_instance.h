@@ -37,9 +37,8 @@ struct SpawnOrder {
 struct RobotPlan {
   franka_sim::RobotDescription description;
   std::string robot_namespace;
-  std::string arm_id;
-  std::string robot_type;  ///< "panda" or "fr3"; empty for a robot without such an arm
-  franka_sim::RobotPhysics arm_physics;
+  /// Not empty. In a robot without arms the first has the arm_id that was looked for, and no type.
+  std::vector<SimulatedArm> arms;
   std::string hardware_type;  ///< plugin of type RobotHWSim; empty for a robot without hardware
   std::string fci_ip;         ///< address if it is served by a ServedRobot instead; else empty
   std::uint16_t control_port{1340};  ///< of its control interface if it is served; 0: none
@@ -59,7 +58,7 @@ struct RobotPlan {
   std::vector<transmission_interface::TransmissionInfo> transmissions;
 };
 
-/// Reads the URDF, its <gazebo> plugin element and transmissions, the arm's physics parameters.
+/// Reads the URDF, its <gazebo> plugin element and transmissions, the arms' physics parameters.
 /// Thread-safe. @throws std::runtime_error with a sentence
 RobotPlan planRobot(const SpawnOrder& order);
 
@@ -88,8 +87,8 @@ class RobotInstance {
 
   /// Null unless it is served.
   ServedRobot* served() noexcept { return served_.get(); }
-  /// Its description for programs that draw the world; the type is empty without a Franka arm.
-  const franka_sim::SceneRobot& inScene() const noexcept { return in_scene_; }
+  /// Its Franka arms, for programs that draw the world.
+  const std::vector<franka_sim::SceneRobot>& inScene() const noexcept { return in_scene_; }
 
   /// One line for the user that describes its mode and errors; empty if it has neither.
   std::string condition() const;
@@ -116,11 +115,12 @@ class RobotInstance {
              BetweenTicks between_ticks, const OperatorAccess& access);
   void serve(const RobotPlan& plan, const RobotHandle& robot, const OperatorAccess& access);
   void startHardware(const RobotPlan& plan, const RobotHandle& robot, HardwareLoader& loader);
+  void loadHardware(const std::string& type, std::size_t arms, HardwareLoader& loader);
   void reviewStart();
   void updateControllers(const ros::Time& time, const ros::Duration& period);
 
   std::string name_;
-  franka_sim::SceneRobot in_scene_;
+  std::vector<franka_sim::SceneRobot> in_scene_;
   std::set<std::string> joints_;
   int control_ticks_;
   int ticks_to_control_{0};

@@ -368,8 +368,17 @@ class PickAndPlace:
     APPROACH = 0.12  # above the stone [m]
     FORCE = 5.0  # [N]
 
-    def __init__(self, arm: Arm, gripper: Gripper, scene: Scene, report: Callable[[str], None]):
+    def __init__(
+        self,
+        arm: Arm,
+        gripper: Gripper,
+        scene: Scene,
+        report: Callable[[str], None],
+        stone: str = "stone",
+        tray: str = "place_tray",
+    ):
         self.arm, self.gripper, self.scene, self.report = arm, gripper, scene, report
+        self.stone, self.tray = stone, tray
         arm.wait_ready()
         gripper.wait_ready()
         self._base_inverse = np.linalg.inv(scene.pose(f"{arm.arm_id}_link0"))
@@ -382,7 +391,7 @@ class PickAndPlace:
         self.report("the gripper is open")
 
     def pick(self) -> None:
-        stone = self._in_base(self.scene.pose("stone"))
+        stone = self._in_base(self.scene.pose(self.stone))
         yaw, width = self._grasp_of(stone)
         x, y, z = stone[:3, 3]
         self.report(f"the stone stands at x {x:.3f}, y {y:.3f}, z {z:.3f} m before the robot")
@@ -390,19 +399,19 @@ class PickAndPlace:
         self._descend(x, y, z, yaw)
         self.report(f"grasping with {self.FORCE:.0f} N")
         self.gripper.grasp(width, self.FORCE)
-        self.arm.carry(self._in_base(self.scene.pose("stone")), STONE_SIZE, STONE_MASS)
+        self.arm.carry(self._in_base(self.scene.pose(self.stone)), STONE_SIZE, STONE_MASS)
         self.report(
-            f"the stone is held, contact forces {self.scene.grip_force('stone', self.arm.fingers):.1f} N"
+            f"the stone is held, contact forces {self.scene.grip_force(self.stone, self.arm.fingers):.1f} N"
         )
         self._held = (z, yaw, stone)
         self.arm.move(downwards(x, y, z + self.APPROACH, yaw), speed=0.1, what="the lift")
-        lifted = self._in_base(self.scene.pose("stone"))[2, 3] - z
+        lifted = self._in_base(self.scene.pose(self.stone))[2, 3] - z
         if lifted < 0.5 * self.APPROACH:
             raise TaskError(f"The stone was not lifted: it rose by {lifted * 1e3:.0f} mm only.")
 
     def carry(self) -> None:
         z, yaw, _ = self._held
-        tray = self._in_base(self.scene.pose("place_tray"))
+        tray = self._in_base(self.scene.pose(self.tray))
         self.arm.move(
             downwards(tray[0, 3], tray[1, 3], z + self.APPROACH, yaw),
             what="the way to the red tray",
@@ -411,7 +420,7 @@ class PickAndPlace:
 
     def place(self) -> None:
         z, yaw, _ = self._held
-        tray = self._in_base(self.scene.pose("place_tray"))
+        tray = self._in_base(self.scene.pose(self.tray))
         x, y = tray[:2, 3]
         self._descend(x, y, z + 0.002, yaw)
         self.gripper.stop()
@@ -422,18 +431,18 @@ class PickAndPlace:
 
     def placement(self) -> Placement:
         """Position of the stone, once it is at rest."""
-        last = [self.scene.pose("stone"), rospy.get_time()]
+        last = [self.scene.pose(self.stone), rospy.get_time()]
 
         def at_rest() -> bool:
             if rospy.get_time() - last[1] < 0.5:
                 return False
-            now = self.scene.pose("stone")
+            now = self.scene.pose(self.stone)
             moved = float(np.linalg.norm(now[:3, 3] - last[0][:3, 3]))
             last[:] = [now, rospy.get_time()]
             return moved < 1e-4
 
         wait_until(at_rest, "the stone coming to rest")
-        stone, tray = last[0], self.scene.pose("place_tray")
+        stone, tray = last[0], self.scene.pose(self.tray)
         offset = np.linalg.inv(tray) @ stone
         lowest = STONE_SIZE[0] / 2 - 1e-3
         highest = math.hypot(*STONE_SIZE) / 2
