@@ -7,7 +7,9 @@ processors (the long form: eight for each).
 """
 
 import os
+import re
 import signal
+import sys
 import threading
 from contextlib import ExitStack
 from functools import partial
@@ -16,11 +18,13 @@ import pyfranka
 import pytest
 from fci_session import client_process, simulated
 from fci_wire import IDLE, LAYOUTS, MOVE, connected
+from genuine_clients import client_python
 from lock_step import moved
 from starvation import busy
 from waiting import wait_for
 
 STOPPED = 0.7  # [s]
+ABORTS = 30
 STARVED = 1.5  # [s]; our client waits 5 s for a robot on its own machine
 
 
@@ -32,6 +36,26 @@ def test_lock_step_waits_for_a_starved_client_and_repeats():
             hashes = [move(), move(client.process, STOPPED), move(sim.server.process, STOPPED)]
             assert len(set(hashes)) == 1, hashes
         assert sim.remote.state().mode == "Idle"
+
+
+@pytest.mark.parametrize(
+    "library, robot", [("pyfranka", "panda"), ("panda", "panda"), ("pylibfranka", "fr3")]
+)
+def test_an_abort_looks_the_same_to_its_client(library, robot):
+    """Late clients would find states of the braking arm in place of the one that shows the abort."""
+    python = sys.executable if library == "pyfranka" else client_python(library)
+    with simulated(robot, "lockstep") as sim, client_process(library, python) as client, busy():
+        assert client.run_task("connect", address=sim.address)["outcome"] == "ok"
+        for jump_at in (2, 80):
+            texts = set()
+            for _ in range(ABORTS):
+                sim.remote.reset()
+                text = client.run_task("move", amplitude=0.1, jump_at=jump_at)["outcome"]
+                # Times of the log: the robot's clock runs by the wall's between motions.
+                texts.add(re.sub(r"at \d+ ms", "at its time", text))
+                assert client.run_task("recover")["mode"].endswith("Idle")
+            assert len(texts) == 1, texts
+            assert "motion aborted by reflex" in min(texts)
 
 
 def test_lock_step_waits_for_a_silent_client_but_not_for_a_dead_one():

@@ -18,10 +18,11 @@ def smooth(x):
 
 
 class Motion:
-    """Joint 4 there and back, or zero torque; counts cycles, and their longest period."""
+    """Joint 4 there and back, or zero torque; counts cycles, and their longest period. From the cycle
+    `jump_at` on the joint is commanded 0.01 rad further."""
 
-    def __init__(self, seconds, amplitude, announce, held, pause):
-        self.seconds, self.amplitude = seconds, amplitude
+    def __init__(self, seconds, amplitude, announce, held, pause, jump_at):
+        self.seconds, self.amplitude, self.jump_at = seconds, amplitude, jump_at
         self.announce, self.held, self.pause = announce, held, pause
         self.time, self.cycles, self.longest, self.first = 0.0, 0, 0.0, None
 
@@ -40,6 +41,7 @@ class Motion:
         q = list(self.first)
         x = self.time / self.seconds
         q[3] += self.amplitude * (smooth(2 * x) - smooth(2 * x - 1))
+        q[3] += 0.01 if self.jump_at and self.cycles >= self.jump_at else 0.0
         return q, self.time >= self.seconds
 
 
@@ -162,8 +164,10 @@ class Session:
 
         return attempt(act)
 
-    def move(self, seconds=1.0, amplitude=0.01, torque=False, announce=False, held=False, pause=0.0):
-        motion = Motion(seconds, amplitude, announce, held, pause)
+    def move(
+        self, seconds=1.0, amplitude=0.01, torque=False, announce=False, held=False, pause=0.0, jump_at=0
+    ):
+        motion = Motion(seconds, amplitude, announce, held, pause, jump_at)
         seen = attempt(lambda: self.client.move(motion, torque))
         return {**seen, "cycles": motion.cycles, "longest": motion.longest}
 

@@ -413,6 +413,41 @@ TEST_F(Datagrams, LostOnesAreNotWaitedFor) {
   EXPECT_GT(ids.back() - ids.front(), 105u);
 }
 
+TEST_F(Datagrams, OneThatShowsTheEndIsNotSkippedForLaterOnes) {
+  constexpr std::size_t kMode = 2364;  // offset of robot_mode
+  constexpr std::uint8_t kIdle = 1, kReflex = 4;
+  robot.reset();  // one client at a time
+  robot = connect(fake, 50);
+  for (const int cycles : {1, 30}) {
+    fake.script([&](FakeRobot::Script& s) {
+      s.abort_after = cycles;
+      s.abort_errors = {7};
+      // What a client that runs late finds in its socket: states of an arm that has recovered.
+      s.transmit = [&](const Datagram& d) {
+        std::vector<Datagram> sent{d};
+        for (std::uint64_t i = 1; i <= 5 && d[kMode] == kReflex; i++) {
+          std::uint64_t id = 0;
+          std::memcpy(&id, d.data(), sizeof(id));
+          id += i;
+          sent.push_back(d);
+          std::memcpy(sent.back().data(), &id, sizeof(id));
+          sent.back()[kMode] = kIdle;
+        }
+        return sent;
+      };
+    });
+    try {
+      robot->control(endlessTorques());
+      FAIL() << "no exception";
+    } catch (const ControlException& error) {
+      EXPECT_EQ(std::string::npos, std::string(error.what()).find("packets lost")) << error.what();
+      EXPECT_NE(std::string::npos, std::string(error.what()).find("cartesian_reflex"));
+      EXPECT_EQ(franka::RobotMode::kReflex, error.log.back().state.robot_mode);
+    }
+    robot->automaticErrorRecovery();
+  }
+}
+
 TEST_F(Datagrams, OfAnotherSizeAreAnError) {
   for (int change : {-1, -2373, -2365, +1, +100, -1000}) {
     FakeRobot mistreated(5);

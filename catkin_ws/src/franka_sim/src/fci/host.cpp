@@ -44,6 +44,12 @@ constexpr std::chrono::milliseconds kRepeatPeriod{300};
 constexpr int kPromptStarts = 2;
 constexpr std::chrono::milliseconds kLaterStarts{600};
 
+/// The state that shows the end of a motion remains its client's newest one for so long, unless the
+/// client sends a request before: a client that runs too late would find a state of the braking arm
+/// in its place, and its exception would not repeat. Clients of libfranka send a StopMove within a
+/// millisecond; others may be silent, and the timeout of a second is theirs, too (chosen here).
+constexpr std::chrono::milliseconds kEndKept{600};
+
 /// While the host catches up after a delay, clients still get this time for each answer (chosen
 /// here).
 constexpr std::chrono::microseconds kMinTimeToAnswer{400};
@@ -166,7 +172,7 @@ void Host::tickAtOnce() {
 
 void Host::standStill() {
   for (const Entry& entry : entries_) {
-    entry.robot->publish(entry.robot->expectsCommand() ? 0 : 1, true);
+    entry.robot->publish(entry.robot->expectsCommand() ? 0 : 1, true, false);
   }
   serveAll();
   for (Service* service : services_) {
@@ -186,7 +192,14 @@ void Host::publishAll(bool same_moment) {
 }
 
 void Host::publish(Entry& entry, bool same_moment, Clock::time_point now) {
-  entry.robot->publish(std::max<std::uint64_t>(entry.unpublished_ticks, 1), same_moment);
+  if (entry.robot->expectsCommand()) {
+    entry.ended_at.reset();
+  } else if (!entry.ended_at) {
+    entry.ended_at = now;
+  }
+  const bool keep_end =
+      pace_.waitsForClients() && entry.ended_at && now - *entry.ended_at < kEndKept;
+  entry.robot->publish(std::max<std::uint64_t>(entry.unpublished_ticks, 1), same_moment, keep_end);
   entry.unpublished_ticks = 0;
   entry.shown_at = now;
 }

@@ -60,8 +60,8 @@ void RobotFront::serve(bool stops_only) {
   }
 }
 
-void RobotFront::publish(std::uint64_t ticks, bool same_moment) {
-  server_.publish(ticks, same_moment);
+void RobotFront::publish(std::uint64_t ticks, bool same_moment, bool keep_end) {
+  server_.publish(ticks, same_moment, keep_end);
   publishTools(ticks);
 }
 

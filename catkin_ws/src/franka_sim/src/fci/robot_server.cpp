@@ -73,6 +73,8 @@ void RobotServer::clearClient() noexcept {
   version_ = 0;
   begun_ = false;
   answered_ = false;
+  motion_shown_ = false;
+  end_unread_ = false;
   move_.reset();
   stop_.reset();
   recovery_.reset();
@@ -89,12 +91,15 @@ Served RobotServer::serveOne(Connection& client, bool stops_only) {
   if (framing != CodecError::kNone) {
     return Served::kBroken;  // the start of the next request is unknown
   }
+  end_unread_ = false;
   // Connect is the same in every version.
   const std::uint16_t version = version_ == 0 ? parameters_.newest_version : version_;
   codec::Request request;
   const CodecError error =
       codec::decodeRequest(version, {stream.data, header.size}, header, request);
-  const bool stop = error == CodecError::kNone && codec::commandOf(request) == Command::kStopMove;
+  // Clients send StopMove after an abort as well, when there is nothing to stop.
+  const bool stop = error == CodecError::kNone && codec::commandOf(request) == Command::kStopMove &&
+                    handler_.state().robot_mode == RobotMode::kMove;
   const bool later = stops_only || answered_setter_count_ == kMaxAnswered;
   if (later && version_ != 0 && !stop) {
     return Served::kHeldBack;
@@ -250,7 +255,17 @@ void RobotServer::replyTo(std::optional<Pending>& pending, std::optional<Status>
   status.reset();
 }
 
-void RobotServer::publish(std::uint64_t ticks, bool same_moment) {
+void RobotServer::sendState() noexcept {
+  shown_ = handler_.state();
+  shown_.message_id = message_id_;
+  if (codec::encodeState(version_, shown_, state_bytes_) == CodecError::kNone) {
+    datagrams_.send({state_bytes_.data(), codec::stateSize(version_)});
+  }
+  const bool before = std::exchange(motion_shown_, expectsCommands());
+  end_unread_ = before && !motion_shown_;
+}
+
+void RobotServer::publish(std::uint64_t ticks, bool same_moment, bool keep_end) {
   collectEnds();
   message_id_ += ticks;
   if (!same_moment) {
@@ -263,10 +278,13 @@ void RobotServer::publish(std::uint64_t ticks, bool same_moment) {
     recovery_end_.reset();
     return;
   }
-  shown_ = handler_.state();
-  shown_.message_id = message_id_;
-  if (codec::encodeState(version_, shown_, state_bytes_) == CodecError::kNone) {
-    datagrams_.send({state_bytes_.data(), codec::stateSize(version_)});
+  if (keep_end && end_unread_) {
+    repeat();
+  } else {
+    sendState();
+  }
+  if ((move_ && motion_end_ == Status::kSuccess) || stop_end_) {
+    end_unread_ = false;  // an end that the client has requested
   }
   // The state must show the reason of an end before the client gets the reply.
   if (!replyToSetters()) {

@@ -64,7 +64,8 @@ class CountingRobot : public HostedRobot {
     }
     served_all += stops_only ? 0 : 1;
   }
-  void publish(std::uint64_t ticks, bool same_moment) override {
+  void publish(std::uint64_t ticks, bool same_moment, bool keep_end) override {
+    ends_kept += keep_end ? 1 : 0;
     (same_moment ? repeated : published)++;
     message_ids += ticks;
     seen = true;
@@ -91,7 +92,7 @@ class CountingRobot : public HostedRobot {
   Clock::time_point shown_at;
   std::uint64_t message_ids{0};
   int observed{0}, actuated{0}, answered{0}, served{0}, served_all{0}, published{0}, repeated{0},
-      repeats{0};
+      repeats{0}, ends_kept{0};
 
  private:
   FakeClock& clock_;
@@ -347,6 +348,33 @@ TEST_F(HostRules, ARobotThatNeverRestsDefersRequestsForALimitedTime) {
   EXPECT_EQ(before, robot.served_all);
   timeOf(1100);
   EXPECT_EQ(before + 1, robot.served_all);
+}
+
+TEST_F(HostRules, KeepsTheEndOfAMotionForAClientThatIsLateUnlessTheClockDemandsStates) {
+  for (const PaceMode mode : {PaceMode::kLockStep, PaceMode::kPatient, PaceMode::kRealTime}) {
+    CountingRobot ended{clock};
+    ended.moving = true;
+    host.setPace(waiting(mode));
+    host.add(ended);
+    timeOf(5);
+    EXPECT_EQ(0, ended.ends_kept) << "its client needs each state";
+    ended.moving = false;
+    ended.never_settles = true;  // ticks go on
+    const Clock::time_point end = clock.now();
+    while (clock.now() - end < milliseconds(599)) {
+      timeOf(1);
+    }
+    const int published = ended.published - 5;
+    EXPECT_EQ(mode == PaceMode::kRealTime ? 0 : published, ended.ends_kept);
+    timeOf(1000);
+    while (clock.now() - end < milliseconds(700)) {
+      timeOf(1);
+    }
+    const int kept = ended.ends_kept;
+    timeOf(1000);
+    EXPECT_EQ(kept, ended.ends_kept) << "a silent client gets states again";
+    host.remove(ended);
+  }
 }
 
 TEST_F(HostRules, StandStillPublishesStatesWithoutATick) {

@@ -61,11 +61,11 @@ class BareRobot final : public HostedRobot {
     vacuum.serve(stops_only);
     most_unsent = std::max(most_unsent, arm.unsentBytes());
   }
-  void publish(std::uint64_t ticks, bool same_moment) override {
+  void publish(std::uint64_t ticks, bool same_moment, bool keep_end) override {
     const double now = processorTime();
     worst = published_at > 0.0 ? std::max(worst, now - published_at) : worst;
     published_at = now;
-    arm.publish(ticks, same_moment);
+    arm.publish(ticks, same_moment, keep_end);
     hand.publish(ticks);
     vacuum.publish(ticks);
   }

@@ -5,11 +5,15 @@
 #include <franka/active_control_base.h>
 #include <franka/exception.h>
 #include <franka/gripper.h>
+#include <franka/log.h>
 #include <franka/model.h>
 #include <franka_core/limits.h>
 #include <gtest/gtest.h>
 #include <transform_sweep.h>
 
+#include <iomanip>
+#include <regex>
+#include <sstream>
 #include <stdexcept>
 
 #include "simulated_robots.h"
@@ -235,6 +239,94 @@ TEST_P(OwnClient, IsStoppedByAReflexRecoversAndMovesAgain) {
   const double joint = robot.readOnce().q_d[3];
   swing(robot, kAngle);
   EXPECT_NEAR(robot.readOnce().q[3], joint + kAngle, 2e-3);
+}
+
+/// Threads that keep all processors busy.
+class Load {
+ public:
+  Load() {
+    for (unsigned i = 0; i < 2 * std::thread::hardware_concurrency(); i++) {
+      threads_.emplace_back([this] {
+        while (!stop_) {
+        }
+      });
+    }
+  }
+  ~Load() {
+    stop_ = true;
+    for (std::thread& thread : threads_) {
+      thread.join();
+    }
+  }
+  Load(const Load&) = delete;
+  Load& operator=(const Load&) = delete;
+
+ private:
+  std::atomic<bool> stop_{false};
+  std::vector<std::thread> threads_;
+};
+
+enum class Cause { kJumpAtOnce, kJump, kPush };
+
+/// What a client sees of a motion that the robot aborts, and of the arm after it: the exception's
+/// text and log. The robot's clock runs by the wall's between motions: times count from the log's
+/// first state, and the text's, which are those of the log, are left out.
+std::string abortSeen(std::uint16_t version, Cause cause) {
+  SimulatedRobots simulated(std::vector<Place>{{version}});
+  franka::Robot robot(simulated.address(), franka::RealtimeConfig::kIgnore);
+  robot.setCollisionBehavior(sevenTimes(20), sevenTimes(20), sixTimes(20), sixTimes(20));
+  int cycle = 0;
+  std::array<double, 7> begin{};
+  std::ostringstream seen;
+  try {
+    robot.control(
+        [&](const franka::RobotState& state, franka::Duration) {
+          if (cycle == 0) {
+            begin = state.q_d;
+          }
+          if (cycle == 80 && cause == Cause::kPush) {
+            simulated.between([&](SimRobot&, World& world, Host&) {
+              world.push(version <= 5 ? "panda_link6" : "fr3_link6", {0, 60, 60}, {}, 100);
+            });
+          }
+          const int jump = cause == Cause::kJumpAtOnce ? 1 : 80;
+          franka::JointPositions positions(begin);
+          positions.q[3] += kAngle * way(cycle * 1e-3);
+          positions.q[3] += cause != Cause::kPush && cycle >= jump ? 0.01 : 0.0;
+          cycle++;
+          return cycle > 400 ? franka::MotionFinished(positions) : positions;
+        },
+        franka::ControllerMode::kJointImpedance, false);
+    seen << "no abort";
+  } catch (const franka::ControlException& error) {
+    std::vector<franka::Record> log = error.log;
+    const std::uint64_t first = log.empty() ? 0 : log.front().state.time.toMSec();
+    for (franka::Record& record : log) {
+      record.state.time = franka::Duration(record.state.time.toMSec() - first);
+    }
+    seen << std::regex_replace(error.what(), std::regex("at [0-9]+ ms"), "at its time") << "\n"
+         << franka::logToCSV(log);
+  }
+  const franka::RobotState after = robot.readOnce();
+  seen << "afterwards:" << std::setprecision(17);
+  for (const double q : after.q) {
+    seen << " " << q;
+  }
+  return seen.str();
+}
+
+TEST(Aborts, LookTheSameToTheirClientInLockStepWhateverTheLoad) {
+  const Load load;
+  for (const std::uint16_t version : {5, 10}) {
+    for (const Cause cause : {Cause::kJumpAtOnce, Cause::kJump, Cause::kPush}) {
+      const std::string first = abortSeen(version, cause);
+      EXPECT_NE(std::string::npos, first.find("motion aborted by reflex!")) << first;
+      EXPECT_EQ(std::string::npos, first.find("packets lost")) << first;
+      for (int run = 1; run < 10; run++) {
+        EXPECT_EQ(first, abortSeen(version, cause)) << version << " " << static_cast<int>(cause);
+      }
+    }
+  }
 }
 
 constexpr std::chrono::milliseconds kLonger{1300};  // than the client's timeout for states

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The FCI server over real sockets, with a fake request handler in place of the control unit.
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <string>
@@ -354,7 +355,74 @@ TEST_F(RobotServerTest, DefersAllRequestsExceptStops) {
   EXPECT_EQ(handler_.handled, before + 1);
   client.request(codec::StopMoveRequest{});
   serve(true);
+  EXPECT_EQ(handler_.handled, before + 1) << "there is nothing to stop";
+  serve();
   EXPECT_EQ(handler_.handled, before + 2);
+  handler_.startMotion();
+  client.request(codec::StopMoveRequest{});
+  serve(true);
+  EXPECT_EQ(handler_.handled, before + 3);
+}
+
+TEST_F(RobotServerTest, KeepsTheStateThatShowsAnAbortUntilTheClientsNextRequest) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  std::uint64_t last = 0;
+  const auto states = [&] {  // new ones
+    int count = 0;
+    while (const auto state = client.state(0)) {
+      count += state->message_id > last ? 1 : 0;
+      last = std::max(last, state->message_id);
+    }
+    return count;
+  };
+  const auto publish = [this](int times) {
+    for (int i = 0; i < times; i++) {
+      server_.publish(1, false, true);
+    }
+  };
+  const auto move = [&] {
+    handler_.startMotion();
+    client.request(codec::MoveRequest{});
+    serve();
+    ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
+    publish(3);
+    EXPECT_EQ(3, states()) << "states of a motion are not kept back";
+  };
+  move();
+  EXPECT_FALSE(server_.hasNews());
+  handler_.endMotion(Status::kReflexAborted, RobotMode::kReflex);
+  EXPECT_TRUE(server_.hasNews());
+  publish(5);
+  EXPECT_FALSE(server_.hasNews());
+  const auto end = client.state(0);
+  ASSERT_TRUE(end);
+  EXPECT_EQ(RobotMode::kReflex, end->robot_mode);
+  last = end->message_id;
+  EXPECT_EQ(Status::kReflexAborted, client.answer(Command::kMove)->reply.status);
+  EXPECT_EQ(0, states());
+  server_.publish();  // the host's time for it is over
+  EXPECT_EQ(1, states());
+  publish(2);
+  EXPECT_EQ(2, states());
+  move();
+  handler_.endMotion(Status::kReflexAborted, RobotMode::kReflex);
+  publish(5);
+  EXPECT_EQ(1, states());
+  EXPECT_TRUE(client.answer(Command::kMove));
+  handler_.answer = Status::kCommandNotPossibleRejected;
+  client.request(codec::StopMoveRequest{});
+  serve(true);  // the answer has to wait, but the client has read the abort
+  publish(2);
+  EXPECT_EQ(2, states());
+  serve();
+  publish(1);
+  EXPECT_TRUE(client.answer(Command::kStopMove));
+  states();
+  move();
+  handler_.endMotion(Status::kSuccess, RobotMode::kIdle);
+  publish(5);
+  EXPECT_EQ(5, states()) << "a motion that its client has finished";
 }
 
 TEST_F(RobotServerTest, ServesModelsToVersionsThatHaveThem) {

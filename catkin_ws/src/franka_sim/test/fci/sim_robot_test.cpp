@@ -52,7 +52,7 @@ class SimRobotTest : public ::testing::Test {
 
   void tick(const std::function<void()>& between = [] {}) {
     robot.observe();
-    robot.publish(1, false);
+    robot.publish(1, false, false);
     between();
     robot.receiveCommand();
     robot.actuate();

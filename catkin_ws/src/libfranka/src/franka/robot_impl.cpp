@@ -323,7 +323,7 @@ const franka_core::RobotState& Robot::Impl::receiveState() {
     const Datagram datagram = datagrams_.receive(buffer_.data(), buffer_.size());
     news = datagram.any && accept(datagram);
     // Datagrams that arrived meanwhile are newer.
-    news = takeStates() || news;
+    news = (!(news && mustBeSeen()) && takeStates()) || news;
     const Clock::time_point now = Clock::now();
     waited = repeated_ ? Clock::duration{}
                        : waited + std::min<Clock::duration>(now - looked_at, 2 * kSlice);
@@ -366,10 +366,17 @@ bool Robot::Impl::takeStates() {
     if (!datagram.any) {
       break;
     }
-    news = accept(datagram) || news;
+    if (accept(datagram)) {
+      news = true;
+      if (mustBeSeen()) {
+        break;
+      }
+    }
   }
   return news;
 }
+
+bool Robot::Impl::mustBeSeen() const noexcept { return keeps_mode_changes_ && modes_changed_; }
 
 bool Robot::Impl::takeStatesUnlessInUse() {
   if (states_in_use_.test_and_set(std::memory_order_acquire)) {
@@ -406,6 +413,9 @@ bool Robot::Impl::accept(const Datagram& datagram) {
     repeated_ = repeated_ || next.message_id == state().message_id;
     return false;
   }
+  modes_changed_ = next.robot_mode != state().robot_mode ||
+                   next.motion_generator_mode != state().motion_generator_mode ||
+                   next.controller_mode != state().controller_mode;
   newest_ = 1 - newest_;
   received_at_ = Clock::now();
   mode_.store(next.robot_mode, std::memory_order_relaxed);

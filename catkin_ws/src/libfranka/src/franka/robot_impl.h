@@ -106,9 +106,16 @@ class Robot::Impl {
   /// Sends a command in answer to the newest state. @throws NetworkException if it cannot be sent.
   void sendCommand(franka_core::RobotCommand& command);
 
+  /// From now on until endMotion(), the newest state does not skip one that shows other modes than
+  /// the state before it: which states show the beginning and the end of a motion then does not
+  /// depend on how late this program reads them.
+  void keepModeChanges() noexcept { keeps_mode_changes_ = true; }
   /// A motion starts (or ends): from now on its clock is compared with this machine's.
   void beginMotion() noexcept;
-  void endMotion() noexcept { motion_began_.reset(); }
+  void endMotion() noexcept {
+    motion_began_.reset();
+    keeps_mode_changes_ = false;
+  }
   /// Whether the robot's clock differs from this machine's in this motion. Real robots keep time; a
   /// simulated one that waits for its client's answers does not, and load may delay it.
   bool keepsOtherTime() const noexcept;
@@ -142,6 +149,7 @@ class Robot::Impl {
   bool takeStatesUnlessInUse();
   bool takesStatesIn();
   bool accept(const Datagram& datagram);
+  bool mustBeSeen() const noexcept;
   std::chrono::milliseconds stateBound() const noexcept;
 
   const RealtimeConfig realtime_config_;
@@ -164,6 +172,8 @@ class Robot::Impl {
   Clock::time_point received_at_{};  // the newest state
   bool repeated_{false};             // it has been repeated since
   std::optional<Moment> motion_began_;
+  bool keeps_mode_changes_{false};
+  bool modes_changed_{false};  // with the newest state
   std::atomic<franka_core::RobotMode> mode_{franka_core::RobotMode::kOther};
 };
 

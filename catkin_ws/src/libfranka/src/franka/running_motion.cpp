@@ -21,6 +21,7 @@ RunningMotion::RunningMotion(Robot::Impl& robot, const fci::MoveRequest& request
     throw ControlException(fci::kMultipleMotions);
   }
   id_ = robot_.send(request_);
+  robot_.keepModeChanges();
   try {
     start();
   } catch (const NetworkException&) {
@@ -85,13 +86,13 @@ void RunningMotion::awaitStart() {
       return;
     }
     if (reply && reply->status != fci::Status::kMotionStarted) {
-      concludeWith([&] { throwEnd(*reply, nullptr); });
+      concludeWith([&] { throwEnd(*reply, robot_.state(), nullptr); });
     }
     if (Robot::Impl::Clock::now() > deadline) {
       throw NetworkException(std::string(fci::kConnectionTimeout) +
                              " The robot has accepted the motion, but its states do not show it.");
     }
-    receiveState();
+    robot_.receiveState();
   }
 }
 
@@ -121,12 +122,13 @@ const franka_core::RobotState& RunningMotion::receive() {
   receiveState();
   if (robot_.state().robot_mode != franka_core::RobotMode::kMove || !isShown()) {
     concludeWith([this] {
+      const franka_core::RobotState end = robot_.state();  // newer ones arrive with the reply
       const Reply reply = lastReply();
       if (reply.status == fci::Status::kSuccess) {
         throw ProtocolException(fci::unexpectedResponse(fci::Command::kMove) +
                                 " The robot ended the motion unasked, and calls that a success.");
       }
-      throwEnd(reply, nullptr);
+      throwEnd(reply, end, nullptr);
     });
   }
   return robot_.state();
@@ -144,9 +146,10 @@ void RunningMotion::finish(franka_core::RobotCommand command) {
     }
   } while (robot_.isMoving());
   concludeWith([this] {
+    const franka_core::RobotState end = robot_.state();
     const Reply reply = lastReply();
     if (reply.status != fci::Status::kSuccess) {
-      throwEnd(reply, fci::kStillMoving);
+      throwEnd(reply, end, fci::kStillMoving);
     }
   });
 }
@@ -167,12 +170,12 @@ RunningMotion::Reply RunningMotion::lastReply() {
   return reply;
 }
 
-void RunningMotion::throwEnd(const Reply& reply, const char* reflex_text) {
+void RunningMotion::throwEnd(const Reply& reply, const franka_core::RobotState& end,
+                             const char* reflex_text) {
   const std::vector<MotionLog::Entry> entries = log_.entries();
-  std::string text = fci::statusText(fci::Command::kMove, reply.status, robot_.mode());
+  std::string text = fci::statusText(fci::Command::kMove, reply.status, end.robot_mode);
   if (reply.status == fci::Status::kReflexAborted) {
-    text = reflexText(reflex_text != nullptr ? reflex_text : text, robot_.state(), entries,
-                      robot_.version());
+    text = reflexText(reflex_text != nullptr ? reflex_text : text, end, entries, robot_.version());
   }
   throw ControlException(text, toRecords(entries));
 }

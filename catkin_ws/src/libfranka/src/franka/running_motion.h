@@ -55,7 +55,9 @@ class RunningMotion {
   template <typename Function>
   void concludeWith(Function function);
   Reply lastReply();
-  [[noreturn]] void throwEnd(const Reply& reply, const char* reflex_text);
+  /// @param end the state that showed the end.
+  [[noreturn]] void throwEnd(const Reply& reply, const franka_core::RobotState& end,
+                             const char* reflex_text);
 
   Robot::Impl& robot_;
   const franka_core::fci::MoveRequest request_;

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -81,8 +82,8 @@ class HostedRobot {
   /// except for opening and closing ports.
   virtual bool idle() const { return false; }
   /// Sends states, `ticks` after the last ones. @param same_moment whether time has stood still
-  /// since.
-  virtual void publish(std::uint64_t ticks, bool same_moment) = 0;
+  /// since. @param keep_end see RobotServer::publish.
+  virtual void publish(std::uint64_t ticks, bool same_moment, bool keep_end) = 0;
   /// For long standstills of time within a motion: sends the client the last state again,
   /// unchanged, unless an answer to it is due; also to clients of the device on the flange.
   virtual void repeat() = 0;
@@ -190,6 +191,7 @@ class Host {
     bool given_up{false};  // silent for too long in lock-step
     int starts_shown{0};   // states sent to a client that has not sent its first command
     Clock::time_point shown_at{};
+    std::optional<Clock::time_point> ended_at{};  // first shown without a motion
     std::uint64_t unpublished_ticks{1};
 
     bool isDue() const { return robot->expectsCommand() && !robot->asynchronous(); }
@@ -197,7 +199,7 @@ class Host {
   };
 
   void publishAll(bool same_moment = false);
-  static void publish(Entry& entry, bool same_moment, Clock::time_point now);
+  void publish(Entry& entry, bool same_moment, Clock::time_point now);
   void serveAll();
   void serveIfDue();
   bool holdsRequestsBack() const;

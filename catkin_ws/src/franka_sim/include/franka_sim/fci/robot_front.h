@@ -48,7 +48,7 @@ class RobotFront : public HostedRobot {
   void actuate() override;
   void serve(bool stops_only) override;
   bool idle() const override;
-  void publish(std::uint64_t ticks, bool same_moment) override;
+  void publish(std::uint64_t ticks, bool same_moment, bool keep_end) override;
   void repeat() override;
   bool hasNews() const override { return server_.hasNews(); }
   bool receiveCommand() override { return server_.receiveCommand(); }

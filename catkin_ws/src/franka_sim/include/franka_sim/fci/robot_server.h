@@ -73,14 +73,18 @@ class RobotServer {
   /// Sends the handler's state, `ticks` after the last one, then the replies that had to wait until
   /// this state was sent. Real-time safe.
   /// @param same_moment time has not advanced since the last state: an answer to any state of this
-  /// moment is accepted.
-  void publish(std::uint64_t ticks = 1, bool same_moment = false);
+  /// moment is accepted. @param keep_end sends the last state again if it showed the end of a
+  /// motion that the client has not requested, and the client has sent no request since: however
+  /// late it reads, it finds that state. Replies are sent, and ticks count.
+  void publish(std::uint64_t ticks = 1, bool same_moment = false, bool keep_end = false);
   /// Sends the last state once more, byte for byte. Clients drop it, because it is not newer than
   /// their last state, but detect that the robot is connected.
   void repeat() noexcept;
-  /// Whether a reply waits until the next state is sent.
+  /// Whether a reply waits until the next state is sent, or a motion has ended and no state has
+  /// shown that yet.
   bool hasNews() const noexcept {
-    return motion_end_ || stop_end_ || recovery_end_ || answered_setter_count_ > 0;
+    return motion_end_ || stop_end_ || recovery_end_ || answered_setter_count_ > 0 ||
+           (motion_shown_ && !expectsCommands());
   }
 
   /// Reads datagrams and keeps the command that answers the last state. @returns whether it has
@@ -121,6 +125,7 @@ class RobotServer {
   bool answer(const franka_core::fci::Header& header, const franka_core::fci::Request& request);
   bool refuse(const franka_core::fci::Header& header, franka_core::fci::CodecError error);
   bool reply(const Pending& to, franka_core::fci::Status status);
+  void sendState() noexcept;
   const Blob* urdf() const noexcept;
   bool replyWithModel(const Pending& to, const Blob& model);
   bool replyWithWall(const Pending& to, std::int32_t id);
@@ -148,6 +153,8 @@ class RobotServer {
   bool asynchronous_{false};
   bool begun_{false};
   bool answered_{false};
+  bool motion_shown_{false};  // by the last state sent
+  bool end_unread_{false};    // see publish
   int datagrams_left_{kDatagramsAtOnce};
   franka_core::fci::StateBuffer state_bytes_{};
   franka_core::RobotState shown_;
