@@ -3,7 +3,10 @@
 #include <franka/control_tools.h>
 #include <gtest/gtest.h>
 
+#include <cerrno>
 #include <limits>
+
+#include "franka/realtime_setup.h"
 
 namespace {
 
@@ -40,6 +43,16 @@ TEST(ControlTools, ToleratesRoundingOfUnitLength) {
   EXPECT_FALSE(franka::isHomogeneousTransformation(pose));
   pose[1] = 1.0 - 1.1e-5;
   EXPECT_FALSE(franka::isHomogeneousTransformation(pose));
+}
+
+TEST(ControlTools, ReportsWhyMemoryIsNotLocked) {
+  const std::string warning = franka::lockMemory([](int) {
+    errno = ENOMEM;
+    return -1;
+  });
+  EXPECT_NE(std::string::npos, warning.find("memlock")) << warning;
+  EXPECT_NE(std::string::npos, warning.find("Cannot allocate memory")) << warning;
+  EXPECT_EQ("", franka::lockMemory([](int) { return 0; }));
 }
 
 // Gives its thread real-time priority where that is allowed.

@@ -98,7 +98,7 @@ ActiveControl::Motion::Motion(std::shared_ptr<Robot::Impl> robot,
   operation_.emplace(*robot_);
   const franka_core::fci::MoveRequest request = checked_request();
   needs_torques_ = request.controller_mode == franka_core::ControllerMode::kExternalController;
-  prepareControlThread(robot_->realtimeForMotion());
+  robot_->prepareThreadForMotion();
   running_.emplace(*robot_, request);
 }
 

@@ -9,7 +9,6 @@
 #include <optional>
 #include <utility>
 
-#include "franka/realtime_setup.h"
 #include "franka/robot_impl.h"
 #include "franka/running_motion.h"
 

@@ -10,7 +10,6 @@
 #include <type_traits>
 
 #include "franka/command_shaping.h"
-#include "franka/realtime_setup.h"
 #include "franka/running_motion.h"
 
 namespace franka {
@@ -59,7 +58,7 @@ void run(Robot::Impl& robot, CheckedRequest checked_request, const LoopSettings&
   const Robot::Impl::Operation operation(robot);
   const fci::MoveRequest request = checked_request();
   requireSettings(settings);
-  prepareControlThread(robot.realtimeForMotion());
+  robot.prepareThreadForMotion();
   const bool starts_at_command =
       robot.options().load().first_cycle_reference == FirstCycleReference::kCommand;
   RunningMotion motion(robot, request);

@@ -4,25 +4,28 @@
 
 #include <franka/control_tools.h>
 #include <franka/exception.h>
-#include <sys/mman.h>
 #include <sys/resource.h>
 
+#include <cerrno>
+#include <cstring>
 #include <string>
 
 namespace franka {
 
-namespace {
-
-void lockMemory() {
+std::string lockMemory(int (*lock)(int)) {
   // Under a limit, later allocations could fail because they cannot be locked.
   rlimit limit{};
   const bool unlimited = getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY;
-  static_cast<void>(mlockall(unlimited ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT));
+  if (lock(unlimited ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0) {
+    return "";
+  }
+  return std::string("libfranka: This program's memory can be swapped out (mlockall: ") +
+         std::strerror(errno) +
+         "), and its commands may then be late. Allow your user to lock more of it (limit memlock "
+         "in /etc/security/limits.conf).";
 }
 
-}  // namespace
-
-void prepareControlThread(RealtimeConfig realtime_config) {
+std::string prepareControlThread(RealtimeConfig realtime_config) {
   const bool enforce = realtime_config == RealtimeConfig::kEnforce;
   if (enforce && !hasRealtimeKernel()) {
     throw RealtimeException(
@@ -34,9 +37,7 @@ void prepareControlThread(RealtimeConfig realtime_config) {
   if (!setCurrentThreadToHighestSchedulerPriority(&error) && enforce) {
     throw RealtimeException(error);
   }
-  if (enforce) {
-    lockMemory();
-  }
+  return enforce ? lockMemory() : "";
 }
 
 }  // namespace franka

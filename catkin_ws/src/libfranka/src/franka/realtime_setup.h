@@ -3,13 +3,21 @@
 #pragma once
 
 #include <franka/control_types.h>
+#include <sys/mman.h>
+
+#include <string>
 
 namespace franka {
 
 /// Prepares the calling thread for the 1 kHz loop: highest priority of SCHED_FIFO and, if enforced,
-/// memory locked as far as permitted (a failure to lock is not an error). With kIgnore a failure to
-/// get the priority is ignored. Not real-time safe.
+/// lockMemory(). With kIgnore a failure to get the priority is ignored. Not real-time safe.
+/// @returns what lockMemory() returns
 /// @throws RealtimeException if enforced and the kernel or the priority is not available.
-void prepareControlThread(RealtimeConfig realtime_config);
+std::string prepareControlThread(RealtimeConfig realtime_config);
+
+/// Locks the program's memory as far as permitted. Not real-time safe.
+/// @param lock mlockall; tests have their own
+/// @returns a warning if that failed, which is not an error; else nothing
+std::string lockMemory(int (*lock)(int) = mlockall);
 
 }  // namespace franka

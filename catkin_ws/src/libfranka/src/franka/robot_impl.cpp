@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "franka/realtime_setup.h"
 #include "franka/warning.h"
 
 namespace franka {
@@ -114,7 +115,8 @@ Robot::Impl::Impl(const std::string& address, RealtimeConfig realtime_config, st
   }
 }
 
-RealtimeConfig Robot::Impl::realtimeForMotion() {
+void Robot::Impl::prepareThreadForMotion() {
+  bool enforce = false;
   try {
     const franka_core::RealtimeRule rule =
         franka_core::realtimeRule(realtime_config_ == RealtimeConfig::kEnforce,
@@ -122,9 +124,14 @@ RealtimeConfig Robot::Impl::realtimeForMotion() {
     if (!rule.warning.empty() && !warned_of_realtime_.test_and_set()) {
       logging::warn("libfranka: " + rule.warning);
     }
-    return rule.enforce ? RealtimeConfig::kEnforce : RealtimeConfig::kIgnore;
+    enforce = rule.enforce;
   } catch (const std::invalid_argument& error) {
     throw RealtimeException(std::string("libfranka: ") + error.what());
+  }
+  const std::string warning =
+      prepareControlThread(enforce ? RealtimeConfig::kEnforce : RealtimeConfig::kIgnore);
+  if (!warning.empty() && !warned_of_memory_.test_and_set()) {
+    logging::warn(warning);
   }
 }
 

@@ -36,10 +36,11 @@ class Robot::Impl {
   Impl(const std::string& address, RealtimeConfig realtime_config, std::size_t log_size);
 
   std::uint16_t version() const noexcept { return version_; }
-  /// Realtime requirement of a motion's thread: as constructed, unless franka_core::realtimeRule
-  /// lifts it for a simulated robot, which is logged once. Not real-time safe. Thread-safe. @throws
-  /// RealtimeException if the environment variable FRANKA_REALTIME is invalid.
-  RealtimeConfig realtimeForMotion();
+  /// Prepares the calling thread for a motion (prepareControlThread): as constructed, unless
+  /// franka_core::realtimeRule lifts the requirement for a simulated robot. What is lifted or not
+  /// permitted is logged once. Not real-time safe. Thread-safe. @throws RealtimeException as
+  /// prepareControlThread, or if the environment variable FRANKA_REALTIME is invalid.
+  void prepareThreadForMotion();
   std::size_t logSize() const noexcept { return log_size_; }
   const ArmRateLimits& limits() const noexcept { return limits_; }
   bool isMobile() const noexcept { return is_mobile_; }
@@ -154,6 +155,7 @@ class Robot::Impl {
 
   const RealtimeConfig realtime_config_;
   std::atomic_flag warned_of_realtime_ = ATOMIC_FLAG_INIT;
+  std::atomic_flag warned_of_memory_ = ATOMIC_FLAG_INIT;
   const std::size_t log_size_;
   const Timeouts timeouts_;
   std::atomic<ControlOptions> options_{ControlOptions{}};
