@@ -16,7 +16,10 @@ namespace franka_hw {
 /// One of several arms that run under one controller manager, with torque control only.
 ///
 /// Each arm has a thread of its own that communicates with its robot. read() and write(), called by
-/// the thread of the controllers' loop, exchange states and commands with it without waiting. An
+/// the thread of the controllers' loop, exchange states and commands with it without waiting. It
+/// repeats the last torques for a few states only: when the controllers' loop stalls, the robot gets
+/// no more commands. It then holds the torque and ends the motion as soon as twenty are missing, as
+/// that of FrankaHW does. An
 /// error of this arm is published on `has_error` and ends its motion; error_recovery, or
 /// resetError(), clears it, and the controllers are then reset.
 ///
@@ -72,9 +75,10 @@ class FrankaCombinableHW : public FrankaHW {
                       double cutoff_frequency, franka::ControllerMode internal_controller) override;
 
  private:
-  /// Torques, and the arrival time of the state from which they were computed.
+  /// Torques, and time and arrival of the state from which they were computed.
   struct Answer {
     franka::Torques torques{std::array<double, 7>{}};
+    franka::Duration state_time{};
     ResponseTimes::Clock::time_point since{};
   };
   struct ArrivedState {
@@ -83,6 +87,8 @@ class FrankaCombinableHW : public FrankaHW {
   };
 
   franka::Torques torqueCallback(const franka::RobotState& robot_state);
+  const Answer& awaitAnswer(const franka::RobotState& robot_state);
+  bool mustEndMotion() const noexcept;
   void controlLoop();
   void watchRobot();
   bool lossIsError() const override { return true; }
@@ -90,7 +96,8 @@ class FrankaCombinableHW : public FrankaHW {
 
   Latest<ArrivedState> states_;
   Latest<Answer> answers_;
-  ResponseTimes::Clock::time_point read_arrival_{};  // of the state that the controllers read
+  franka::Duration read_time_{};                     // of the state that the controllers read
+  ResponseTimes::Clock::time_point read_arrival_{};  // of the same
   ResponseTimes::Clock::time_point motion_ended_{};  // written by the arm's thread
 
   std::atomic_bool error_recovered_{false};
