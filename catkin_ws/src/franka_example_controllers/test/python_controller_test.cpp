@@ -412,8 +412,10 @@ TEST_P(PythonControllerTest, RefusesScriptsThatCannotBeLoaded) {
   node.deleteParam("command");
   expectRefusal("No command interface is named");
   command({"effort"});
-  node.setParam("max_update_time", -1.0);
-  expectRefusal("must be a time above zero");
+  for (const double time : {-1.0, 1e20}) {
+    node.setParam("max_update_time", time);
+    expectRefusal("must be a time above zero");
+  }
 }
 
 TEST_P(PythonControllerTest, ReloadsAScriptTwentyTimes) {

@@ -7,6 +7,7 @@
 #include <ros/console.h>
 #include <ros/init.h>
 
+#include <algorithm>
 #include <iomanip>
 #include <limits>
 #include <sstream>
@@ -23,6 +24,8 @@ constexpr double kLimitReportPeriod = 5.0;
 constexpr double kLimitCheckPeriod = 0.5;
 // Time between two attempts to reach a robot that is starting. [s]
 constexpr double kConnectPeriod = 0.2;
+// Chosen here: three years; the sum of a longer time and the clock could leave the range of ros::Time.
+constexpr double kMaxConnectTime = 1e8;  // [s]
 // For a user without a robot.
 constexpr char kNoRobot[] =
     " Without a robot, start a simulated one: give the launch file sim:=true, or run "
@@ -84,7 +87,7 @@ void FrankaHW::initRobot() {
 
 void FrankaHW::connectInTime() {
   ROS_INFO_STREAM("FrankaHW: Connecting to the robot '" << arm_id_ << "' at " << robot_ip_ << ".");
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(connect_timeout_);
+  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(std::min(connect_timeout_, kMaxConnectTime));
   while (true) {
     try {
       connect();

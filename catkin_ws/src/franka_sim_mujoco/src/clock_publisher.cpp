@@ -11,12 +11,16 @@ namespace franka_sim_mujoco {
 namespace {
 
 constexpr std::int64_t kStandStillInterval = 100000000;  // [ns]
+/// Chosen here: eleven days; sums of slower rates would leave the range of 64 bits.
+constexpr double kMaxInterval = 1e15;  // [ns]
 
 }  // namespace
 
 ClockPublisher::ClockPublisher(ros::NodeHandle& node) : publisher_(node, "/clock", 10) {}
 
-void ClockPublisher::setRate(double rate) { interval_ns_ = std::llround(1e9 / rate); }
+void ClockPublisher::setRate(double rate) {
+  interval_ns_ = std::llround(std::min(1e9 / rate, kMaxInterval));
+}
 
 void ClockPublisher::tick(const ros::Time& time) {
   const std::int64_t now = monotonicNanoseconds();

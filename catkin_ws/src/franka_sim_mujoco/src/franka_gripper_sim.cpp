@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/robot/realism.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/exception_text.h>
@@ -7,7 +8,6 @@
 #include <franka_sim_mujoco/param_reader.h>
 #include <ros/console.h>
 
-#include <cmath>
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 
@@ -57,11 +57,12 @@ franka_sim::GripperParameters readUnitParameters(const ros::NodeHandle& node) {
       readPositive(node, "grasp/resting_threshold", parameters.resting_threshold);
   const double samples =
       readPositive(node, "grasp/consecutive_samples", parameters.consecutive_samples);
-  if (samples != std::floor(samples) || samples > 1e6) {
+  const auto whole = franka_core::wholeNumber(samples, 1, 1000000);
+  if (!whole) {
     throw std::invalid_argument("The parameter " + node.resolveName("grasp/consecutive_samples") +
                                 " must be a whole number.");
   }
-  parameters.consecutive_samples = static_cast<int>(samples);
+  parameters.consecutive_samples = static_cast<int>(*whole);
   std::string robot_type;  // hands are the same for both, so "panda" serves where it is not set
   parameters.latency = readPhysics(node,
                                    node.searchParam("robot_type", robot_type)

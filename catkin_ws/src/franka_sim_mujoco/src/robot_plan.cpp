@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/urdf_text.h>
 #include <franka_sim/robot/realism.h>
@@ -25,8 +26,8 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr double kFirstFciPort = 1337;  // robot, gripper, vacuum gripper
-constexpr double kLastFciPort = 1339;
+constexpr std::int64_t kFirstFciPort = 1337;  // robot, gripper, vacuum gripper
+constexpr std::int64_t kLastFciPort = 1339;
 
 /// "panda" or "fr3"; the result and its reason are logged. @param name of arm or robot in the log
 std::string chooseRobotType(const ros::NodeHandle& node, const urdf::Model& urdf,
@@ -94,14 +95,14 @@ std::map<std::string, double> knownPositions(const SpawnOrder& order, const urdf
 
 void readServing(const ros::NodeHandle& node, RobotPlan* plan) {
   plan->fci_ip = readString(node, "fci_ip").value_or("");
-  const double port = readNumber(node, "control_port").value_or(plan->control_port);
-  if (!(port >= 0.0 && port <= 65535.0) || port != std::floor(port) ||
-      (port >= kFirstFciPort && port <= kLastFciPort)) {
+  const auto port = franka_core::wholeNumber(
+      readNumber(node, "control_port").value_or(plan->control_port), 0, 65535);
+  if (!port || (*port >= kFirstFciPort && *port <= kLastFciPort)) {
     throw std::runtime_error("The parameter " + node.resolveName("control_port") +
                              " is not a port for the control interface: give 0 for none, or 1 to "
                              "65535 without the robot's own ports 1337 to 1339.");
   }
-  plan->control_port = static_cast<std::uint16_t>(port);
+  plan->control_port = static_cast<std::uint16_t>(*port);
   const std::string start = readString(node, "fci_start").value_or("ready");
   if (start != "ready" && start != "locked") {
     throw std::runtime_error("The parameter " + node.resolveName("fci_start") + " is '" + start +

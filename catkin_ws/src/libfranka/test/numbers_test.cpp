@@ -5,7 +5,10 @@
 #include <franka_core/numbers.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstdint>
 #include <limits>
+#include <optional>
 
 namespace franka_core {
 namespace {
@@ -16,6 +19,38 @@ TEST(Numbers, TheWholeTextIsRead) {
   EXPECT_EQ(3.0, readNumber("+3."));
   for (const char* text : {"", " ", "0,5", "1 2", "1.5x", "+-1", "+", "nan", "inf", "1e999", "x"}) {
     EXPECT_FALSE(readNumber(text)) << "'" << text << "'";
+  }
+}
+
+TEST(Numbers, OnlyIntegersWithinTheRangeAreWholeNumbers) {
+  constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  constexpr double kInf = std::numeric_limits<double>::infinity();
+  constexpr double kBeyond = 0x1p63;
+  const struct {
+    double value;
+    std::int64_t least, most;
+    std::optional<std::int64_t> whole;
+  } cells[] = {
+      {0.0, 0, 7, 0},
+      {-0.0, 0, 7, 0},
+      {7.0, 0, 7, 7},
+      {-3.0, -3, 7, -3},
+      {8.0, 0, 7, {}},
+      {-1.0, 0, 7, {}},
+      {1.5, 0, 7, {}},
+      {1e20, 0, 7, {}},
+      {-1e20, 0, 7, {}},
+      {1e300, kLeast, kMost, {}},
+      {kInf, kLeast, kMost, {}},
+      {-kInf, kLeast, kMost, {}},
+      {std::numeric_limits<double>::quiet_NaN(), kLeast, kMost, {}},
+      {kBeyond, kLeast, kMost, {}},
+      {-kBeyond, kLeast, kMost, kLeast},
+      {std::nextafter(kBeyond, 0.0), kLeast, kMost, kMost - 1023},
+  };
+  for (const auto& cell : cells) {
+    EXPECT_EQ(cell.whole, wholeNumber(cell.value, cell.least, cell.most)) << cell.value;
   }
 }
 

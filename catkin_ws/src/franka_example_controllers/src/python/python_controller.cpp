@@ -7,7 +7,6 @@
 #include <pluginlib/class_list_macros.h>
 #include <ros/param.h>
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -36,8 +35,9 @@ bool inSimulatedTime() {
 }
 
 bool readTime(const ros::NodeHandle& nh, const char* name, double& value) {
-  if (nh.hasParam(name) && !(nh.getParam(name, value) && std::isfinite(value) && value > 0.0)) {
-    ROS_ERROR("%s: the parameter %s must be a time above zero, in seconds.", kName,
+  constexpr double kMaxTime = 3600.0;  // [s] chosen here: a loop that waits longer has failed
+  if (nh.hasParam(name) && !(nh.getParam(name, value) && value > 0.0 && value <= kMaxTime)) {
+    ROS_ERROR("%s: the parameter %s must be a time above zero and at most 3600, in seconds.", kName,
               nh.resolveName(name).c_str());
     return false;
   }

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/camera_sensor.h"
 
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/renderer.h>
 
-#include <cmath>
+#include <cstdint>
+#include <optional>
 #include <stdexcept>
 
 #include "physics/degree.h"
@@ -19,12 +21,13 @@ using tinyxml2::XMLElement;
 int readEdge(const XMLElement& image, const char* name, int fallback, const std::string& camera) {
   const double edge = childNumbers(image, name, {static_cast<double>(fallback)}, camera)[0];
   constexpr int kMax = Renderer::kMaxPictureSide;
-  if (!(edge >= 1 && edge <= kMax) || edge != std::floor(edge)) {
+  const std::optional<std::int64_t> pixels = franka_core::wholeNumber(edge, 1, kMax);
+  if (!pixels) {
     throw std::runtime_error(camera + ": the " + name + " of its image is " + toText({edge}) +
                              "; it must be a whole number of pixels from 1 to " +
                              std::to_string(kMax) + ".");
   }
-  return static_cast<int>(edge);
+  return static_cast<int>(*pixels);
 }
 
 CameraSensor readCamera(const XMLElement& sensor, const XMLElement& camera,

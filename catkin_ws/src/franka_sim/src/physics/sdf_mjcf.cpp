@@ -212,8 +212,10 @@ class SdfWriter {
     geom->SetAttribute("name", name.c_str());
     setShape(shape, in_body, geom);
     const SdfSurface& surface = shape.surface;
-    geom->SetAttribute("contype", surface.bitmask);
-    geom->SetAttribute("conaffinity", surface.bitmask);
+    // The lowest bit stands for every bit, which robots and the bodies of MJCF have.
+    const int own = surface.bitmask == SdfSurface::kEveryBit ? 1 : surface.bitmask << 1;
+    geom->SetAttribute("contype", own);
+    geom->SetAttribute("conaffinity", own == 0 ? 0 : own | 1);
     geom->SetAttribute("condim", surface.torsion ? kGraspCondim : kCondim);
     geom->SetAttribute("friction", toText({surface.mu, surface.torsion.value_or(kTorsionalFriction),
                                            kRollingFriction})

@@ -23,7 +23,8 @@ struct SdfSurface {
   double mu{1};                   ///< Coulomb friction, Gazebo's default
   std::optional<double> torsion;  ///< torsional friction as a lever [m]
   std::optional<double> kp, kd;   ///< contact stiffness [N/m] and damping [N s/m]
-  int bitmask{1};                 ///< two surfaces collide if these share a bit
+  static constexpr int kEveryBit = 65535;
+  int bitmask{kEveryBit};  ///< two surfaces collide if these share a bit
 };
 
 /// Default colour.

@@ -2,11 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/sdf_shapes.h"
 
+#include <franka_core/numbers.h>
+
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
 #include <map>
 #include <stdexcept>
+#include <string_view>
+#include <system_error>
 
 #include "physics/xml_util.h"
 
@@ -15,9 +20,6 @@ namespace {
 
 using Kind = SdfShape::Kind;
 using tinyxml2::XMLElement;
-
-/// Default: all bits.
-constexpr unsigned kEveryBit = 65535;
 
 /// Gazebo's plain materials, by the word after "Gazebo/".
 const std::map<std::string, std::array<double, 3>>& plainMaterials() {
@@ -132,6 +134,35 @@ std::optional<SdfShape> readShape(const XMLElement& thing, const std::string& wh
   return shape;
 }
 
+namespace {
+
+/// 16 bits, as a whole number or with 0x. Of a longer mask the lowest ones count.
+int readBitmask(const XMLElement* contact, const std::string& what) {
+  constexpr std::int64_t kMost = 0xFFFFFFFF;
+  const XMLElement* element = descend(contact, {"collide_bitmask"});
+  if (element == nullptr || element->GetText() == nullptr) {
+    return SdfSurface::kEveryBit;
+  }
+  const std::string_view text = element->GetText();
+  std::optional<std::int64_t> mask;
+  if (text.substr(0, 2) == "0x") {
+    std::int64_t bits = -1;
+    const auto [end, error] =
+        std::from_chars(text.data() + 2, text.data() + text.size(), bits, 16);
+    const bool whole = error == std::errc() && end == text.data() + text.size();
+    mask = whole && bits >= 0 && bits <= kMost ? std::optional(bits) : std::nullopt;
+  } else if (const std::optional<double> number = franka_core::readNumber(text)) {
+    mask = franka_core::wholeNumber(*number, 0, kMost);
+  }
+  if (!mask) {
+    throw std::runtime_error(what + ": the collide_bitmask is " + std::string(text) +
+                             "; it must be a whole number from 0 to 65535.");
+  }
+  return static_cast<int>(*mask & SdfSurface::kEveryBit);
+}
+
+}  // namespace
+
 SdfSurface readSurface(const XMLElement& collision, const std::string& what,
                        std::set<std::string>* unsupported) {
   SdfSurface surface;
@@ -163,9 +194,7 @@ SdfSurface readSurface(const XMLElement& collision, const std::string& what,
   const XMLElement* contact = descend(element, {"contact"});
   surface.kp = numberIn(descend(contact, {"ode"}), "kp", what);
   surface.kd = numberIn(descend(contact, {"ode"}), "kd", what);
-  if (const auto mask = numberIn(contact, "collide_bitmask", what)) {
-    surface.bitmask = *mask == kEveryBit ? 1 : static_cast<int>(*mask);
-  }
+  surface.bitmask = readBitmask(contact, what);
   if (contact != nullptr && isTrue(*contact, "collide_without_contact")) {
     unsupported->insert(what + ": collide_without_contact");
   }

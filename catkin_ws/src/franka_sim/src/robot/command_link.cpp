@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/robot/command_link.h>
 
-#include <cmath>
 #include <stdexcept>
 #include <string>
 
@@ -18,11 +18,12 @@ void CommandLink::setLoss(double probability, std::uint64_t seed) {
 }
 
 void CommandLink::setDelay(double ticks) {
-  if (!(ticks >= 0.0 && ticks <= kMaxDelay) || ticks != std::floor(ticks)) {
+  const auto whole = franka_core::wholeNumber(ticks, 0, kMaxDelay);
+  if (!whole) {
     throw std::invalid_argument("Commands are delayed by a whole number of ticks from 0 to " +
                                 std::to_string(kMaxDelay) + ".");
   }
-  delay_ = static_cast<unsigned>(ticks);
+  delay_ = static_cast<unsigned>(*whole);
   clear();
 }
 

@@ -9,7 +9,7 @@
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
-#include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <stdexcept>
 
@@ -27,12 +27,12 @@ using Words = LineServer::Words;
 constexpr std::uint64_t kFall = 1000;  // [ticks] in lock-step, until a released object rests
 
 std::uint64_t toTicks(const std::string& word) {
-  const double ticks = toNumber(word);
-  if (!(ticks >= 1.0 && ticks <= sizes::kMaxPushTicks) || ticks != std::floor(ticks)) {
+  const auto ticks = franka_core::wholeNumber(toNumber(word), 1, sizes::kMaxPushTicks);
+  if (!ticks) {
     throw std::invalid_argument("'" + word +
                                 "' is not a number of milliseconds from 1 to 1000000.");
   }
-  return static_cast<std::uint64_t>(ticks);
+  return static_cast<std::uint64_t>(*ticks);
 }
 
 std::array<double, 3> toVector(const Words& words, std::size_t first) {
@@ -169,11 +169,12 @@ franka_core::fci::CartesianLimit toWall(const Words& words) {
 
 void addWalls(LineServer& lines, fci::SimRobot& robot) {
   lines.add("wall NUMBER off|X Y Z DX DY DZ [QW QX QY QZ]", [&robot](const Words& words) {
-    const double number = toNumber(words.at(0));
-    if (!(number >= 0.0 && number < VirtualWalls::kCount) || number != std::floor(number)) {
+    constexpr std::int64_t kLast = VirtualWalls::kCount - 1;
+    const auto number = franka_core::wholeNumber(toNumber(words.at(0)), 0, kLast);
+    if (!number) {
       throw std::invalid_argument("'" + words.at(0) + "' is not a number of a wall: 0 to 7.");
     }
-    require(robot.unit().request(SetVirtualWall{static_cast<std::int32_t>(number), toWall(words)}),
+    require(robot.unit().request(SetVirtualWall{static_cast<std::int32_t>(*number), toWall(words)}),
             "The wall was refused: it has a negative edge, or the robot moves.");
     return "";
   });

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation/safety_commands.h"
 
+#include <franka_core/numbers.h>
 #include <franka_sim/fci/robot_report.h>
 #include <franka_sim/robot/parameter_checks.h>
 
@@ -205,12 +206,12 @@ void addErrors(LineServer& lines, fci::SimRobot& robot) {
   });
   lines.add("inject ERROR [JOINT] on|off", [&](const Words& words) {
     if (isIn(kDemandedRecoveryNames, words.at(0))) {
-      const double joint = toNumber(words.at(1));
-      if (!(joint >= 1.0 && joint <= 7.0) || joint != std::floor(joint)) {
+      const auto joint = franka_core::wholeNumber(toNumber(words.at(1)), 1, 7);
+      if (!joint) {
         throw std::invalid_argument("'" + words[1] + "' is not the number of a joint, 1 to 7.");
       }
       const std::size_t index = indexIn(kDemandedRecoveryNames, words[0]);
-      safety.inject(static_cast<DemandedRecovery>(index), static_cast<std::size_t>(joint) - 1,
+      safety.inject(static_cast<DemandedRecovery>(index), static_cast<std::size_t>(*joint) - 1,
                     toSwitch(words.at(2)));
     } else {
       const std::size_t index = indexIn(kRecoverableErrorNames, words[0]);

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/fci/json.h>
 #include <franka_sim/simulation/scene_commands.h>
 #include <sched.h>
@@ -7,7 +8,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -59,12 +60,12 @@ void leavePriority() {
 }
 
 std::size_t toOffset(const std::string& word) {
-  constexpr double kMaxOffset = 1e12;
-  const double offset = fci::toNumber(word);
-  if (!(offset >= 0.0 && offset <= kMaxOffset) || offset != std::floor(offset)) {
+  constexpr std::int64_t kMaxOffset = 1000000000000;
+  const auto offset = franka_core::wholeNumber(fci::toNumber(word), 0, kMaxOffset);
+  if (!offset) {
     throw std::invalid_argument("'" + word + "' is not a number of bytes.");
   }
-  return static_cast<std::size_t>(offset);
+  return static_cast<std::size_t>(*offset);
 }
 
 std::string describe(const std::vector<Pose>& poses) {

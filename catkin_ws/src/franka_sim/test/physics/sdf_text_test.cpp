@@ -253,6 +253,41 @@ TEST_F(SdfTextTest, LightsCamerasAndColoursKeepTheirDefaults) {
   EXPECT_EQ(scene.links.at(0).visuals.at(0).opacity, 0.75);
 }
 
+TEST_F(SdfTextTest, BitmasksAreWholeNumbers) {
+  const struct {
+    const char* text;
+    int mask;  ///< -1: refused
+  } cells[] = {
+      {"0", 0},
+      {"6", 6},
+      {"65535", 65535},
+      {"0x0a", 10},
+      {"0xffffffff", 65535},
+      {"4294967295", 65535},
+      {"-1", -1},
+      {"1.5", -1},
+      {"1e20", -1},
+      {"nan", -1},
+      {"0x", -1},
+      {"0x1g", -1},
+      {"0xfffffffffffffffff", -1},
+  };
+  for (const auto& cell : cells) {
+    const std::string text = world(
+        "<model name='m'><link name='a'><collision name='c'><geometry><sphere/></geometry>"
+        "<surface><contact><collide_bitmask>" +
+            std::string(cell.text) +
+            "</collide_bitmask></contact></surface></collision></link></model>",
+        "1.6");
+    if (cell.mask < 0) {
+      expectSentence([&] { byTinyXml(text); }, {"collide_bitmask", cell.text});
+    } else {
+      EXPECT_EQ(cell.mask, byTinyXml(text).links.at(0).collisions.at(0).surface.bitmask)
+          << cell.text;
+    }
+  }
+}
+
 TEST_F(SdfTextTest, RefusesInvalidTexts) {
   const auto refuses = [&](const std::string& text, std::initializer_list<const char*> parts) {
     expectSentence([&] { byTinyXml(text); }, parts);

@@ -133,6 +133,27 @@ TEST_F(SdfWorldTest, FrictionDecidesOnASlope) {
   }
 }
 
+/// Bodies collide if their masks share a bit; a body without one has all.
+TEST_F(SdfWorldTest, BitmasksDecideWhichBodiesCollide) {
+  const auto mask = [](int bits) {
+    return "<surface><contact><collide_bitmask>" + std::to_string(bits) +
+           "</collide_bitmask></contact></surface>";
+  };
+  const auto shelf = [&](const char* name, int x, int bits) {
+    return box(name, std::to_string(x) + " 0 1 0 0 0", mask(bits), "<static>true</static>");
+  };
+  const auto above = [&](const char* name, int x, int bits) {
+    return box(name, std::to_string(x) + " 0 1.1 0 0 0", mask(bits));
+  };
+  World world(file(ground(1) + shelf("s1", 0, 1) + above("other", 0, 2) + shelf("s2", 1, 3) +
+                   above("shared", 1, 6) + box("none", "2 0 0.05 0 0 0", mask(0))));
+  run(world, 1000);
+  const auto height = [&](const char* name) { return world.bodyPose(name).position[2]; };
+  EXPECT_NEAR(height("other"), 0.05, 1e-2) << "fell past its shelf, onto the ground";
+  EXPECT_NEAR(height("shared"), 1.1, 1e-2);
+  EXPECT_LT(height("none"), -1.0);
+}
+
 TEST_F(SdfWorldTest, SoftContactsDeflectByTheirStiffness) {
   const double kp = 2000;
   const std::string soft = "<surface><contact><ode><kp>2000</kp></ode></contact></surface>";

@@ -41,6 +41,16 @@ std::optional<double> readNumber(std::string_view text) noexcept {
   return value;
 }
 
+std::optional<std::int64_t> wholeNumber(double value, std::int64_t least,
+                                        std::int64_t most) noexcept {
+  constexpr double kBeyond = 9223372036854775808.0;  // 2^63: one more than the largest
+  if (!(value >= -kBeyond && value < kBeyond) || value != std::trunc(value)) {
+    return std::nullopt;
+  }
+  const auto whole = static_cast<std::int64_t>(value);
+  return whole >= least && whole <= most ? std::optional(whole) : std::nullopt;
+}
+
 std::string numberText(double value, int digits) {
   return written(value, std::chars_format::general, digits);
 }

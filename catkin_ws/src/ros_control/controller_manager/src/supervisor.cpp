@@ -4,6 +4,7 @@
 #include <controller_manager/internal/supervisor.h>
 #include <ros/console.h>
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -15,6 +16,8 @@ namespace {
 
 // Period of handling faults; too short for users to notice.
 constexpr std::chrono::milliseconds kFaultPeriod{2};
+// Chosen here: three years; the sum of a longer one and the clock could leave the clock's range.
+constexpr double kMaxPeriod = 1e8;  // [s]
 
 double readPositive(const ros::NodeHandle& nh, const std::string& name) {
   XmlRpc::XmlRpcValue value;
@@ -100,7 +103,7 @@ void Supervisor::update(const ControllerList& list, const ros::Time& time,
 
 void Supervisor::run() {
   const bool publishes = supervision_.statistics_rate > 0.0;
-  const std::chrono::duration<double> period(publishes ? 1.0 / supervision_.statistics_rate : 1.0);
+  const std::chrono::duration<double> period(publishes ? std::min(1.0 / supervision_.statistics_rate, kMaxPeriod) : 1.0);
   auto next = Clock::now() + std::chrono::duration_cast<Clock::duration>(period);
   const bool settles = supervision_.abort_faulty || supervision_.max_update_time > 0.0;
 
