@@ -24,7 +24,8 @@ constexpr double kLimitReportPeriod = 5.0;
 constexpr double kLimitCheckPeriod = 0.5;
 // Time between two attempts to reach a robot that is starting. [s]
 constexpr double kConnectPeriod = 0.2;
-// Chosen here: three years; the sum of a longer time and the clock could leave the range of ros::Time.
+// Chosen here: three years; the sum of a longer time and the clock could leave the range of
+// ros::Time.
 constexpr double kMaxConnectTime = 1e8;  // [s]
 // For a user without a robot.
 constexpr char kNoRobot[] =
@@ -87,7 +88,8 @@ void FrankaHW::initRobot() {
 
 void FrankaHW::connectInTime() {
   ROS_INFO_STREAM("FrankaHW: Connecting to the robot '" << arm_id_ << "' at " << robot_ip_ << ".");
-  const ros::WallTime deadline = ros::WallTime::now() + ros::WallDuration(std::min(connect_timeout_, kMaxConnectTime));
+  const ros::WallTime deadline =
+      ros::WallTime::now() + ros::WallDuration(std::min(connect_timeout_, kMaxConnectTime));
   while (true) {
     try {
       connect();

@@ -17,11 +17,10 @@ namespace franka_hw {
 ///
 /// Each arm has a thread of its own that communicates with its robot. read() and write(), called by
 /// the thread of the controllers' loop, exchange states and commands with it without waiting. It
-/// repeats the last torques for a few states only: when the controllers' loop stalls, the robot gets
-/// no more commands. It then holds the torque and ends the motion as soon as twenty are missing, as
-/// that of FrankaHW does. An
-/// error of this arm is published on `has_error` and ends its motion; error_recovery, or
-/// resetError(), clears it, and the controllers are then reset.
+/// repeats the last torques for a few states only: when the controllers' loop stalls, the robot
+/// gets no more commands. It then holds the torque and ends the motion as soon as twenty are
+/// missing, as that of FrankaHW does. An error of this arm is published on `has_error` and ends its
+/// motion; error_recovery, or resetError(), clears it, and the controllers are then reset.
 ///
 /// The loss of a robot is an error, too: the other arms wait until it recovers or is given up. The
 /// services of the arm, its recovery and its reconnection: ArmConnection.

@@ -147,8 +147,7 @@ int readBitmask(const XMLElement* contact, const std::string& what) {
   std::optional<std::int64_t> mask;
   if (text.substr(0, 2) == "0x") {
     std::int64_t bits = -1;
-    const auto [end, error] =
-        std::from_chars(text.data() + 2, text.data() + text.size(), bits, 16);
+    const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), bits, 16);
     const bool whole = error == std::errc() && end == text.data() + text.size();
     mask = whole && bits >= 0 && bits <= kMost ? std::optional(bits) : std::nullopt;
   } else if (const std::optional<double> number = franka_core::readNumber(text)) {

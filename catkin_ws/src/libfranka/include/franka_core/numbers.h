@@ -14,7 +14,8 @@ namespace franka_core {
 std::optional<double> readNumber(std::string_view text) noexcept;
 
 /// The integer that a number is, if it is one from `least` to `most`; nothing for a fraction, for
-/// what no integer can hold, and for NaN. A cast of these is undefined. Real-time safe. Thread-safe.
+/// what no integer can hold, and for NaN. A cast of these is undefined. Real-time safe.
+/// Thread-safe.
 std::optional<std::int64_t> wholeNumber(double value, std::int64_t least,
                                         std::int64_t most) noexcept;
 

@@ -103,7 +103,8 @@ void Supervisor::update(const ControllerList& list, const ros::Time& time,
 
 void Supervisor::run() {
   const bool publishes = supervision_.statistics_rate > 0.0;
-  const std::chrono::duration<double> period(publishes ? std::min(1.0 / supervision_.statistics_rate, kMaxPeriod) : 1.0);
+  const std::chrono::duration<double> period(
+      publishes ? std::min(1.0 / supervision_.statistics_rate, kMaxPeriod) : 1.0);
   auto next = Clock::now() + std::chrono::duration_cast<Clock::duration>(period);
   const bool settles = supervision_.abort_faulty || supervision_.max_update_time > 0.0;
 
