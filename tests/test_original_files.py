@@ -4,6 +4,7 @@
 
 import os
 import subprocess
+from pathlib import Path
 
 import pytest
 import rospkg
@@ -75,6 +76,17 @@ def test_franka_gazebo_exports_its_plugins_as_the_original(package, file):
     manifest = rospkg.RosPack().get_manifest("franka_gazebo")
     folder = rospkg.RosPack().get_path("franka_gazebo")
     assert manifest.get_export(package, "plugin") == [f"{folder}/{file}"]
+
+
+def test_pkg_config_knows_every_package():
+    """With all that they require: Debian's pluginlib and angles have no pkg-config files."""
+    folder = Path(__file__).resolve().parent.parent / "catkin_ws" / "devel" / "lib" / "pkgconfig"
+    names = sorted(path.stem for path in folder.glob("*.pc"))
+    assert {"franka_hw", "joint_trajectory_controller"} <= set(names)
+    command = ["pkg-config", "--print-errors", "--cflags", "--libs", *names]
+    result = subprocess.run(command, text=True, capture_output=True)
+    assert result.returncode == 0, result.stderr
+    assert {"-lfranka_hw", "-lclass_loader"} <= set(result.stdout.split())
 
 
 def test_packages_find_libraries_and_headers_of_franka_gazebo(tmp_path):
