@@ -117,6 +117,18 @@ def test_another_system_is_refused(tmp_path, system):
     assert "Debian 12 (bookworm) and Debian 13 (trixie)" in result.stderr
 
 
+@pytest.mark.parametrize("name", ["two words", "a:b"])
+def test_a_folder_that_ros_cannot_take_is_refused_at_once(tmp_path, name):
+    folder = tmp_path / name
+    folder.mkdir()
+    shutil.copy(FRANKA, folder)
+    for command in ("install", "build", "shell"):
+        result = subprocess.run([folder / "franka", command], capture_output=True, text=True, timeout=60)
+        assert result.returncode == 1
+        assert f'"{folder}" has a space or a colon' in result.stderr
+    assert [path.name for path in folder.iterdir()] == ["franka"]
+
+
 def test_help_names_every_command():
     result = franka("--help")
     assert result.returncode == 0
