@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """franka_sim as a user calls it: its command line, and the control interface."""
 
+import os
 import socket
 import struct
 import subprocess
@@ -81,6 +82,8 @@ def simulated(address, *arguments, kind="panda", **options):
             "--arm-id a: two robots have it",
         ),
         (["--nonsense"], "not expected: --nonsense"),
+        (["--friction", "on"], "--realism ideal,friction=on"),
+        (["--friction=off"], "--realism ideal,friction=on"),
         (["--nonsense=3"], "not expected: --nonsense=3"),
         (["--realism", "x"], "--realism: realism 'x': 'x' is not known there."),
         (["--realism=real,friction"], "--realism: realism 'real,friction': 'friction' is not known there."),
@@ -88,7 +91,8 @@ def simulated(address, *arguments, kind="panda", **options):
         (["--control-port=1339"], "1337 to 1339 are those of robot"),
         (["--ip=robot.local"], "--ip: robot.local is not an IPv4 address"),
         (["--ip="], "is not an IPv4 address"),
-        (["--viewer=yes"], "viewer was given a disallowed flag override"),
+        (["--viewer=yes"], "--viewer: it takes no value"),
+        (["--no-hand=true"], "--no-hand: it takes no value"),
         (["--base", "1e11,0,0"], "give metres, 1000 at most"),
         (["--base=0,-1001,0"], "give metres, 1000 at most"),
         (["--ip"], "--ip: 1 required"),
@@ -209,6 +213,37 @@ def test_unreasonable_values_are_refused_and_change_nothing():
 FEATHER = """<mujoco><worldbody><body name="feather" pos="5 5 5"><freejoint/>
   <inertial pos="0 0 0" mass="1e-7" diaginertia="1e-7 1e-7 1e-7"/><geom type="sphere" size="0.01"/></body>
 </worldbody></mujoco>"""
+
+
+def test_models_are_found_in_folders_that_ros_packages_export(tmp_path, monkeypatch):
+    package = tmp_path / "my packages" / "pebbles"
+    model = package / "my models" / "pebble"
+    model.mkdir(parents=True)
+    (package / "package.xml").write_text(
+        "<package format='2'><name>pebbles</name><version>1.0.0</version><description>d</description>"
+        "<maintainer email='a@b.org'>a</maintainer><license>none</license>"
+        "<exec_depend>gazebo_ros</exec_depend>"
+        "<export><gazebo_ros gazebo_model_path='${prefix}/my models'/></export></package>"
+    )
+    (package / "pebble.obj").write_text(
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+    )
+    (model / "model.config").write_text(
+        "<model><name>pebble</name><version>1.0</version><sdf version='1.6'>model.sdf</sdf></model>"
+    )
+    (model / "model.sdf").write_text(
+        "<sdf version='1.6'><model name='pebble'><static>true</static><link name='link'><visual name='v'>"
+        "<geometry><mesh><uri>package://pebbles/pebble.obj</uri></mesh></geometry></visual></link>"
+        "</model></sdf>"
+    )
+    world = tmp_path / "beach.sdf"
+    world.write_text(
+        "<sdf version='1.6'><world name='beach'>"
+        "<include><uri>model://pebble</uri><pose>3 0 1 0 0 0</pose></include></world></sdf>"
+    )
+    monkeypatch.setenv("ROS_PACKAGE_PATH", f"{package.parent}:{os.environ['ROS_PACKAGE_PATH']}")
+    with simulated("127.0.22.23", "--pace=lockstep", "--world", str(world)) as (send, _):
+        assert send("where pebble").startswith("ok 3 0 1")
 
 
 @pytest.mark.parametrize("pace", ["lockstep", "realtime"])

@@ -272,8 +272,7 @@ void addOptionsOfRobots(CLI::App& app, std::vector<ArmOptions>& arms, bool& robo
   app.add_flag_callback(
          "--no-hand", [&arms] { arms.back().tool = Tool::kNone; }, "short for --hand none")
       ->group("Of each robot")
-      ->trigger_on_parse()
-      ->disable_flag_override();
+      ->trigger_on_parse();
   add("--control-port", "N",
       "port of the control interface: lines of text that press the user stop, push\n"
       "the arm and so on (1340; 0: none); the line help lists them",
@@ -335,7 +334,19 @@ void addOptionsOfAll(CLI::App& app, Options& options) {
                  "after a signal, wait this long for clients to disconnect (0)")
       ->option_text("SECONDS")
       ->check(within(0, 60, "a number of seconds from 0 to 60"));
-  app.add_flag("--viewer", options.viewer, "open a window")->disable_flag_override();
+  app.add_flag("--viewer", options.viewer, "open a window");
+}
+
+// An earlier option, which scripts may still give.
+void addReplacedOptions(CLI::App& app) {
+  const auto refuse = [](const std::string& /*value*/) {
+    throw CLI::ValidationError("--friction",
+                               "it is a part of --realism: --realism ideal,friction=on.");
+  };
+  app.add_option_function<std::string>("--friction", refuse)
+      ->expected(0, 1)
+      ->trigger_on_parse()
+      ->group("");  // not in the help
 }
 
 // The words in the order for CLI::App::parse, last one first.
@@ -345,6 +356,11 @@ std::vector<std::string> wordsOf(int argc, const char* const* argv) {
     std::string word = argv[i];
     if (word.rfind("__", 0) == 0) {
       continue;  // roslaunch adds a name and a log file to each command line
+    }
+    for (const std::string flag : {"--viewer", "--no-hand"}) {
+      if (word.rfind(flag + "=", 0) == 0) {
+        throw CLI::ValidationError(flag, "it takes no value.");
+      }
     }
     if (word.rfind("--", 0) == 0 && word.back() == '=') {
       words.emplace_back();  // otherwise CLI11 would use the next word as the value
@@ -364,6 +380,7 @@ Options readOptions(int argc, const char* const* argv) {
   addOptionsOfRobots(app, options.arms, robot_named);
   addOptionsOfAll(app, options);
   addOptionsOfDesk(app, options);
+  addReplacedOptions(app);
   app.set_help_flag("-h,--help", "this text");
   try {
     app.parse(wordsOf(argc, argv));

@@ -4,10 +4,17 @@
 #include <franka_sim/physics/resource_uri.h>
 #include <franka_sim/simulation/files.h>
 
+#include <algorithm>
+#include <cctype>
+#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <sstream>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace franka_sim {
 
@@ -18,6 +25,60 @@ std::filesystem::path libraryFolder() {
   return dladdr(reinterpret_cast<const void*>(&readFile), &info) != 0 && info.dli_fname != nullptr
              ? std::filesystem::path(info.dli_fname).parent_path()
              : std::filesystem::path();
+}
+
+std::string ifThere(const std::filesystem::path& path) {
+  std::error_code error;
+  return std::filesystem::exists(path, error) ? path.lexically_normal().string() : std::string();
+}
+
+/// The lines that rospack, ROS's search for packages, prints; none without ROS.
+std::vector<std::string> rospack(const std::string& arguments) {
+  std::vector<std::string> lines;
+  if (std::getenv("ROS_PACKAGE_PATH") == nullptr) {
+    return lines;
+  }
+  const std::string command = "rospack " + arguments + " 2>/dev/null";
+  const std::unique_ptr<std::FILE, decltype(&::pclose)> pipe(::popen(command.c_str(), "re"),
+                                                             ::pclose);
+  std::string line;
+  for (int c = pipe ? std::fgetc(pipe.get()) : EOF; c != EOF; c = std::fgetc(pipe.get())) {
+    if (c != '\n') {
+      line.push_back(static_cast<char>(c));
+    } else {
+      lines.push_back(std::exchange(line, {}));
+    }
+  }
+  return lines;
+}
+
+/// Folders that packages export to gazebo_ros as gazebo_model_path. Searched once.
+const std::vector<std::string>& exportedModelFolders() {
+  static const std::vector<std::string> kFolders = [] {
+    std::vector<std::string> folders;
+    for (const std::string& line : rospack("plugins --attrib=gazebo_model_path gazebo_ros")) {
+      const std::size_t space = line.find(' ');  // after the package's name
+      std::istringstream list(space == std::string::npos ? "" : line.substr(space + 1));
+      for (std::string folder; std::getline(list, folder, ':');) {
+        folders.push_back(folder);
+      }
+    }
+    return folders;
+  }();
+  return kFolders;
+}
+
+/// A file of a package of this workspace, or else of any that ROS finds.
+std::string anyPackageFile(const std::string& package, const std::string& file) {
+  const std::string own = packageFile(package, file);
+  const auto is_plain = [](unsigned char c) {
+    return std::isalnum(c) != 0 || c == '_' || c == '-';
+  };
+  if (!own.empty() || !std::all_of(package.begin(), package.end(), is_plain)) {
+    return own;
+  }
+  const std::vector<std::string> found = rospack("find " + package);
+  return found.empty() ? "" : ifThere(std::filesystem::path(found.front()) / file);
 }
 
 }  // namespace
@@ -40,10 +101,9 @@ std::string packageFile(const std::string& package, const std::string& file) {
 #endif
   };
   for (const auto& place : places) {
-    std::error_code error;
-    const auto found = place / file;
-    if (std::filesystem::exists(found, error)) {
-      return found.lexically_normal().string();
+    const std::string found = ifThere(place / file);
+    if (!found.empty()) {
+      return found;
     }
   }
   return "";
@@ -62,6 +122,18 @@ std::string worldFile(const std::string& name) {
   return file;
 }
 
-std::string resolveUri(const std::string& uri) { return fileOfUri(uri, packageFile); }
+std::string resolveUri(const std::string& uri) {
+  static const std::string kModel = "model://";
+  if (uri.compare(0, kModel.size(), kModel) != 0) {
+    return fileOfUri(uri, anyPackageFile);
+  }
+  for (const std::string& folder : exportedModelFolders()) {
+    const std::string found = ifThere(std::filesystem::path(folder) / uri.substr(kModel.size()));
+    if (!found.empty()) {
+      return found;
+    }
+  }
+  return "";
+}
 
 }  // namespace franka_sim

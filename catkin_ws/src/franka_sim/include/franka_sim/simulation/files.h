@@ -17,7 +17,9 @@ std::string packageFile(const std::string& package, const std::string& file);
 /// (stone.xml); empty for the empty world. @throws std::runtime_error if there is none
 std::string worldFile(const std::string& name);
 
-/// Converts `package://name/path` and addresses of files to file names; empty if unknown.
+/// Converts `package://name/path`, `model://name` and addresses of files to file names; empty if
+/// unknown. Where ROS is (ROS_PACKAGE_PATH is set), its packages are searched too: themselves, and
+/// the folders that they export with <gazebo_ros gazebo_model_path="..."/>.
 std::string resolveUri(const std::string& uri);
 
 }  // namespace franka_sim
