@@ -11,6 +11,7 @@
 #include "physics/degree.h"
 #include "physics/engine_errors.h"
 #include "physics/gl_context.h"
+#include "physics/model_lights.h"
 #include "physics/scene_model.h"
 #include "physics/world_impl.h"
 
@@ -202,6 +203,9 @@ Scene captureScene(World& world) {
   scene.time = world.time();
   scene.fault = world.fault();
   const mjModel& model = *impl.model;
+  for (int l = 0; l < model.nlight; ++l) {
+    scene.lights.push_back(physics::readLight(model, l));
+  }
   for (int j = 0; j < model.njnt; ++j) {
     const double* qpos = impl.data->qpos + model.jnt_qposadr[j];
     if (model.jnt_type[j] == mjJNT_FREE) {

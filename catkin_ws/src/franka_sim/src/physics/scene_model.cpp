@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "physics/drawn_meshes.h"
+#include "physics/model_lights.h"
 
 namespace franka_sim::physics {
 namespace {
@@ -46,6 +47,9 @@ void SceneModel::pose(const Scene& scene) {
   }
   for (const auto& [name, pose] : scene.bodies) {
     setBody(*model_, data_.get(), name, pose);
+  }
+  for (int l = 0; l < std::min<int>(model_->nlight, scene.lights.size()); ++l) {
+    writeLight(model_.get(), l, scene.lights[l]);
   }
   mj_kinematics(model_.get(), data_.get());
   mj_camlight(model_.get(), data_.get());

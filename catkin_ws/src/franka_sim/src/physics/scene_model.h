@@ -17,7 +17,7 @@ class SceneModel {
   /// Compiles if the text differs from the last one. @returns whether it did
   /// @throws std::runtime_error with a sentence when the text does not compile
   bool load(const std::string& mjcf);
-  /// Poses joints and free bodies as in the scene, all others at their start.
+  /// Poses joints, free bodies and lights as in the scene, all others at their start.
   void pose(const Scene& scene);
 
   mjModel* model() noexcept { return model_.get(); }

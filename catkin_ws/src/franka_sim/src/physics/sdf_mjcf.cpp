@@ -359,6 +359,11 @@ class SdfWriter {
   void writeLight(const SdfLight& light) {
     Eigen::Isometry3d pose;
     XMLElement* e = append(holder(light.link, &pose), "light");
+    const std::string scope =
+        light.link < 0 ? "" : scene_.links[static_cast<std::size_t>(light.link)].name + "::";
+    if (!light.name.empty() && lights_.insert(scope + light.name).second) {
+      e->SetAttribute("name", (scope + light.name).c_str());
+    }
     const bool spot = light.kind == SdfLight::Kind::kSpot;
     e->SetAttribute("directional", light.kind == SdfLight::Kind::kDirectional ? "true" : "false");
     e->SetAttribute("pos", toText(Eigen::Vector3d(pose * light.position)).c_str());
@@ -382,6 +387,7 @@ class SdfWriter {
   std::map<int, std::string> names_;
   std::map<int, bool> moving_;
   std::set<int> written_;
+  std::set<std::string> lights_;  ///< names
   std::map<std::string, std::string> meshes_;
 };
 

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <stdexcept>
 
+#include "physics/model_lights.h"
 #include "physics/quaternions.h"
 #include "physics/state_carry.h"
 
@@ -98,6 +99,14 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
   if (set_gravity) {
     std::copy(set_gravity->begin(), set_gravity->end(), new_model->opt.gravity);
   }
+  std::map<std::string, WorldLight> kept_lights;
+  for (const auto& [name, light] : set_lights) {
+    const int id = mj_name2id(new_model.get(), mjOBJ_LIGHT, name.c_str());
+    if (id >= 0) {
+      physics::writeLight(new_model.get(), id, light);
+      kept_lights.emplace(name, light);
+    }
+  }
   physics::DataPtr new_data = physics::makeData(*new_model);
   mj_resetData(new_model.get(), new_data.get());
   placeInitially(*new_model, new_data.get(), *candidates);
@@ -116,6 +125,7 @@ void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
   }
   generation = physics::uniqueModelNumber();
   identity = std::move(new_identity);
+  set_lights.swap(kept_lights);
   model.swap(new_model);
   data.swap(new_data);
   index();

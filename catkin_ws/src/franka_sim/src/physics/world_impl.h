@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim/physics/lights.h>
 #include <franka_sim/physics/pose_conversions.h>
 #include <franka_sim/physics/world.h>
 
@@ -95,6 +96,7 @@ struct World::Impl {
   std::uint64_t generation{0};  ///< number of the model; no other one of this process has it
   physics::ModelIdentity identity;
   std::optional<std::array<double, 3>> set_gravity;  ///< other than the world file's
+  std::map<std::string, WorldLight> set_lights;      ///< the same, in their bodies' frames
   /// Calls prepareStep(). The last member: it ends before the others do.
   std::unique_ptr<physics::PreparationThread> preparation_thread;
 

@@ -8,6 +8,7 @@
 #include <array>
 #include <cstdlib>
 #include <memory>
+#include <numeric>
 #include <thread>
 #include <vector>
 
@@ -111,6 +112,25 @@ TEST_F(RendererTest, ShowsTheRobotAndTheStoneMoving) {
   other.position[1] = 0.219654;
   world_->setBodyPose("stone", other);
   EXPECT_NE(before, rgb());
+}
+
+TEST_F(RendererTest, ShowsLightsAsTheyAreSet) {
+  World empty;
+  const auto rgb = [&] { return renderer_->render(captureScene(empty), Camera(), 64, 48).rgb; };
+  const auto sum = [](const std::vector<std::uint8_t>& values) {
+    return std::accumulate(values.begin(), values.end(), 0);
+  };
+  const auto before = rgb();
+  WorldLight changed = light(empty, "sun");
+  changed.diffuse = {0.1, 0.1, 0.1};
+  setLight(empty, "sun", changed);
+  const auto dim = rgb();
+  EXPECT_LT(sum(dim), sum(before));
+  changed.on = false;
+  setLight(empty, "sun", changed);
+  EXPECT_LT(sum(rgb()), sum(dim));
+  World other;
+  EXPECT_EQ(before, renderer_->render(captureScene(other), Camera(), 64, 48).rgb);
 }
 
 TEST_F(RendererTest, ShowsANewRobot) {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Objects that are added and removed, states that are set, snapshots that continue to the last bit.
+#include <franka_sim/physics/lights.h>
 #include <franka_sim/physics/urdf_text.h>
 #include <gmock/gmock.h>
 
@@ -34,6 +35,68 @@ void run(World& world, int ticks) {
   for (int i = 0; i < ticks; ++i) {
     world.step();
   }
+}
+
+constexpr const char* kLamp =
+    "<sdf version='1.6'><model name='any'><static>true</static><link name='link'>"
+    "<pose>0 0 1 0 0 1.5707963267948966</pose><light name='bulb' type='point'>"
+    "<pose>0 0 0.3 0 0 0</pose><diffuse>1 1 0.5 1</diffuse><attenuation><range>9</range>"
+    "<constant>0.2</constant><linear>0.1</linear><quadratic>0.4</quadratic></attenuation></light>"
+    "</link></model></sdf>";
+
+void expectNear(const std::array<double, 3>& expected, const std::array<double, 3>& values) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_NEAR(expected[i], values[i], 1e-6) << i;
+  }
+}
+
+TEST(WorldObjects, LightsAreReadSetAndRemoved) {
+  World world;
+  WorldLight sun = light(world, "sun");
+  expectNear({0.55, 0.55, 0.55}, sun.diffuse);
+  EXPECT_TRUE(sun.shadows);
+  sun.shadows = false;
+  sun.diffuse = {1, 0.5, 0};
+  sun.direction = {0, 0, -2};
+  setLight(world, "sun", sun);
+  world.addObject("lamp", kLamp, at(1, 0, 0));  // compiles the world again
+  world.reset();
+  EXPECT_FALSE(light(world, "sun").shadows);
+  expectNear({1, 0.5, 0}, light(world, "sun").diffuse);
+  expectNear({0, 0, -1}, light(world, "sun").direction);
+
+  const std::string name = "lamp::link::bulb";
+  WorldLight bulb = light(world, name);
+  expectNear({0, 0, 0.3}, bulb.position);
+  expectNear({0.2, 0.1, 0.4}, bulb.attenuation);
+  bulb.position = {0, 0.25, 0};
+  setLight(world, name, bulb);
+  expectNear(bulb.position, light(world, name).position);
+  // In the object's body: the link is turned by a quarter about z, 1 m above its origin.
+  const mjModel& model = *world.impl().model;
+  const double* place = model.light_pos + 3 * mj_name2id(&model, mjOBJ_LIGHT, name.c_str());
+  expectNear({-0.25, 0, 1}, {place[0], place[1], place[2]});
+  bulb.on = false;
+  setLight(world, name, bulb);
+  expectSentence([&] { light(world, name); }, {name.c_str()});
+  world.removeObject("lamp");
+  world.addObject("lamp", kLamp, at(1, 0, 0));
+  expectNear({0, 0, 0.3}, light(world, name).position);
+}
+
+TEST(WorldObjects, LightsRefuseImpossibleValues) {
+  World world;
+  const auto refuses = [&](const auto& change, const char* word) {
+    WorldLight sun = light(world, "sun");
+    change(sun);
+    expectSentence([&] { setLight(world, "sun", sun); }, {"'sun'", word});
+  };
+  refuses([](WorldLight& sun) { sun.diffuse[1] = -0.1; }, "diffuse");
+  refuses([](WorldLight& sun) { sun.specular[0] = std::nan(""); }, "specular");
+  refuses([](WorldLight& sun) { sun.attenuation[2] = -1; }, "attenuation");
+  refuses([](WorldLight& sun) { sun.position[0] = 1e9; }, "at most 1000 m");
+  refuses([](WorldLight& sun) { sun.direction = {0, 0, 0}; }, "direction");
+  expectSentence([&] { light(world, "moon"); }, {"'moon'"});
 }
 
 TEST(WorldObjects, AddAndRemoveKeepOtherStates) {

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim/physics/lights.h>
 #include <franka_sim/physics/world.h>
 
 #include <array>
@@ -25,9 +26,10 @@ struct Scene {
   std::string mjcf;                      ///< World::mjcf(true)
   std::map<std::string, Pose> bodies;    ///< free bodies
   std::map<std::string, double> joints;  ///< joints with one degree of freedom [rad] or [m]
-  std::vector<Contact> contacts;         ///< for the window's arrows
-  double time{0};                        ///< of the world [s]
-  std::string fault;                     ///< World::fault
+  std::vector<WorldLight> lights;  ///< all, in the order of the model, in their bodies' frames
+  std::vector<Contact> contacts;   ///< for the window's arrows
+  double time{0};                  ///< of the world [s]
+  std::string fault;               ///< World::fault
 };
 
 struct Picture {
