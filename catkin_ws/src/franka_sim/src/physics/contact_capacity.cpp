@@ -9,9 +9,10 @@
 namespace franka_sim::physics {
 namespace {
 
-/// A box on another one has four contacts; the others are for further neighbors in a pile and for
-/// collisions (chosen here). A robot has enough for a grasp and several links in contact.
-constexpr int kContactsOfMovingGeom = 6;
+/// A box in a pile has four contacts with each of the four boxes below it, and as many with
+/// neighbors at two of its sides. A robot has enough for a grasp and several links in contact
+/// (chosen here).
+constexpr int kContactsOfMovingGeom = 24;
 constexpr int kContactsOfRobot = 40;
 constexpr int kMinContacts = 100;
 /// Pads of a gripper have torsional friction.
