@@ -12,7 +12,8 @@ reason names neither a missing package nor another form. Called by `./franka tes
 environment.
 
 `--realtime` runs only the cases whose subject is the wall clock, one program at a time: tests of pytest with
-the mark `realtime`, and gtests whose names end with OnWallClock. `--long` runs every case.
+the mark `realtime`, and gtests whose names end with OnWallClock. `--long` runs every case, in processes whose
+C library has a decimal comma.
 """
 
 import argparse
@@ -30,6 +31,7 @@ from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
 sys.path.append(str(TOP / "tests" / "support"))
+import decimal_comma  # noqa: E402
 import own_network  # noqa: E402
 from programs import node_ids, registered, run_pytest, run_registered  # noqa: E402
 from tally import Case, Tally  # noqa: E402
@@ -212,6 +214,8 @@ def main() -> int:
         files = [path for path in files if REALTIME.search(path.read_text(encoding="utf-8"))]
     if not arguments.long and (reason := own_network.enter()):
         print(f"\nThe tests use this machine's network, as they could not have one of their own: {reason}")
+    if arguments.long:
+        os.environ.update(decimal_comma.environment())
     cases = run_all(tests, files, 1 if realtime else WORKERS)
     flaky = run_again(cases)
     tally = Tally([case for found in cases.values() for case in found], flaky)

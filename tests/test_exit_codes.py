@@ -71,6 +71,31 @@ def test_programs_take_every_number_after_an_option(capsys):
         assert "-1e-05" in capsys.readouterr().err
 
 
+NEGATIVE = ("-1e-05", "-1.", "-.5", "-2E+3", "-inf")
+REFUSED = {
+    "--protocol": "give a number from 3 to 10",
+    "--control-port": "give a number from 0 to 65535",
+    "--pace": "give realtime, patient, lockstep, or a factor",
+    "--pace=lockstep --patience": "give a number of seconds from 0.01",
+    "--linger": "give a number of seconds from 0 to 60",
+}
+
+
+def test_franka_sim_takes_every_number_after_an_option():
+    """It refuses the number, not its form."""
+
+    def refusal(*words):
+        return subprocess.run(["franka_sim", *words], text=True, capture_output=True, timeout=120).stderr
+
+    elsewhere = ("--ip", "192.0.2.1")  # so that it ends
+    assert "does not have that address" in refusal("--base", "-1e-05,-1.,-.5,-2E+3", *elsewhere)
+    assert "--base: give three numbers" in refusal("--base", "-inf,0,0")
+    for options, advice in REFUSED.items():
+        for number in NEGATIVE:
+            error = refusal(*options.split(), number)
+            assert f"{options.split()[-1]}: {advice}" in error and number in error
+
+
 def test_every_command_and_program_is_in_the_table():
     names = set(rows())
     scripts = [*SOURCE.glob("franka_*/scripts/*"), *DEVEL.glob("bin/*")]

@@ -6,6 +6,7 @@
 #include <franka/gripper.h>
 #include <franka/robot.h>
 #include <franka_core/fci/texts.h>
+#include <franka_core/numbers.h>
 #include <franka_core/robot_versions.h>
 
 #include <CLI/CLI.hpp>
@@ -23,6 +24,7 @@
 
 namespace {
 
+using franka_core::fixedText;
 using franka_info::ConnectionStatistics;
 using franka_info::quantileOf;
 using franka_info::RoundTrips;
@@ -89,12 +91,13 @@ void printState(const franka::RobotState& state) {
   std::printf("Last motion     %s\n", static_cast<std::string>(state.last_motion_errors).c_str());
   std::printf("Joints [rad]   ");
   for (double q : state.q) {
-    std::printf(" %.4f", q);
+    std::printf(" %s", fixedText(q, 4).c_str());
   }
-  std::printf("\nEnd effector    %.3f kg, load %.3f kg\n", state.m_ee, state.m_load);
+  std::printf("\nEnd effector    %s kg, load %s kg\n", fixedText(state.m_ee, 3).c_str(),
+              fixedText(state.m_load, 3).c_str());
   std::printf("External force ");
   for (std::size_t i = 0; i < 3; i++) {
-    std::printf(" %.2f", state.O_F_ext_hat_K[i]);
+    std::printf(" %s", fixedText(state.O_F_ext_hat_K[i], 2).c_str());
   }
   std::printf(" N\n");
 }
@@ -105,8 +108,9 @@ void printGripper(const std::string& address) {
   try {
     const franka::Gripper gripper(host);
     const franka::GripperState state = gripper.readOnce();
-    std::printf("Hand            version %u, open %.1f of %.1f mm, %s, %u degrees Celsius%s\n",
-                gripper.serverVersion(), 1e3 * state.width, 1e3 * state.max_width,
+    std::printf("Hand            version %u, open %s of %s mm, %s, %u degrees Celsius%s\n",
+                gripper.serverVersion(), fixedText(1e3 * state.width, 1).c_str(),
+                fixedText(1e3 * state.max_width, 1).c_str(),
                 state.is_grasped ? "holding an object" : "holding nothing", state.temperature,
                 state.temperature > kTooManyDegrees ? " (hot)" : "");
   } catch (const franka::Exception& error) {
@@ -131,27 +135,31 @@ void printRoundTrips(const RoundTrips& trips) {
     std::printf("Round trip      not measured (%s)\n", trips.error().c_str());
     return;
   }
-  std::printf(
-      "Round trip      median %.3f, 99 %% %.3f, worst %.3f ms (%zu times %s and its answer)\n",
-      quantileOf(trips.times(), 0.5), quantileOf(trips.times(), 0.99),
-      quantileOf(trips.times(), 1.0), trips.times().size(), trips.command());
+  std::printf("Round trip      median %s, 99 %% %s, worst %s ms (%zu times %s and its answer)\n",
+              fixedText(quantileOf(trips.times(), 0.5), 3).c_str(),
+              fixedText(quantileOf(trips.times(), 0.99), 3).c_str(),
+              fixedText(quantileOf(trips.times(), 1.0), 3).c_str(), trips.times().size(),
+              trips.command());
 }
 
 void printStatistics(const ConnectionStatistics& statistics) {
-  std::printf("States          %llu received, %llu lost (%.2f %%), at most %llu in a row\n",
+  std::printf("States          %llu received, %llu lost (%s %%), at most %llu in a row\n",
               static_cast<unsigned long long>(statistics.received()),
-              static_cast<unsigned long long>(statistics.lost()), 100.0 * (1.0 - statistics.rate()),
+              static_cast<unsigned long long>(statistics.lost()),
+              fixedText(100.0 * (1.0 - statistics.rate()), 2).c_str(),
               static_cast<unsigned long long>(statistics.mostLostInARow()));
   if (!statistics.keepsTime()) {
     std::printf(
-        "Pace            %.2f of the clock's: a simulated robot in lock-step or at another speed.\n"
+        "Pace            %s of the clock's: a simulated robot in lock-step or at another speed.\n"
         "                It waits for its client, or its client has more or less time; lateness "
         "does not count\n",
-        statistics.pace());
+        fixedText(statistics.pace(), 2).c_str());
     return;
   }
-  std::printf("Lateness [ms]   median %.3f, 99 %% %.3f, worst %.3f\n", statistics.lateness(0.5),
-              statistics.lateness(0.99), statistics.lateness(1.0));
+  std::printf("Lateness [ms]   median %s, 99 %% %s, worst %s\n",
+              fixedText(statistics.lateness(0.5), 3).c_str(),
+              fixedText(statistics.lateness(0.99), 3).c_str(),
+              fixedText(statistics.lateness(1.0), 3).c_str());
 }
 
 int verdict(const franka::RobotState& state, const ConnectionStatistics& statistics) {
@@ -196,13 +204,24 @@ int inform(const std::string& address, double seconds) {
   return verdict(state, statistics);
 }
 
+// CLI11 reads numbers by the locale. Another text becomes NaN, which is refused.
+void addSeconds(CLI::App& app, double& seconds, const char* description) {
+  app.add_option_function<std::string>(
+         "SECONDS",
+         [&seconds](const std::string& text) {
+           seconds = franka_core::readNumber(text).value_or(std::nan(""));
+         },
+         description)
+      ->option_text(" ");
+}
+
 int informAs(CLI::App& app, int argc, char** argv, std::string& address) {
   double seconds = 2.0;
   app.footer("franka_info record --help: about recording a robot's motion for fit_robot.");
   app.add_option("ADDRESS", address, "Name or IP address, maybe with a port, HOST:PORT")
       ->option_text(" ")
       ->required();
-  app.add_option("SECONDS", seconds, "A time above 0 and up to 3600 s (2)")->option_text(" ");
+  addSeconds(app, seconds, "A time above 0 and up to 3600 s (2)");
   app.parse(argc, argv);
   if (address.empty() || !(seconds > 0.0 && seconds <= 3600.0)) {
     throw CLI::ValidationError("one address is needed, and maybe a time above 0 and up to 3600 s");
@@ -216,7 +235,7 @@ int recordAs(CLI::App& app, int argc, char** argv, std::string& address) {
       ->option_text(" ")
       ->required();
   app.add_option("FILE", options.file, "CSV file to write")->option_text(" ")->required();
-  app.add_option("SECONDS", options.seconds, "A time from 10 to 600 s (30)")->option_text(" ");
+  addSeconds(app, options.seconds, "A time from 10 to 600 s (30)");
   app.add_flag("--move", options.moves,
                "swing every joint by 0.25 rad about where it is; stand clear");
   app.parse(argc, argv);

@@ -312,6 +312,10 @@ void addOptionsOfAll(CLI::App& app, Options& options) {
   const auto pace = [&options](const std::string& text) { readPace(text, options.pace); };
   const auto wait = [&options](const std::string& text) { readWait(text, options.pace); };
   const auto patience = [&options](const std::string& text) { readPatience(text, options.pace); };
+  // Not by CLI11, which reads numbers by the locale.
+  const auto linger = [&options](const std::string& text) {
+    options.linger = franka_core::readNumber(text).value();
+  };
   app.option_defaults()->group("Of all")->take_last();
   app.add_option_function<std::string>(
          "--pace", pace, "realtime, patient, lockstep, or a factor such as 0.5 (realtime)")
@@ -330,8 +334,8 @@ void addOptionsOfAll(CLI::App& app, Options& options) {
                  "the scene, MJCF or SDF: a file, or the name of one that is installed with\n"
                  "franka_sim: stone.xml (an empty world)")
       ->option_text("FILE");
-  app.add_option("--linger", options.linger,
-                 "after a signal, wait this long for clients to disconnect (0)")
+  app.add_option_function<std::string>(
+         "--linger", linger, "after a signal, wait this long for clients to disconnect (0)")
       ->option_text("SECONDS")
       ->check(within(0, 60, "a number of seconds from 0 to 60"));
   app.add_flag("--viewer", options.viewer, "open a window");
