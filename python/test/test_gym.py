@@ -2,6 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """pyfranka.gym: the tasks as environments of Gymnasium."""
 
+import itertools
+import os
 import subprocess
 import sys
 import warnings
@@ -383,6 +385,75 @@ def test_a_vector_of_environments_has_pictures():
         env.close()
     assert (rows[0]["picture"][0] != rows[0]["picture"][1]).any(), "other scenes"
     vector.close()
+
+
+def video(episodes, steps, **options):
+    """Plays a script, and yields a picture of each step, as gymnasium.wrappers.RecordVideo takes them."""
+    env = make(size=(64, 48), render_mode="rgb_array", **options)
+    for seed in range(episodes):
+        observation, _ = env.reset(seed=seed)
+        policy = scripted_policy(env)
+        for _ in range(steps):
+            observation, *_ = env.step(policy(observation))
+            yield env.render()
+    env.close()
+
+
+def test_videos_of_two_environments_side_by_side_equal_those_of_each_alone():
+    long = {"episodes": 1, "steps": 24, "task": "Push", "robot": "fr3"}
+    # Each episode has a new simulation, and the end comes half-way.
+    short = {"episodes": 2, "steps": 6, "task": "PickAndPlace", "randomize": RANDOMIZE}
+    alone = list(video(**long)), list(video(**short))
+    pairs = list(itertools.zip_longest(video(**long), video(**short)))
+    together = [pair[0] for pair in pairs], [pair[1] for pair in pairs[:12]]
+    for one, other in zip(alone, together):
+        assert all(picture.std() > 5.0 for picture in other), "none is black"
+        assert len(one) == len(other) and all((a == b).all() for a, b in zip(one, other))
+    assert [one.shape for one in together[0]] == [(48, 64, 3)] * 24
+
+
+HELD = """
+import ctypes, sys
+from pathlib import Path
+import gymnasium, pyfranka.gym
+from pyfranka.sim import Simulation
+
+COUNT = 4
+def held():  # [pages], without what malloc keeps for later
+    ctypes.CDLL(None).malloc_trim(0)
+    return int(Path("/proc/self/statm").read_text().split()[1])
+
+options = {"size": (640, 480), "render_mode": "rgb_array"}
+makers = {
+    "simulation": lambda: [Simulation() for _ in range(COUNT)],
+    "environment": lambda: [gymnasium.make("pyfranka/Reach-v0", **options) for _ in range(COUNT)],
+    "vector": lambda: [gymnasium.make_vec("pyfranka/Reach-v0", num_envs=COUNT, **options)],
+}
+everything = []  # nothing is freed because nobody refers to it
+for name, maker in {"warm-up": makers["simulation"], **makers}.items():
+    ones = maker()
+    everything += ones
+    if not isinstance(ones[0], Simulation):
+        for one in ones:
+            one.reset(seed=1)
+    before = held()
+    for one in ones:
+        one.render()
+    drawn = held()
+    for one in ones:
+        one.close()
+    print(name, drawn - before, held() - before)
+"""
+
+
+def test_closing_frees_what_pictures_need():
+    # This driver draws into memory of the process.
+    environment = {**os.environ, "FRANKA_SIM_RENDERER": "osmesa"}
+    printed = subprocess.check_output([sys.executable, "-c", HELD], text=True, timeout=300, env=environment)
+    _, *rows = (line.split() for line in printed.splitlines())
+    assert [row[0] for row in rows] == ["simulation", "environment", "vector"]
+    for name, drawn, closed in rows:
+        assert int(closed) < int(drawn) / 2, (name, drawn, closed)
 
 
 ASYNCHRONOUS = """
