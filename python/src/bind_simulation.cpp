@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Worlds with robots in this process; pyfranka/sim gives them their Python interface.
+#include <franka_core/numbers.h>
 #include <franka_sim/robot/parameter_checks.h>
 #include <franka_sim/simulation/files.h>
 #include <franka_sim/simulation/robot_text.h>
@@ -38,7 +39,7 @@ double durationOf(const py::object& duration) {
   const double seconds = number(duration, "duration");
   if (!(seconds >= 0.0 && seconds <= 1e6)) {
     throw std::invalid_argument("duration must be 0 to 1e6 seconds, not " +
-                                std::to_string(seconds) + ".");
+                                franka_core::numberText(seconds) + ".");
   }
   return seconds;
 }
@@ -564,7 +565,7 @@ franka_sim::fci::Pace paceOf(bool real_time, const py::object& limit) {
   if (patience && !(*patience > 0.0 && *patience <= kMaxPatience)) {
     throw std::invalid_argument(
         "patience must be more than 0 and at most 86400 seconds, or 'forever', not " +
-        std::to_string(*patience) + ".");
+        franka_core::numberText(*patience) + ".");
   }
   franka_sim::fci::Pace pace;
   pace.mode =

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <controller_manager_msgs/SwitchController.h>
+#include <franka_core/numbers.h>
 #include <franka_example_controllers/python_controller.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
@@ -11,7 +12,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <limits>
 #include <mutex>
@@ -299,10 +299,8 @@ TEST_P(PythonControllerTest, RefusesInvalidPosesByTheRobotsRule) {
 /// Python that adds a rounding error to the pose `T`, whose array has its columns one after
 /// another.
 std::string perturbing(const franka_test::PerturbedMatrix& perturbed) {
-  char text[80];
-  std::snprintf(text, sizeof(text), "T[%zu, %zu] += %.17g", perturbed.entry % 4,
-                perturbed.entry / 4, perturbed.error);
-  return text;
+  return "T[" + std::to_string(perturbed.entry % 4) + ", " + std::to_string(perturbed.entry / 4) +
+         "] += " + franka_core::numberText(perturbed.error, 17);
 }
 
 TEST_P(PythonControllerTest, TakesTheRoundedPosesThatTheRobotTakes) {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/exception.h>
+#include <franka_core/numbers.h>
 #include <franka_gripper/franka_gripper.h>
 #include <ros/console.h>
 
@@ -55,8 +56,9 @@ void gripperCommandExecuteCallback(
   }
   result.position = state.width;
   if (!(width >= 0.0 && width <= state.max_width)) {
-    abort("The width " + std::to_string(width) + " m is not possible: it must lie between 0 and " +
-          std::to_string(state.max_width) + " m.");
+    abort("The width " + franka_core::numberText(width) +
+          " m is not possible: it must lie between 0 and " +
+          franka_core::numberText(state.max_width) + " m.");
     return;
   }
   bool reached = false;

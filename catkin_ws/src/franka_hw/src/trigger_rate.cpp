@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_hw/trigger_rate.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ constexpr double kMaxPeriod = 1e9;
 ros::Duration periodOf(double rate) {
   if (!std::isfinite(rate) || rate <= 0.0) {
     throw std::invalid_argument("TriggerRate: a rate must be a number above 0 Hz, not " +
-                                std::to_string(rate) + ".");
+                                franka_core::numberText(rate) + ".");
   }
   ros::Duration period;
   period.fromNSec(std::max<std::int64_t>(1, std::llround(std::min(1.0 / rate, kMaxPeriod) * 1e9)));

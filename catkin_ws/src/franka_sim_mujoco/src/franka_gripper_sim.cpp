@@ -44,7 +44,7 @@ double readPositive(const ros::NodeHandle& node, const std::string& name, double
   const double value = readNumber(node, name).value_or(fallback);
   if (value <= 0.0) {
     throw std::invalid_argument("The parameter " + node.resolveName(name) + " is " +
-                                std::to_string(value) + "; it must be above 0.");
+                                franka_core::numberText(value) + "; it must be above 0.");
   }
   return value;
 }

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/lowpass_filter.h>
+#include <franka_core/numbers.h>
 #include <franka_core/robot_error.h>
 #include <franka_core/transform.h>
 #include <franka_sim/fci/serving.h>
@@ -35,7 +36,7 @@ double readFilter(const ros::NodeHandle& node) {
       readNumber(node, "tau_ext_lowpass_filter").value_or(kDefaultTauExtLowpassFilter);
   if (alpha < 0.0 || alpha > 1.0) {
     throw std::invalid_argument("The parameter " + node.resolveName("tau_ext_lowpass_filter") +
-                                " is " + std::to_string(alpha) +
+                                " is " + franka_core::numberText(alpha) +
                                 "; it must lie between 0 (nothing passes) and 1 (no filter).");
   }
   return alpha;
@@ -46,7 +47,7 @@ double readCutoff(const ros::NodeHandle& node) {
       readNumber(node, "cutoff_frequency").value_or(franka::kDefaultCutoffFrequency);
   if (!(cutoff > 0.0)) {
     throw std::invalid_argument("The parameter " + node.resolveName("cutoff_frequency") + " is " +
-                                std::to_string(cutoff) +
+                                franka_core::numberText(cutoff) +
                                 " Hz; it must be positive (from 1000 on nothing is filtered).");
   }
   return cutoff;

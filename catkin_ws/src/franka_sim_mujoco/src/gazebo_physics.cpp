@@ -5,6 +5,7 @@
 /// SimServices: Gazebo's services for forces and for the properties of physics, links and joints.
 /// What a running simulation cannot change is refused with a sentence.
 
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/body_properties.h>
 #include <franka_sim/physics/pose_conversions.h>
 #include <franka_sim/physics/sizes.h>
@@ -47,8 +48,8 @@ void describePhysics(Simulation& simulation,
 /// The settings of ODE have no counterpart and are not read.
 void setPhysics(Simulation& simulation, const gazebo_msgs::SetPhysicsProperties::Request& request) {
   if (!(std::abs(request.time_step - World::kTick) < 1e-9)) {
-    throw std::runtime_error("The time step is " + std::to_string(World::kTick) + " s and not " +
-                             std::to_string(request.time_step) +
+    throw std::runtime_error("The time step is " + franka_core::numberText(World::kTick) +
+                             " s and not " + franka_core::numberText(request.time_step) +
                              " s: robots and their controllers run at 1 kHz. Nothing was changed.");
   }
   const double factor = request.max_update_rate * World::kTick;

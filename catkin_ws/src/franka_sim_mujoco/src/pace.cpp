@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim_mujoco/pace.h>
 #include <sys/resource.h>
 
@@ -61,9 +62,9 @@ void ShortSleeps::sleepIfDue() noexcept {
 franka_sim::fci::Pace paceOf(double real_time_factor) {
   if (!std::isfinite(real_time_factor) || real_time_factor < 0.0 ||
       (real_time_factor > 0.0 && real_time_factor < kMinPace)) {
-    throw std::runtime_error("The real time factor " + std::to_string(real_time_factor) +
+    throw std::runtime_error("The real time factor " + franka_core::numberText(real_time_factor) +
                              " is wrong: it must be 0 (as fast as possible) or at least " +
-                             std::to_string(kMinPace) + ".");
+                             franka_core::numberText(kMinPace) + ".");
   }
   franka_sim::fci::Pace pace;
   pace.mode = real_time_factor > 0.0 ? franka_sim::fci::PaceMode::kPatient

@@ -164,7 +164,7 @@ RobotPlan planRobot(const SpawnOrder& order) {
   if (plan.joint_state_rate &&
       !(*plan.joint_state_rate > 0.0 && *plan.joint_state_rate <= 1000.0)) {
     throw std::runtime_error("The parameter " + node.resolveName("joint_state_rate") + " is " +
-                             std::to_string(*plan.joint_state_rate) +
+                             franka_core::numberText(*plan.joint_state_rate) +
                              " Hz; it must be above 0 and at most 1000 Hz.");
   }
 

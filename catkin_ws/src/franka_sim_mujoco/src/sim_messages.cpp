@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim_mujoco/sim_messages.h>
 
 #include <cmath>
@@ -26,7 +27,7 @@ franka_sim::Pose fromMessage(const geometry_msgs::Pose& message) {
   const double norm = std::sqrt(q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3]);
   if (std::abs(norm - 1.0) > 1e-3) {
     throw std::runtime_error("The orientation must be a unit quaternion; its length is " +
-                             std::to_string(norm) + ".");
+                             franka_core::numberText(norm) + ".");
   }
   for (double& entry : q) {
     entry /= norm;

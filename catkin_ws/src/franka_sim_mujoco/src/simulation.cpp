@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/bare_steps.h>
 #include <franka_sim/physics/urdf_text.h>
 #include <franka_sim_mujoco/exception_text.h>
@@ -47,7 +48,7 @@ Simulation::Simulation(const SimulationOptions& options, ros::NodeHandle& node)
       clock_rate_(options.clock_rate),
       paused_(options.paused) {
   if (!std::isfinite(clock_rate_) || clock_rate_ < 0.0 || clock_rate_ > kMaxClockRate) {
-    throw std::runtime_error("The clock rate " + std::to_string(clock_rate_) +
+    throw std::runtime_error("The clock rate " + franka_core::numberText(clock_rate_) +
                              " Hz is wrong: it must be 0 (as fits the real time factor), or above "
                              "it and at most " +
                              std::to_string(static_cast<int>(kMaxClockRate)) + " Hz.");

@@ -5,6 +5,7 @@
 #include <franka/errors.h>
 #include <franka_core/diagnose_log.h>
 #include <franka_core/limits.h>
+#include <franka_core/numbers.h>
 #include <franka_core/robot_error.h>
 #include <gtest/gtest.h>
 
@@ -104,9 +105,7 @@ TEST(AbortDiagnosis, UsesTheLimitsOfTheRobot) {
   const double limit = upperVelocityLimit(kFr3PositionVelocityLimits, 1, 0.2);
   const std::string text = only(diagnoseAbort(jointLog(13, step), 7));
   expectIn(text, "joint 2 was commanded a velocity of 3 rad/s");
-  char allowed[32];
-  std::snprintf(allowed, sizeof(allowed), "the limit is %.4g", limit);
-  expectIn(text, allowed);
+  expectIn(text, "the limit is " + numberText(limit, 4));
 }
 
 TEST(AbortDiagnosis, PositionsOutsideTheRange) {

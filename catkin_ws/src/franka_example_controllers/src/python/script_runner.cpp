@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "script_runner.h"
 
+#include <franka_core/numbers.h>
 #include <pthread.h>
 #include <ros/console.h>
 
@@ -170,7 +171,7 @@ std::string ScriptRunner::load(const ScriptSource& source,
   if (!awaitAnswer(limit)) {
     shared_->late = true;
     interrupt();
-    return "It did not load within " + std::to_string(limit) + " s.";
+    return "It did not load within " + franka_core::numberText(limit) + " s.";
   }
   return shared_->failed ? shared_->failure : "";
 }

@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/sizes.h>
 #include <franka_sim/physics/world.h>
 
@@ -235,9 +236,10 @@ void World::setJointPosition(const std::string& joint, double position) {
   sizes::check(position, sizes::kMaxPosition, "m or rad", "The position for joint '" + joint + "'");
   const double* range = impl_->model->jnt_range + 2 * id;
   if (impl_->model->jnt_limited[id] && (position < range[0] || position > range[1])) {
-    throw std::runtime_error("Joint '" + joint + "' cannot be put at " + std::to_string(position) +
-                             ", its stops are at " + std::to_string(range[0]) + " and " +
-                             std::to_string(range[1]) + ".");
+    throw std::runtime_error("Joint '" + joint + "' cannot be put at " +
+                             franka_core::numberText(position) + ", its stops are at " +
+                             franka_core::numberText(range[0]) + " and " +
+                             franka_core::numberText(range[1]) + ".");
   }
   impl_->data->qpos[slot.qpos] = position;
   impl_->data->qvel[slot.dof] = 0;

@@ -1,10 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/fci/json.h>
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <limits>
 #include <map>
 #include <string>
@@ -41,7 +41,7 @@ TEST(JsonWriter, WritesListsAndMapsOfValues) {
 TEST(JsonWriter, WritesNumbersThatReadBackTheSame) {
   for (const double number : {0.1, 1.0 / 3.0, -2.5e-300, 6.02214076e23, 1e300,
                               std::numeric_limits<double>::denorm_min()}) {
-    EXPECT_EQ(number, std::strtod(written(number).c_str(), nullptr));
+    EXPECT_EQ(number, franka_core::readNumber(written(number)));
   }
   EXPECT_EQ("0.1", written(0.1));
   EXPECT_EQ("0.1", written(0.1f));

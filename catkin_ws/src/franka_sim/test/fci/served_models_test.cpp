@@ -6,6 +6,7 @@
 #include <dlfcn.h>
 #include <franka_core/arm_model.h>
 #include <franka_core/limits.h>
+#include <franka_core/numbers.h>
 #include <franka_sim/fci/served_models.h>
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
@@ -214,13 +215,15 @@ TEST_P(ServedModel, UrdfHasAllElementsThatClientsNeed) {
       const Array7 offset{0.30, 0.20, 0.20, 0.30, 0.35, 0.35, 0.35};
       const Array7 deceleration{6, 2.585, 3.5, 4, 17, 5.5, 17};
       const auto limits = franka_core::limitsOfProtocol(version);
-      EXPECT_EQ(limit->DoubleAttribute("lower"), limits.q_min[i]);
-      EXPECT_EQ(limit->DoubleAttribute("velocity"), limits.dq[i]);
-      EXPECT_EQ(limit->DoubleAttribute("effort"), limits.tau[i]);
-      EXPECT_EQ(limit->DoubleAttribute("upper"), version == 10 ? upper59[i] : upper[i]);
-      EXPECT_EQ(velocity->DoubleAttribute("velocity_offset"),
+      EXPECT_EQ(franka_core::readNumber(limit->Attribute("lower")), limits.q_min[i]);
+      EXPECT_EQ(franka_core::readNumber(limit->Attribute("velocity")), limits.dq[i]);
+      EXPECT_EQ(franka_core::readNumber(limit->Attribute("effort")), limits.tau[i]);
+      EXPECT_EQ(franka_core::readNumber(limit->Attribute("upper")),
+                version == 10 ? upper59[i] : upper[i]);
+      EXPECT_EQ(franka_core::readNumber(velocity->Attribute("velocity_offset")),
                 version == 10 ? offset59[i] : offset[i]);
-      EXPECT_EQ(velocity->DoubleAttribute("deceleration_limit"), deceleration[i]);
+      EXPECT_EQ(franka_core::readNumber(velocity->Attribute("deceleration_limit")),
+                deceleration[i]);
     }
     EXPECT_EQ(joints, 7);
   }

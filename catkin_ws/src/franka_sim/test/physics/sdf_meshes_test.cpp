@@ -237,8 +237,9 @@ TEST_F(SdfMeshTest, FileFormatsGiveTheSameMesh) {
     text += "facet normal 0 0 0\nouter loop\n";
     for (const int corner : face) {
       add(p[corner], 12);
-      text += "vertex " + std::to_string(p[corner][0]) + " " + std::to_string(p[corner][1]) + " " +
-              std::to_string(p[corner][2]) + "\n";
+      text += "vertex " + franka_core::numberText(p[corner][0]) + " " +
+              franka_core::numberText(p[corner][1]) + " " + franka_core::numberText(p[corner][2]) +
+              "\n";
     }
     add(&attribute, 2);
     text += "endloop\nendfacet\n";

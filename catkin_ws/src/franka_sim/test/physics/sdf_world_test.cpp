@@ -25,8 +25,8 @@ std::string box(const std::string& model, const std::string& pose, const std::st
 }
 
 std::string friction(double mu) {
-  return "<surface><friction><ode><mu>" + std::to_string(mu) + "</mu><mu2>" + std::to_string(mu) +
-         "</mu2></ode></friction></surface>";
+  return "<surface><friction><ode><mu>" + franka_core::numberText(mu) + "</mu><mu2>" +
+         franka_core::numberText(mu) + "</mu2></ode></friction></surface>";
 }
 
 std::string ground(double mu) {
@@ -111,8 +111,9 @@ TEST_F(SdfWorldTest, InertiasAndPosesMatchTheText) {
 TEST_F(SdfWorldTest, FrictionDecidesOnASlope) {
   const double mu = 0.4;
   for (const double angle : {std::atan(mu) - 0.03, std::atan(mu) + 0.1}) {
-    const std::string tilted = "<gravity>" + std::to_string(kGravity * std::sin(angle)) + " 0 " +
-                               std::to_string(-kGravity * std::cos(angle)) + "</gravity>";
+    const std::string tilted = "<gravity>" + franka_core::numberText(kGravity * std::sin(angle)) +
+                               " 0 " + franka_core::numberText(-kGravity * std::cos(angle)) +
+                               "</gravity>";
     World world(file(tilted + ground(1.0) + box("b", "0 0 0.05 0 0 0", friction(mu))));
     run(world, 300);  // settles
     const double before = world.bodyTwist("b").linear[0];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
 #include <gtest/gtest.h>

@@ -126,8 +126,8 @@ TEST(UrdfRobotTest, HoldsTheFollowerOfAHeldJoint) {
 
 TEST(UrdfRobotTest, RepairsRoundedInertiasWithANote) {
   const auto moments = [](double xx, double yy, double zz) {
-    return "<inertial><mass value='1'/><inertia ixx='" + std::to_string(xx) + "' iyy='" +
-           std::to_string(yy) + "' izz='" + std::to_string(zz) + "'/></inertial>";
+    return "<inertial><mass value='1'/><inertia ixx='" + franka_core::numberText(xx) + "' iyy='" +
+           franka_core::numberText(yy) + "' izz='" + franka_core::numberText(zz) + "'/></inertial>";
   };
   const auto robot = physics::readUrdf(twoLinks(hinge(), moments(0.42, 0.42, 0.85)), "rob");
   const Eigen::Matrix3d& inertia = robot.links[1].inertial->inertia;

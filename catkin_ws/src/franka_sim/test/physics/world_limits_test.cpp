@@ -220,8 +220,9 @@ std::string boxesOnTheGround(int count, int columns) {
   for (int i = 0; i < count; i++) {
     const int row = i / columns;
     bodies += "<body name='box" + std::to_string(i) + "' pos='" +
-              std::to_string(0.1 * (i % columns)) + " " + std::to_string(0.1 * row) +
-              " 0.02'><freejoint/>" + "<geom type='box' size='0.02 0.02 0.02' mass='0.05'/></body>";
+              franka_core::numberText(0.1 * (i % columns)) + " " +
+              franka_core::numberText(0.1 * row) + " 0.02'><freejoint/>" +
+              "<geom type='box' size='0.02 0.02 0.02' mass='0.05'/></body>";
   }
   return "<mujoco><worldbody><geom type='plane' size='9 9 0.1'/>" + bodies +
          "</worldbody></mujoco>";

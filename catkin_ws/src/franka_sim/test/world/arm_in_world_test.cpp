@@ -4,6 +4,7 @@
 // The control unit on the arm simulated by MuJoCo: rest, free motion, pushes, a load that is not
 // configured.
 #include <franka_core/arm_model.h>
+#include <franka_core/numbers.h>
 #include <franka_core/rotations.h>
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
@@ -74,8 +75,8 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
     const auto begin = urdf.find("<link name=\"" + link + "\"");
     const auto value = urdf.find("<mass value=\"", begin) + 13;
     const auto end = urdf.find('"', value);
-    const double mass = std::stod(urdf.substr(value, end - value));
-    urdf.replace(value, end - value, std::to_string(mass + extra));
+    const double mass = franka_core::readNumber(urdf.substr(value, end - value)).value();
+    urdf.replace(value, end - value, franka_core::numberText(mass + extra));
   }
 
   // One millisecond under external torque control.

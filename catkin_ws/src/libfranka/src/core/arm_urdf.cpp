@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <urdf_parser/urdf_parser.h>
 
 #include <cmath>
@@ -125,9 +126,9 @@ void checkArmJoint(const urdf::Joint& joint) {
   if (!(std::abs(axis.x) <= kAxisTolerance * length &&
         std::abs(axis.y) <= kAxisTolerance * length && axis.z > 0.0)) {
     fail("joint " + quoted(joint.name) +
-         " must turn about +z of its own frame (axis 0 0 1), not about " + std::to_string(axis.x) +
-         " " + std::to_string(axis.y) + " " + std::to_string(axis.z) +
-         ". Put the direction into the joint's origin.");
+         " must turn about +z of its own frame (axis 0 0 1), not about " +
+         franka_core::numberText(axis.x) + " " + franka_core::numberText(axis.y) + " " +
+         franka_core::numberText(axis.z) + ". Put the direction into the joint's origin.");
   }
 }
 
