@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Spawns a table and a pile of cubes on it, as many scripts for Gazebo do: each layer has so many by so many."""
+"""Spawns a table and a pile of cubes on it, as many scripts for Gazebo do: layers of so many by so many."""
 
 import sys
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A pile of cubes, spawned by a script for Gazebo, has more contacts than MuJoCo's default and comes to rest."""
+"""A pile of cubes from a script for Gazebo has more contacts than MuJoCo's default, and comes to rest."""
 
 import runpy
 import subprocess
