@@ -15,6 +15,7 @@
 #include <gazebo_msgs/GetModelProperties.h>
 #include <gazebo_msgs/GetModelState.h>
 #include <gazebo_msgs/GetWorldProperties.h>
+#include <gazebo_msgs/SetJointTrajectory.h>
 #include <gazebo_msgs/SetLinkState.h>
 #include <gazebo_msgs/SetModelConfiguration.h>
 #include <gazebo_msgs/SetModelState.h>
@@ -151,6 +152,7 @@ void configure(Simulation& simulation, const gazebo_msgs::SetModelConfiguration:
 }  // namespace
 
 void SimServices::offerGazebo() {
+  offerGazeboLights();
   offerGazeboStates();
   offerGazeboModels();
   offerGazeboPhysics();
@@ -202,6 +204,7 @@ void SimServices::offerGazeboStates() {
 void SimServices::offerGazeboModels() {
   using gazebo_msgs::DeleteModel;
   using gazebo_msgs::GetModelProperties;
+  using gazebo_msgs::SetJointTrajectory;
   using gazebo_msgs::SetModelConfiguration;
   using gazebo_msgs::SpawnModel;
   services_.offer<GetModelProperties>(
@@ -226,6 +229,15 @@ void SimServices::offerGazeboModels() {
       "set_model_configuration",
       [this](SetModelConfiguration::Request& request, SetModelConfiguration::Response&) {
         configure(simulation_, request);
+      });
+  services_.offer<SetJointTrajectory>(
+      "set_joint_trajectory",
+      [this](SetJointTrajectory::Request& request, SetJointTrajectory::Response&) {
+        simulation_.withWorld(
+            [&](franka_sim::World& world) { GazeboModels(world).model(request.model_name); });
+        throw std::runtime_error(
+            "Joints are not moved without forces here: send the trajectory to the model's "
+            "joint_trajectory_controller, or call set_model_configuration for each pose.");
       });
 }
 

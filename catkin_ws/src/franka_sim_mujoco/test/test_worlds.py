@@ -31,9 +31,11 @@ from gazebo_msgs.srv import (
     ApplyBodyWrench,
     ApplyJointEffort,
     BodyRequest,
+    DeleteLight,
     DeleteModel,
     GetJointProperties,
     GetJointPropertiesResponse,
+    GetLightProperties,
     GetLinkProperties,
     GetLinkState,
     GetModelProperties,
@@ -42,6 +44,8 @@ from gazebo_msgs.srv import (
     GetWorldProperties,
     JointRequest,
     SetJointProperties,
+    SetJointTrajectory,
+    SetLightProperties,
     SetLinkProperties,
     SetLinkState,
     SetModelConfiguration,
@@ -52,8 +56,10 @@ from gazebo_msgs.srv import (
 from geometry_msgs.msg import Point, Pose, Quaternion, Twist, Vector3, Wrench
 from ros_client import Controllers, call, latest, launched
 from sensor_msgs.msg import CameraInfo, Image
+from std_msgs.msg import ColorRGBA
 from std_srvs.srv import Empty, Trigger
 from tf2_msgs.msg import TFMessage
+from trajectory_msgs.msg import JointTrajectory
 from visualization_msgs.msg import Marker, MarkerArray
 from waiting import holds, wait_for
 
@@ -486,6 +492,46 @@ def test_gazebo_properties_are_read_and_changes_are_refused_with_a_reason():
     )
     assert "controller" in refused.status_message
     gazebo("clear_joint_forces", JointRequest, joint)
+
+
+LAMP = """<sdf version='1.6'><model name='any'><static>true</static><link name='link'>
+  <light name='bulb' type='point'><diffuse>1 1 0.5 1</diffuse></light></link></model></sdf>"""
+
+
+def test_gazebo_lights_are_read_set_and_deleted():
+    gazebo("spawn_sdf_model", SpawnModel, "lamp", LAMP, "", at(0, 0, 3), "")
+    for name in ("sun", "lamp::link::bulb"):
+        color, attenuation = ColorRGBA(0.25, 0.5, 1, 1), (0.5, 0.25, 0.125)
+        order = (name, False, color, ColorRGBA(), *attenuation, Vector3(0, 0, -1), Pose())
+        gazebo("set_light_properties", SetLightProperties, *order)
+        found = gazebo("get_light_properties", GetLightProperties, name)
+        assert found.diffuse == color
+        constants = (found.attenuation_constant, found.attenuation_linear, found.attenuation_quadratic)
+        assert constants == attenuation
+    wrong = (*order[:4], -1.0, *order[5:])
+    answer = gazebo("set_light_properties", SetLightProperties, *wrong, fails=True)
+    assert "attenuation" in answer.status_message
+    gazebo("delete_light", DeleteLight, name)
+    for service, kind, arguments in (
+        ("get_light_properties", GetLightProperties, ()),
+        ("set_light_properties", SetLightProperties, order[1:]),
+        ("delete_light", DeleteLight, ()),
+    ):
+        assert f"'{name}'" in gazebo(service, kind, name, *arguments, fails=True).status_message
+
+
+def test_gazebo_moves_no_joints_without_forces():
+    refused = gazebo(
+        "set_joint_trajectory",
+        SetJointTrajectory,
+        "panda_1",
+        JointTrajectory(),
+        Pose(),
+        False,
+        False,
+        fails=True,
+    )
+    assert "set_model_configuration" in refused.status_message
 
 
 def test_gazebo_services_and_topics_set_states():

@@ -26,6 +26,7 @@ class SimServices {
   void offerStates();
   void offerWorld();
   void offerGazebo();
+  void offerGazeboLights();
   void offerGazeboStates();
   void offerGazeboModels();
   void offerGazeboPhysics();
