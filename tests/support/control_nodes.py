@@ -227,9 +227,13 @@ def go_to_height(arm: Arm, publisher: rospy.Publisher, height: float) -> None:
     x, y, z = arm.state.O_T_EE[12:15]
     target.pose.position.x, target.pose.position.y, target.pose.position.z = x, y, height
     target.pose.orientation.x = 1.0
-    publisher.publish(target)
-    way = height - z
-    wait_for(lambda: abs(arm.state.O_T_EE[14] - height) <= max(abs(way) * 2 / 3, 0.005), "A third of the way")
+    rest = max(abs(height - z) * 2 / 3, 0.005)
+
+    def gets_near():
+        publisher.publish(target)  # again: a controller that restarts after a recovery forgets its target
+        return abs(arm.state.O_T_EE[14] - height) <= rest
+
+    wait_for(gets_near, "A third of the way")
 
 
 def follow_pose(arm: Arm, publisher: rospy.Publisher) -> None:

@@ -112,12 +112,12 @@ PluginElement readPluginElement(const std::string& urdf, const std::string& spaw
                              std::string(document.ErrorStr()));
   }
   const std::vector<PluginElement> elements = readElements(*document.RootElement());
-  if (elements.empty()) {
-    return {};
-  }
   const auto of_arm = std::find_if(elements.begin(), elements.end(), isOfArm);
-  PluginElement chosen = of_arm != elements.end() ? *of_arm : elements.front();
-  if (isOfArm(chosen)) {
+  PluginElement chosen;
+  if (!elements.empty()) {
+    chosen = of_arm != elements.end() ? *of_arm : elements.front();
+  }
+  if (chosen.hardware_type.empty() || isOfArm(chosen)) {
     chosen.arms = armsIn(*document.RootElement());
   }
   const std::string chosen_namespace = namespaceOf(chosen, spawn_namespace);

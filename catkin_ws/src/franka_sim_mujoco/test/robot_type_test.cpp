@@ -12,6 +12,7 @@
 #include <optional>
 #include <sstream>
 #include <string>
+#include <vector>
 
 #include "sentences.h"
 
@@ -143,14 +144,21 @@ TEST(PluginElement, OfTwoNamespacesAreRefusedByName) {
       << error;
 }
 
-TEST(PluginElement, SeveralArmsAreRefusedByName) {
-  std::string arms;
-  for (const std::string arm : {"panda_1", "panda_2"}) {
-    arms += "<transmission name='" + arm +
-            "_franka_state'><type>franka_hw/FrankaStateInterface</type></transmission>";
-  }
-  const std::string error = sentence([&] { readPluginElement(robotWith(arms), "/"); });
-  EXPECT_TRUE(contains(error, "panda_1") && contains(error, "panda_2")) << error;
+TEST(PluginElement, HasAllArmsOfFrankaHWSim) {
+  const auto states = [](const std::string& arm) {
+    return "<transmission name='" + arm + "_franka_state'><type>franka_hw/FrankaStateInterface" +
+           "</type><joint name='" + arm + "_joint1'/><joint name='" + arm +
+           "_joint2'/></transmission>";
+  };
+  const auto arms = [&](const std::string& content) {
+    return readPluginElement(robotWith(content), "/").arms;
+  };
+  const std::string both = states("panda_1") + states("panda_2");
+  const std::vector<std::string> names{"panda_1", "panda_2"};
+  EXPECT_EQ(names, arms(both + plugin("arm", "franka_gazebo/FrankaHWSim")));
+  EXPECT_EQ(names, arms(both));
+  EXPECT_TRUE(arms(both + plugin("other", "gazebo_ros_control/DefaultRobotHWSim")).empty());
+  EXPECT_TRUE(contains(sentence([&] { arms(both + states("panda_2")); }), "'panda_2'"));
 }
 
 }  // namespace

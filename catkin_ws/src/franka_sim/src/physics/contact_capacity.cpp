@@ -13,6 +13,9 @@ namespace {
 /// neighbors at two of its sides. A robot has enough for a grasp and several links in contact
 /// (chosen here).
 constexpr int kContactsOfMovingGeom = 24;
+/// Memory grows with the square of the rows: with fewer of them contacts share their friction,
+/// which needs 32 rows for a box on four others.
+constexpr int kContactsWithRowsOfMovingGeom = 11;
 constexpr int kContactsOfRobot = 40;
 constexpr int kMinContacts = 100;
 /// Pads of a gripper have torsional friction.
@@ -100,13 +103,14 @@ void setContactCapacity(mjModel* model, const std::vector<int>& robot_of_body,
   std::set<int> robots(robot_of_body.begin(), robot_of_body.end());
   robots.erase(-1);
   const int robot_count = static_cast<int>(robots.size());
-  const int contacts = std::max(kContactsOfMovingGeom * geoms, kMinContacts);
   if (!given.nconmax) {
-    model->nconmax = contacts + kContactsOfRobot * robot_count;
+    model->nconmax =
+        std::max(kContactsOfMovingGeom * geoms, kMinContacts) + kContactsOfRobot * robot_count;
   }
   if (!given.njmax) {
     const double v = model->nv;
     const double most = std::sqrt(v * v + kMaxMatrixBytes / 12) - v;
+    const int contacts = std::max(kContactsWithRowsOfMovingGeom * geoms, kMinContacts);
     const double rows = rowsWithoutContacts(*model, robot_count) + rows_of_contact * contacts +
                         kRowsOfGraspContact * kContactsOfRobot * robot_count;
     model->njmax = static_cast<int>(std::min(rows, most));

@@ -13,8 +13,8 @@ struct PluginElement {
   std::string hardware_type;    ///< its robotSimType; empty: the URDF has no such element
   std::string robot_namespace;  ///< empty: the spawner's
   double control_period{1e-3};  ///< [s]
-  /// The arm_id of each arm that FrankaHWSim drives: one for each transmission of the type
-  /// franka_hw/FrankaStateInterface.
+  /// The arm_id of each transmission of the type franka_hw/FrankaStateInterface; empty if another
+  /// hardware than FrankaHWSim is named.
   std::vector<std::string> arms;
 };
 

@@ -305,20 +305,6 @@ TEST_F(SupervisionTest, DefaultTimeoutEndsASwitchWithoutTheLoop) {
   EXPECT_FALSE(manager_->switchController({"a"}, {}, kStrict));
 }
 
-// A period beyond every clock.
-TEST_F(SupervisionTest, StatisticsOfTheSlowestRateAreNotPublished) {
-  own_.setParam("statistics_rate", 1e-300);
-  renew();
-  ros::CallbackQueue queue;
-  ros::NodeHandle listener(own_);
-  listener.setCallbackQueue(&queue);
-  const ros::Subscriber subscriber =
-      listener.subscribe<controller_manager_msgs::ControllersStatistics>("statistics", 1,
-                                                                         [](const auto&) {});
-  waitFor([&] { return subscriber.getNumPublishers() > 0; });
-  EXPECT_EQ(ros::CallbackQueue::Empty, queue.callOne(ros::WallDuration(0.2)));
-}
-
 TEST_F(SupervisionTest, StatisticsReportUpdateTimes) {
   own_.setParam("statistics_rate", 20.0);
   renew();
