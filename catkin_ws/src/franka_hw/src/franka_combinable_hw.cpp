@@ -12,17 +12,6 @@
 
 namespace franka_hw {
 
-namespace {
-
-// The oldest torques that answer a state, in the robot's time. Chosen here: the transfer to the
-// controllers' loop and back takes one or two milliseconds, rarely three.
-constexpr franka::Duration kMaxAge(5);
-constexpr std::chrono::microseconds kPoll{50};
-// A robot ends its motion after so many milliseconds without a command.
-constexpr std::chrono::milliseconds kMaxSilence{20};
-
-}  // namespace
-
 FrankaCombinableHW::~FrankaCombinableHW() {
   ending_ = true;
   controller_active_ = false;
@@ -126,38 +115,13 @@ void FrankaCombinableHW::control(
   }
 }
 
-bool FrankaCombinableHW::mustEndMotion() const noexcept {
-  return !controllerActive() || hasError() || ending_;
-}
-
-// Real-time safe, unless the controllers' loop stalls.
-const FrankaCombinableHW::Answer& FrankaCombinableHW::awaitAnswer(
-    const franka::RobotState& robot_state) {
-  const ResponseTimes::Clock::time_point begin = response_times_.lastArrival();
-  while (true) {
-    const Answer& answer = answers_.read();
-    // Before the first command of a motion, zeros answer.
-    if (answer.since <= motion_ended_ || robot_state.time - answer.state_time < kMaxAge ||
-        mustEndMotion()) {
-      return answer;
-    }
-    if (ResponseTimes::Clock::now() - begin > kMaxSilence) {
-      ROS_WARN_THROTTLE(1.0,
-                        "FrankaCombinableHW: the controllers' loop has stalled. Its arms get no "
-                        "command until it goes on, and real robots end their motions "
-                        "(communication_constraints_violation).");
-    }
-    std::this_thread::sleep_for(kPoll);
-  }
-}
-
 franka::Torques FrankaCombinableHW::torqueCallback(const franka::RobotState& robot_state) {
   response_times_.stateArrived(robot_state.time, ResponseTimes::Clock::now());
   states_.write({robot_state, response_times_.lastArrival()});
-  const Answer& answer = awaitAnswer(robot_state);
-  if (mustEndMotion()) {
+  if (!controllerActive() || hasError() || ending_) {
     return finished(effort_joint_command_libfranka_, robot_state);
   }
+  const Answer& answer = answers_.read();
   // Commands computed before the last motion ended do not belong to this one.
   effort_joint_command_libfranka_ =
       answer.since > motion_ended_ ? answer.torques : franka::Torques(std::array<double, 7>{});
@@ -234,7 +198,6 @@ bool FrankaCombinableHW::prepareSwitch(
 void FrankaCombinableHW::read(const ros::Time& /*time*/, const ros::Duration& /*period*/) {
   controller_needs_reset_ = error_recovered_.load();
   const ArrivedState& latest = states_.read();
-  read_time_ = latest.state.time;
   read_arrival_ = latest.arrival;
   FrankaHW::update(latest.state);
   FrankaCombinableHW::checkJointLimits();
@@ -247,7 +210,7 @@ void FrankaCombinableHW::write(const ros::Time& /*time*/, const ros::Duration& p
     error_recovered_ = false;
   }
   enforceLimits(period);
-  answers_.write({effort_joint_command_ros_, read_time_, read_arrival_});
+  answers_.write({effort_joint_command_ros_, read_arrival_});
 }
 
 void FrankaCombinableHW::checkJointLimits() { FrankaHW::checkJointLimits(); }

@@ -16,11 +16,9 @@ namespace franka_hw {
 /// One of several arms that run under one controller manager, with torque control only.
 ///
 /// Each arm has a thread of its own that communicates with its robot. read() and write(), called by
-/// the thread of the controllers' loop, exchange states and commands with it without waiting. It
-/// repeats the last torques for a few states only: when the controllers' loop stalls, the robot
-/// gets no more commands. It then holds the torque and ends the motion as soon as twenty are
-/// missing, as that of FrankaHW does. An error of this arm is published on `has_error` and ends its
-/// motion; error_recovery, or resetError(), clears it, and the controllers are then reset.
+/// the thread of the controllers' loop, exchange states and commands with it without waiting. An
+/// error of this arm is published on `has_error` and ends its motion; error_recovery, or
+/// resetError(), clears it, and the controllers are then reset.
 ///
 /// The loss of a robot is an error, too: the other arms wait until it recovers or is given up. The
 /// services of the arm, its recovery and its reconnection: ArmConnection.
@@ -74,10 +72,9 @@ class FrankaCombinableHW : public FrankaHW {
                       double cutoff_frequency, franka::ControllerMode internal_controller) override;
 
  private:
-  /// Torques, and time and arrival of the state from which they were computed.
+  /// Torques, and the arrival time of the state from which they were computed.
   struct Answer {
     franka::Torques torques{std::array<double, 7>{}};
-    franka::Duration state_time{};
     ResponseTimes::Clock::time_point since{};
   };
   struct ArrivedState {
@@ -86,8 +83,6 @@ class FrankaCombinableHW : public FrankaHW {
   };
 
   franka::Torques torqueCallback(const franka::RobotState& robot_state);
-  const Answer& awaitAnswer(const franka::RobotState& robot_state);
-  bool mustEndMotion() const noexcept;
   void controlLoop();
   void watchRobot();
   bool lossIsError() const override { return true; }
@@ -95,8 +90,7 @@ class FrankaCombinableHW : public FrankaHW {
 
   Latest<ArrivedState> states_;
   Latest<Answer> answers_;
-  franka::Duration read_time_{};                     // of the state that the controllers read
-  ResponseTimes::Clock::time_point read_arrival_{};  // of the same
+  ResponseTimes::Clock::time_point read_arrival_{};  // of the state that the controllers read
   ResponseTimes::Clock::time_point motion_ended_{};  // written by the arm's thread
 
   std::atomic_bool error_recovered_{false};

@@ -199,25 +199,6 @@ TEST_F(Combined, TorquesOfTheLastMotionAreNotSentInTheNext) {
   EXPECT_TRUE(bothMove()) << "with torques that the controllers computed since";
 }
 
-TEST_F(Combined, AStalledLoopRepeatsNoOldTorques) {
-  constexpr std::size_t kHeld = 5;  // milliseconds of the robot
-  left_.robot.script([](auto& script) { script.answer_timeout = std::chrono::milliseconds(1); });
-  start();
-  ASSERT_TRUE(bothMove());
-  LogCatcher log;
-  const std::size_t before = left_.robot.exchanges().size();
-  const std::uint64_t time = left_.robot.state().message_id;
-  ASSERT_TRUE(eventually([&] { return left_.robot.state().message_id > time + 100; }));
-  EXPECT_LE(left_.robot.exchanges().size(), before + kHeld + 1);
-  EXPECT_TRUE(eventually([&] { return log.text().find("stalled") != std::string::npos; }));
-  EXPECT_TRUE(cycleUntil([&] { return left_.robot.exchanges().size() > before + 100; }));
-  EXPECT_FALSE(robot_.hasError());
-  // Also a stalled motion ends when its controllers are stopped.
-  const std::uint64_t again = left_.robot.state().message_id;
-  ASSERT_TRUE(eventually([&] { return left_.robot.state().message_id > again + 20; }));
-  stop();
-}
-
 TEST_F(Combined, NanOnOneArmIsAnErrorAndReachesNoRobot) {
   start();
   ASSERT_TRUE(cycleUntil([&] { return torqueOf(left_) == 1.5; }));
@@ -384,8 +365,8 @@ TEST_F(Combined, ResponseTimesCountFromTheStateThatTheControllersSaw) {
   constexpr std::chrono::milliseconds kWork{5};
   const auto slowCycle = [&] {
     robot_.read(ros::Time::now(), ros::Duration(0.001));
-    const std::uint64_t state = left_.robot.state().message_id;
     std::this_thread::sleep_for(kWork);  // the fault itself
+    const std::uint64_t state = left_.robot.state().message_id;
     ASSERT_TRUE(eventually([&] { return left_.robot.state().message_id > state + 2; }));
     robot_.write(ros::Time::now(), ros::Duration(0.001));
   };
