@@ -23,8 +23,8 @@ TEST(Numbers, TheWholeTextIsRead) {
 }
 
 TEST(Numbers, OnlyIntegersWithinTheRangeAreWholeNumbers) {
-  constexpr std::int64_t kLeast = std::numeric_limits<std::int64_t>::min();
-  constexpr std::int64_t kMost = std::numeric_limits<std::int64_t>::max();
+  constexpr std::int64_t kMin = std::numeric_limits<std::int64_t>::min();
+  constexpr std::int64_t kMax = std::numeric_limits<std::int64_t>::max();
   constexpr double kInf = std::numeric_limits<double>::infinity();
   constexpr double kBeyond = 0x1p63;
   const struct {
@@ -41,13 +41,13 @@ TEST(Numbers, OnlyIntegersWithinTheRangeAreWholeNumbers) {
       {1.5, 0, 7, {}},
       {1e20, 0, 7, {}},
       {-1e20, 0, 7, {}},
-      {1e300, kLeast, kMost, {}},
-      {kInf, kLeast, kMost, {}},
-      {-kInf, kLeast, kMost, {}},
-      {std::numeric_limits<double>::quiet_NaN(), kLeast, kMost, {}},
-      {kBeyond, kLeast, kMost, {}},
-      {-kBeyond, kLeast, kMost, kLeast},
-      {std::nextafter(kBeyond, 0.0), kLeast, kMost, kMost - 1023},
+      {1e300, kMin, kMax, {}},
+      {kInf, kMin, kMax, {}},
+      {-kInf, kMin, kMax, {}},
+      {std::numeric_limits<double>::quiet_NaN(), kMin, kMax, {}},
+      {kBeyond, kMin, kMax, {}},
+      {-kBeyond, kMin, kMax, kMin},
+      {std::nextafter(kBeyond, 0.0), kMin, kMax, kMax - 1023},
   };
   for (const auto& cell : cells) {
     EXPECT_EQ(cell.whole, wholeNumber(cell.value, cell.least, cell.most)) << cell.value;
