@@ -138,7 +138,7 @@ namespace {
 
 /// 16 bits, as a whole number or with 0x. Of a longer mask the lowest ones count.
 int readBitmask(const XMLElement* contact, const std::string& what) {
-  constexpr std::int64_t kMost = 0xFFFFFFFF;
+  constexpr std::int64_t kMax = 0xFFFFFFFF;
   const XMLElement* element = descend(contact, {"collide_bitmask"});
   if (element == nullptr || element->GetText() == nullptr) {
     return SdfSurface::kEveryBit;
@@ -149,9 +149,9 @@ int readBitmask(const XMLElement* contact, const std::string& what) {
     std::int64_t bits = -1;
     const auto [end, error] = std::from_chars(text.data() + 2, text.data() + text.size(), bits, 16);
     const bool whole = error == std::errc() && end == text.data() + text.size();
-    mask = whole && bits >= 0 && bits <= kMost ? std::optional(bits) : std::nullopt;
+    mask = whole && bits >= 0 && bits <= kMax ? std::optional(bits) : std::nullopt;
   } else if (const std::optional<double> number = franka_core::readNumber(text)) {
-    mask = franka_core::wholeNumber(*number, 0, kMost);
+    mask = franka_core::wholeNumber(*number, 0, kMax);
   }
   if (!mask) {
     throw std::runtime_error(what + ": the collide_bitmask is " + std::string(text) +

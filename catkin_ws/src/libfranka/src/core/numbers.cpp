@@ -29,7 +29,8 @@ std::optional<double> readNumber(std::string_view text) noexcept {
   if (begin == std::string_view::npos) {
     return std::nullopt;
   }
-  text = text.substr(begin, text.find_last_not_of(kBlanks) - begin + 1);
+  text.remove_suffix(text.size() - 1 - text.find_last_not_of(kBlanks));
+  text.remove_prefix(begin);
   // from_chars refuses a plus sign.
   const bool plus = text.size() > 1 && text[0] == '+' && text[1] != '-';
   const char* const end = text.data() + text.size();
