@@ -27,9 +27,9 @@ def test_every_program_has_a_decimal_comma(environment):
     [
         (["franka_sim", "--linger", "0.5", "--ip", "192.0.2.1"], 1, "does not have that address"),
         (["franka_sim", "--linger", "0,5"], 2, "seconds from 0 to 60, not 0,5"),
-        (["franka_info", "127.0.99.7", "0.5"], 2, "cannot be used"),
-        (["franka_info", "127.0.99.7", "0,5"], 3, "up to 3600 s"),
-        (["franka_info", "record", "127.0.99.7", "x.csv", "10.5"], 2, "cannot be used"),
+        (["franka_info", "127.0.99.117", "0.5"], 2, "cannot be used"),
+        (["franka_info", "127.0.99.117", "0,5"], 3, "up to 3600 s"),
+        (["franka_info", "record", "127.0.99.117", "x.csv", "10.5"], 2, "cannot be used"),
     ],
 )
 def test_numbers_of_command_lines_have_a_point(words, status, sentence, environment, tmp_path):

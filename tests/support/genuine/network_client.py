@@ -21,7 +21,7 @@ class Motion:
     """Joint 4 there and back, or zero torque; counts cycles, and their longest period. From the cycle
     `jump_at` on the joint is commanded 0.01 rad further."""
 
-    def __init__(self, seconds, amplitude, announce, held, pause, jump_at):
+    def __init__(self, seconds, amplitude, announce, held, pause, jump_at=0):
         self.seconds, self.amplitude, self.jump_at = seconds, amplitude, jump_at
         self.announce, self.held, self.pause = announce, held, pause
         self.time, self.cycles, self.longest, self.first = 0.0, 0, 0.0, None

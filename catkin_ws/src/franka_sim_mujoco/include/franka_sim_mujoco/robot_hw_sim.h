@@ -27,9 +27,9 @@ using BetweenTicks = std::function<void(const std::function<void()>& work)>;
 
 /// A Franka arm of a robot.
 struct SimulatedArm {
-  std::string arm_id;  ///< prefix of its joints
-  std::string type;    ///< "panda" or "fr3"; empty if the URDF has no such arm
-  franka_sim::RobotPhysics physics;
+  std::string arm_id;                ///< prefix of its joints
+  std::string type;                  ///< "panda" or "fr3"; empty if the URDF has no such arm
+  franka_sim::RobotPhysics physics;  ///< rotor inertia, friction and so on of the world's joints
   /// Of its services, below the robot's namespace: empty for the only arm of a robot, else arm_id.
   std::string service_namespace;
 };
