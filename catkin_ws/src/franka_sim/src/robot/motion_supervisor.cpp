@@ -21,7 +21,7 @@ using franka_core::RobotMode;
 namespace {
 
 constexpr double kStandstill = 0.01;  // [rad/s] slower joints stand still (decision 16)
-constexpr int kStillTicks = 20;       // a recovery may end after this time at standstill
+constexpr int kStillTicks = 20;       // so long it has stood still when a stop or a recovery ends
 // Chosen here: braking and yielding take less than 1 s, so a longer recovery has failed.
 constexpr int kRecoveryTicks = 5000;
 // Chosen here: the time for the arm to come to rest after its desired motion. The brakes also close
@@ -215,8 +215,7 @@ void MotionSupervisor::advanceRecovery() noexcept {
   // The recovery need not wait for the end of the yield time if the arm no longer moves: the socket
   // of a client that does not read states meanwhile holds at most those of 50 ms, and the recovery
   // should be complete within them.
-  still_ticks_ = !rest_.isBraking() && standsStill() ? still_ticks_ + 1 : 0;
-  if (still_ticks_ >= kStillTicks) {
+  if (hasComeToRest()) {
     clearErrors();
     answers_.recoveryEnds(Status::kSuccess);
     change(ModeEvent::kRecoveryEnded);
@@ -226,18 +225,25 @@ void MotionSupervisor::advanceRecovery() noexcept {
   }
 }
 
-// A stop of category 1 (IEC 60204-1): the motors bring the arm to rest, then the brakes close.
+// A stop of category 1 (IEC 60204-1): the motors bring the arm to rest, then the brakes close. They
+// wait for the end of what still swings: 0.01 rad/s stopped in one tick are 7 Nm at the first
+// joint.
 void MotionSupervisor::advanceBrakes() noexcept {
   if (brakes_closed_ || rest_.isBraking()) {
     return;
   }
   closing_ticks_++;
-  brakes_closed_ = standsStill() || closing_ticks_ >= kClosingTicks;
+  brakes_closed_ = hasComeToRest() || closing_ticks_ >= kClosingTicks;
   if (mode() == RobotMode::kUserStopped && !user_stop_) {
     leaveStop(ModeEvent::kUserStopReleased);
   } else if (mode() == RobotMode::kOther && !brakes_requested_) {
     leaveStop(ModeEvent::kBrakesOpened);
   }
+}
+
+bool MotionSupervisor::hasComeToRest() noexcept {
+  still_ticks_ = !rest_.isBraking() && standsStill() ? still_ticks_ + 1 : 0;
+  return still_ticks_ >= kStillTicks;
 }
 
 bool MotionSupervisor::standsStill() const noexcept {

@@ -329,6 +329,7 @@ void MotionSupervisor::enter(RobotMode before) noexcept {
 // The user stop, or the brakes: an arm that moves is brought to rest first.
 void MotionSupervisor::stopAndClose() noexcept {
   closing_ticks_ = 0;
+  still_ticks_ = 0;
   if (brakes_closed_) {
     return;
   }

@@ -298,11 +298,16 @@ TEST_P(UnitInWorldTest, StopsAtSpeedBrakeLikeAReflexAndThenClamp) {
     const double ddq = unit->limits().arm.ddq[0];
     const double jerk = unit->limits().arm.dddq[0];
     const std::array<double, 7> held = unit->state().tau_J;
+    // Column of the first joint: the torques [Nm] for 1 rad/s² of it.
+    const auto inertia =
+        unit->configuration().model.mass(unit->state().q, unit->configuration().end_effector);
     unit->request(stop);
+    double jerking = 0.0;  // the greatest step of a joint's torque that the jerk limit allows
     double furthest = from;
     double braking_torque = 0.0;   // strongest change of a joint's torque, while the motors brake
     double clamping_torque = 0.0;  // and from then on
     double steepest = 0.0;         // change of a joint's torque in a tick
+    double shock = 0.0;            // the same, from the tick in which the brakes close
     int braking = 0;
     int closed = 0;
     for (int i = 0; i < 1000; i++) {
@@ -322,19 +327,26 @@ TEST_P(UnitInWorldTest, StopsAtSpeedBrakeLikeAReflexAndThenClamp) {
         EXPECT_LT(std::abs(state.tau_J[j]), unit->configuration().max_torque[j]);
         double& strongest = closed > 2 ? clamping_torque : braking_torque;
         strongest = std::max(strongest, std::abs(state.tau_J[j] - held[j]));
-        steepest = std::max(steepest, std::abs(state.tau_J[j] - before[j]));
+        const double step = std::abs(state.tau_J[j] - before[j]);
+        steepest = std::max(steepest, step);
+        shock = closed > 0 ? std::max(shock, step) : 0.0;
+        jerking = std::max(jerking, std::abs(inertia[j]) * jerk * 1e-3);
       }
     }
     const double rebound = furthest - unit->state().q[0];
     std::printf(
         "%s stops from 1 rad/s: %d ms, %.1f mrad, rebound %.3f mrad; torques change by %.1f "
-        "Nm, after the brakes have closed by %.1f Nm, in a tick by at most %.1f Nm\n",
+        "Nm, after the brakes have closed by %.1f Nm, in a tick by at most %.2f Nm (jerk limit "
+        "%.2f), as the brakes close by %.2f Nm\n",
         GetParam(), braking, 1e3 * (furthest - from), 1e3 * rebound, braking_torque,
-        clamping_torque, steepest);
+        clamping_torque, steepest, jerking, shock);
     EXPECT_NEAR(1.0 / ddq * 1e3, braking, 2);
     EXPECT_NEAR(0.5 / ddq, furthest - from, 0.001);
     EXPECT_LT(rebound, 1e-3);
     EXPECT_LT(clamping_torque, 0.25 * braking_torque) << "the brakes had to stop the arm";
+    // A fifth more for the control law, which follows the desired motion.
+    EXPECT_LT(steepest, 1.2 * jerking);
+    EXPECT_LT(shock, 0.25 * jerking) << "the brakes had to stop what still moved";
     EXPECT_GT(closed, 700);
     EXPECT_EQ((std::array<double, 7>{}), unit->state().joint_collision);
     const std::array<double, 7> stopped = unit->state().q;

@@ -27,11 +27,11 @@ const char* derivativeName(int order) {
   return order == 1 ? "a velocity" : (order == 2 ? "an acceleration" : "a jerk");
 }
 
-/// "3 rad/s^2; the limit is 2 (at 102 ms)"
+/// "3 rad/s^2; the limit is 2 (3 ms before the end of the log)"
 std::string againstLimit(const Excess& excess, int order) {
   return number(excess.value) + " " + excess.unit + "/s" +
          (order > 1 ? "^" + std::to_string(order) : "") + "; the limit is " + number(excess.limit) +
-         " (at " + std::to_string(excess.time) + " ms)";
+         " (" + std::to_string(excess.age) + " ms before the end of the log)";
 }
 
 /// Distance of two poses: "3 mm and 4 degrees"

@@ -25,9 +25,12 @@ struct Step {
   const RobotCommand& command;
 };
 
-void keepWorse(std::optional<Excess>& worst, Excess excess, std::uint64_t time) {
+/// @param time of the excess [ms]
+void keepWorse(std::optional<Excess>& worst, Excess excess, std::uint64_t time,
+               const std::vector<AbortRecord>& log) {
   if (!worst || excess.ratio() > worst->ratio()) {
-    excess.time = time;
+    const std::uint64_t end = log.back().state.message_id;
+    excess.age = end - std::min(end, time);
     worst = std::move(excess);
   }
 }
@@ -39,7 +42,7 @@ std::optional<Excess> worstStep(const std::vector<AbortRecord>& log, Measure mea
   for (std::size_t i = 1; i < log.size(); i++) {
     const RobotState& before = log[i - 1].state;
     measure(Step{before, log[i].command},
-            [&](Excess excess) { keepWorse(worst, std::move(excess), before.message_id); });
+            [&](Excess excess) { keepWorse(worst, std::move(excess), before.message_id, log); });
   }
   return worst;
 }
@@ -214,7 +217,7 @@ std::optional<Excess> AbortMeasures::solvedJoints(int order) const {
       const double dq_max = velocityLimit(i, sample.q[i], value);
       keepWorse(worst,
                 {jointName(i), "rad", value, pick(order, dq_max, limits.ddq[i], limits.dddq[i])},
-                sample.time);
+                sample.time, log_);
     }
   }
   return worst && worst->value != 0.0 ? worst : std::nullopt;
@@ -231,7 +234,7 @@ std::optional<Excess> AbortMeasures::measuredJoints() const {
   for (const AbortRecord& record : log_) {
     for (std::size_t i = 0; i < 7; i++) {
       keepWorse(worst, {jointName(i), "rad", record.state.dq[i], limits.dq[i]},
-                record.state.message_id);
+                record.state.message_id, log_);
     }
   }
   return worst;

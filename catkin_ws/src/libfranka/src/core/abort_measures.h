@@ -18,7 +18,7 @@ struct Excess {
   const char* unit;   ///< of the quantity whose derivative it is: "m", "rad", "Nm"
   double value{0.0};  ///< [unit/s], [unit/s^2] or [unit/s^3]
   double limit{0.0};
-  std::uint64_t time{0};  ///< [ms]
+  std::uint64_t age{0};  ///< before the last record of the log [ms]
 
   /// Of value and limit; infinite if the limit is 0.
   double ratio() const;

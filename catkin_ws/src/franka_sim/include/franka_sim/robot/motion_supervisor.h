@@ -97,6 +97,7 @@ class MotionSupervisor {
   void advanceRest() noexcept;
   void advanceRecovery() noexcept;
   void advanceBrakes() noexcept;
+  bool hasComeToRest() noexcept;
   bool standsStill() const noexcept;
 
   // transitions

@@ -44,7 +44,8 @@ void BrakeTrajectory::step() noexcept {
 }
 
 bool BrakeTrajectory::atRest() const noexcept {
-  return std::all_of(dq_.begin(), dq_.end(), [](double v) { return v == 0.0; });
+  const auto zero = [](double v) { return v == 0.0; };
+  return std::all_of(dq_.begin(), dq_.end(), zero) && std::all_of(ddq_.begin(), ddq_.end(), zero);
 }
 
 }  // namespace franka_sim
