@@ -112,7 +112,7 @@ def profiles(physics):
         ("stops it in # s", constant(realism, "EXPECT_NEAR(#, time_to_tenth, 0.03);")),
         ("within # s of that", constant(realism, "EXPECT_NEAR(0.1, time_to_tenth, #);")),
         (f"first order, {seven} Hz", panda["bandwidth"]["tau_ext_hat_filtered"]),
-        ("`ideal` # Hz", constant(HEADERS + "robot/tick.h", "kSignalCutoff = #;")),
+        ("`ideal` # Hz", constant(HEADERS + "robot/plant.h", "kSignalCutoff = #;")),
         ("a push of # N along x, y or z reads", constant(realism, "force[axis] = #;")),
         ("reads # % after", round(10 * constant(realism, "O_F_ext_hat_K[axis] - before) < #)"))),
         (
@@ -150,19 +150,19 @@ def fidelity():
     """The entries of docs/fidelity.md."""
     tick = constant(CORE + "tick.h", "kTick = #;")
     panda, fr3 = arm_limits("kFerLimits"), arm_limits("kFr3Limits")
-    cutoff = constant(HEADERS + "robot/tick.h", "kSignalCutoff = #;")
-    elasticity = constant(ROBOT + "state_estimator.cpp", "kJointElasticity = #;")
+    cutoff = constant(HEADERS + "robot/plant.h", "kSignalCutoff = #;")
+    elasticity = constant(ROBOT + "estimator/state_estimator.cpp", "kJointElasticity = #;")
     gravity_error = constant("franka_sim/src/physics/physics_config.cpp", f"kGravityError{{{SEVEN}}};")
     stiffness = constant(HEADERS + "robot/control_unit_parameters.h", f"kJointStiffness{{{SEVEN}}};")
     push = constant(TESTS + "robot/unit_in_world_test.cpp", "for (const double sign : {#, #})")
     physics = yaml.safe_load((SOURCES / "franka_description/config/physics.yaml").read_text())
     stops = "test_description_limits.py"
-    damping = constant(HEADERS + "robot/joint_impedance.h", "kDampingFactor = #;")
+    damping = constant(ROBOT + "laws/control_laws.h", "kDampingFactor = #;")
     guiding = [
-        constant(ROBOT + "control_laws.cpp", f"kGuiding{what} = #;")
+        constant(ROBOT + "laws/control_laws.cpp", f"kGuiding{what} = #;")
         for what in ("Translation", "Rotation", "Nullspace")
     ]
-    yielding = constant(ROBOT + "rest_sequence.cpp", "kYieldTicks = #;") * tick
+    yielding = constant(ROBOT + "motion/rest_sequence.cpp", "kYieldTicks = #;") * tick
     rate_test = TESTS + "robot/modes_and_requests_test.cpp"
     rate_in_move = constant(rate_test, "EXPECT_EQ(#, run(5, &zero).control_command_success_rate)")
     rate_in_idle = constant(rate_test, "EXPECT_EQ(#, run(5).control_command_success_rate)")
@@ -176,10 +176,10 @@ def fidelity():
         ("without gravity; # in Idle", constant(ROBOT + "motion_supervisor.cpp", "state_->tau_J_d.fill(#);")),
         (
             "singular value is below #",
-            constant(ROBOT + "external_wrench.cpp", "kMinSingularValue = #;"),
+            constant(ROBOT + "estimator/state_estimator.cpp", "kMinSingularValue = #;"),
         ),
         ("sign of q4 + #", round(-constant(CORE + "limits.h", "kElbowFlip = #;"), 3)),
-        ("the last # commands", constant(HEADERS + "robot/command_window.h", "kSlots = #;")),
+        ("the last # commands", constant(ROBOT + "safety/safety_monitor.h", "kSlots = #;")),
         ("# outside Move", rate_in_idle),
         ("about # rad", round(max(abs(tau) / k for tau, k in zip(gravity_error, stiffness)), 4)),
         ("shows #, #, #, #, #, # and # Nm", gravity_error),
@@ -195,7 +195,10 @@ def fidelity():
                 for bound in ("lower -", "upper +")
             ],
         ),
-        ("with # % of", 100 * constant(ROBOT + "gripper_unit.cpp", "finger_force = # * std::min(force,")),
+        (
+            "with # % of",
+            100 * constant(ROBOT + "hands/gripper_unit.cpp", "finger_force = # * std::min(force,"),
+        ),
         (
             "time constant # ms between finger pads and graspable objects (a grasp must not creep), # ms",
             [
@@ -206,27 +209,28 @@ def fidelity():
         # Profiles
         *profiles(physics),
         # Control
-        ("null space # Nm/rad", constant(ROBOT + "control_laws.cpp", "kNullspace = #;")),
-        ("fades at # Nm/s", constant(ROBOT + "torque_blend.cpp", "kStep = # * kTick;")),
+        ("null space # Nm/rad", constant(ROBOT + "laws/control_laws.cpp", "kNullspace = #;")),
+        ("fades at # Nm/s", constant(ROBOT + "laws/control_laws.cpp", "kStep = # * kTick;")),
         ("then, for # s", yielding),
         ("# N/m, # Nm/rad, a locked elbow with # Nm/rad", guiding),
-        ("up to # s", constant(HEADERS + "robot/loss_monitor.h", "kPatience = #;") * tick),
-        ("# lost in a row", constant(HEADERS + "robot/loss_monitor.h", "kLostInARow = #;")),
+        ("up to # s", constant(ROBOT + "safety/safety_monitor.h", "kPatience = #;") * tick),
+        ("# lost in a row", constant(ROBOT + "safety/safety_monitor.h", "kLostInARow = #;")),
         # Errors
-        ("# rad beyond the limits", constant(ROBOT + "measured_limits.cpp", "kPositionMargin = #;")),
-        ("speed # % above", 100 * (constant(ROBOT + "measured_limits.cpp", "kSpeedMargin = #;") - 1)),
+        ("# rad beyond the limits", constant(ROBOT + "limits.cpp", "kPositionMargin = #;")),
+        ("speed # % above", 100 * (constant(ROBOT + "limits.cpp", "kSpeedMargin = #;") - 1)),
         ("hand # m/s, FR3 #", [robot["translation_velocity"] for robot in (panda, fr3)]),
         (
             "more than # Nm for # s",
             [
-                constant(ROBOT + "force_watch.cpp", "kTolerance = #;"),
-                constant(ROBOT + "force_watch.cpp", "kPatience = #;") * tick,
+                constant(ROBOT + "safety/safety_monitor.cpp", "kTolerance = #;"),
+                constant(ROBOT + "safety/safety_monitor.cpp", "kPatience = #;") * tick,
             ],
         ),
-        ("above # W", constant(HEADERS + "robot/measured_limits.h", "kPowerLimit = #;")),
-        ("# times the motors'", constant(ROBOT + "measured_limits.cpp", "kTorqueMargin = #;")),
+        ("above # W", constant(HEADERS + "robot/limits.h", "kPowerLimit = #;")),
+        ("# times the motors'", constant(ROBOT + "limits.cpp", "kTorqueMargin = #;")),
         ("# times the joints' jerk", constant(ROBOT + "motion/joint_motion.cpp", "kSolvedJerkFactor = #;")),
-        ("clamp at less than # rad/s", constant(ROBOT + "motion_supervisor.cpp", "kStandstill = #;")),
+        ("been slower than # rad/s", constant(ROBOT + "motion_supervisor.cpp", "kStandstill = #;")),
+        ("for # ms, so that", constant(ROBOT + "motion_supervisor.cpp", "kStillTicks = #;")),
         ("or after # s in which", constant(ROBOT + "motion_supervisor.cpp", "kClosingTicks = #;") * tick),
         (
             "with # times, it would never",
@@ -245,13 +249,13 @@ def fidelity():
         (
             "# degrees Celsius at rest, up to # more under # N",
             [
-                constant(HEADERS + "robot/gripper_unit.h", f"{what}{{#}};")
+                constant(HEADERS + "robot/hands/gripper_unit.h", f"{what}{{#}};")
                 for what in ("room_temperature", "temperature_rise", "max_force")
             ],
         ),
         (
             "time constant of # s",
-            constant(HEADERS + "robot/gripper_unit.h", "temperature_time{#};"),
+            constant(HEADERS + "robot/hands/gripper_unit.h", "temperature_time{#};"),
         ),
         ("exactly # # # #", constant("libfranka/src/core/transform.cpp", bottom_row)),
         ("length #", constant("libfranka/src/core/transform.cpp", "std::abs(length - #)")),
@@ -351,7 +355,7 @@ def limits():
             "# as smallest singular value",
             [
                 constant(way, "kSingular = #;"),
-                constant(ROBOT + "motion/inverse_kinematics.cpp", "kNearlySingular = #;"),
+                constant(ROBOT + "motion/cartesian_motion.cpp", "kNearlySingular = #;"),
             ],
         ),
         # What was found

@@ -40,9 +40,9 @@ INCLUDE_RULES = [
     ),
     (r"(?!.*/physics/)", r"<mujoco/", "MuJoCo headers stand in physics/ only"),
     (
-        r"(?!catkin_ws/src/libfranka/src/|.*/fci/|.*/test/|tests/)",
+        r"(?!catkin_ws/src/libfranka/src/|.*/fci/|.*/serve/|.*/test/|tests/)",
         r"<(sys/socket|netinet/in|arpa/inet)\.h>",
-        "sockets stand in libfranka/src and fci/ only",
+        "sockets stand in libfranka/src, fci/ and serve/ only",
     ),
 ]
 READS_BY_LOCALE = (

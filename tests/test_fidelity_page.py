@@ -118,5 +118,5 @@ def test_wrong_missing_and_unknown_figures_are_reported(text, entries):
 
 
 def test_a_constant_that_is_gone_is_reported():
-    with pytest.raises(AssertionError, match="low_pass.h has 0 values of: kNothing = #;"):
-        page_figures.constant("franka_sim/include/franka_sim/robot/low_pass.h", "kNothing = #;")
+    with pytest.raises(AssertionError, match="state_estimator.h has 0 values of: kNothing = #;"):
+        page_figures.constant("franka_sim/src/robot/estimator/state_estimator.h", "kNothing = #;")

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/numbers.h>
-#include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/world.h>
-#include <franka_sim/robot/parameter_checks.h>
+#include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/serve/sim_robot.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/param_reader.h>
 #include <ros/console.h>

@@ -4,7 +4,7 @@
 #include <controller_manager_msgs/SwitchController.h>
 #include <franka_core/transform.h>
 #include <franka_hw/setters.h>
-#include <franka_sim/robot/parameter_checks.h>
+#include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/arm_services.h>
 #include <franka_sim_mujoco/log_names.h>

@@ -5,7 +5,7 @@
 #include <franka_core/finite.h>
 #include <franka_core/joint_limiter.h>
 #include <franka_core/transform.h>
-#include <franka_sim/robot/tick.h>
+#include <franka_sim/robot/plant.h>
 #include <franka_sim/robot/transforms.h>
 #include <franka_sim_mujoco/command_shaper.h>
 

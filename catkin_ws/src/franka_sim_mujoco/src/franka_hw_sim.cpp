@@ -4,9 +4,9 @@
 #include <franka_core/numbers.h>
 #include <franka_core/robot_error.h>
 #include <franka_core/transform.h>
-#include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/world.h>
-#include <franka_sim/robot/condition_text.h>
+#include <franka_sim/robot/errors.h>
+#include <franka_sim/serve/sim_robot.h>
 #include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/controller_check.h>
 #include <franka_sim_mujoco/exception_text.h>

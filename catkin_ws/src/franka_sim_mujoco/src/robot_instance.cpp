@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/physics/urdf_text.h>
-#include <franka_sim/robot/condition_text.h>
+#include <franka_sim/robot/errors.h>
 #include <franka_sim_mujoco/combined_hw_sim.h>
 #include <franka_sim_mujoco/exception_text.h>
 #include <franka_sim_mujoco/joint_state_publisher.h>

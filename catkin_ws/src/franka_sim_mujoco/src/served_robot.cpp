@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/robot_error.h>
 #include <franka_msgs/SetLoad.h>
-#include <franka_sim/fci/serving.h>
 #include <franka_sim/physics/world.h>
-#include <franka_sim/simulation/operator_commands.h>
+#include <franka_sim/serve/operator_commands.h>
+#include <franka_sim/serve/sim_robot.h>
 #include <franka_sim_mujoco/GetServedRobot.h>
 #include <franka_sim_mujoco/SetPacketDelay.h>
 #include <franka_sim_mujoco/SetPacketLoss.h>

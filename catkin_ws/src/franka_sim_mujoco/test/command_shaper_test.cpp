@@ -5,7 +5,7 @@
 /// Commands of controllers on their way to the control unit.
 
 #include <franka_sim/robot/motion/joint_motion.h>
-#include <franka_sim/robot/tick.h>
+#include <franka_sim/robot/plant.h>
 #include <franka_sim_mujoco/command_shaper.h>
 #include <franka_sim_mujoco/sim_arm.h>
 #include <gtest/gtest.h>

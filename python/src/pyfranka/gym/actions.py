@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The meaning of the numbers of a policy's action. All values of an action lie in [-1, 1].
 
-The actions are applied in C++ (franka_sim/simulation/policy_actions.h).
+The actions are applied in C++ (franka_sim/simulation/policy_episode.h).
 """
 
 from __future__ import annotations

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/fci/host.h>
 #include <franka_sim/fci/sockets.h>
+#include <franka_sim/serve/host.h>
 #include <sys/types.h>
 
 #include <chrono>

@@ -3,10 +3,10 @@
 //
 // Simulated robots on the network, without ROS.
 #include <franka_sim/physics/world.h>
-#include <franka_sim/robot/condition_text.h>
+#include <franka_sim/robot/errors.h>
+#include <franka_sim/serve/operator_commands.h>
+#include <franka_sim/serve/scene_commands.h>
 #include <franka_sim/simulation/files.h>
-#include <franka_sim/simulation/operator_commands.h>
-#include <franka_sim/simulation/scene_commands.h>
 #include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "served_arm.h"
 
-#include <franka_sim/fci/serving.h>
 #include <franka_sim/robot/realism.h>
+#include <franka_sim/serve/sim_robot.h>
 
 #include <cstdio>
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/fci/host.h>
-#include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/serve/host.h>
+#include <franka_sim/serve/sim_robot.h>
 
 #include <atomic>
 #include <chrono>

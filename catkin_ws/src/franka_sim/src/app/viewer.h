@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/fci/host.h>
 #include <franka_sim/physics/window.h>
 #include <franka_sim/physics/world.h>
+#include <franka_sim/serve/host.h>
 
 #include <atomic>
 #include <chrono>

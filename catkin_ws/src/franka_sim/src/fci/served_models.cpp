@@ -1,8 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "fci/served_models.h"
+
 #include <franka_core/limits.h>
 #include <franka_core/numbers.h>
-#include <franka_sim/fci/served_models.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/robot/configuration.h>
-#include <franka_sim/robot/parameter_checks.h>
+#include "robot/configuration.h"
+
+#include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/robot/transforms.h>
 
 namespace franka_sim {

@@ -1,11 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/robot/control_laws.h>
 #include <franka_sim/robot/control_unit.h>
-#include <franka_sim/robot/motion_supervisor.h>
-#include <franka_sim/robot/state_estimator.h>
 
 #include <type_traits>
+
+#include "robot/estimator/state_estimator.h"
+#include "robot/laws/control_laws.h"
+#include "robot/motion_supervisor.h"
 
 namespace franka_sim {
 

@@ -1,10 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The supervisor's work in each tick; requests and transitions: motion_supervisor_requests.cpp.
+#include "robot/motion_supervisor.h"
+
 #include <franka_core/finite.h>
-#include <franka_sim/robot/deviation.h>
-#include <franka_sim/robot/elbow.h>
-#include <franka_sim/robot/motion_supervisor.h>
 #include <franka_sim/robot/transforms.h>
 
 #include <algorithm>

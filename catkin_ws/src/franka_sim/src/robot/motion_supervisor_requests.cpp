@@ -1,12 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The supervisor's requests, and its transitions between modes.
-#include <franka_sim/robot/deviation.h>
-#include <franka_sim/robot/measured_limits.h>
-#include <franka_sim/robot/motion_supervisor.h>
+#include <franka_sim/robot/limits.h>
+#include <franka_sim/robot/transforms.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "robot/motion_supervisor.h"
 
 namespace franka_sim {
 

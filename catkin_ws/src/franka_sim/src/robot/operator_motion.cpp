@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/smooth_step.h>
 #include <franka_sim/robot/operator_motion.h>
-#include <franka_sim/robot/tick.h>
+#include <franka_sim/robot/plant.h>
 
 #include <algorithm>
 #include <cmath>

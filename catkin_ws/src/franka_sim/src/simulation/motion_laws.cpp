@@ -3,11 +3,11 @@
 #include <franka_core/rotations.h>
 #include <franka_core/smooth_step.h>
 #include <franka_core/tick.h>
-#include <franka_sim/robot/cartesian_impedance.h>
-#include <franka_sim/robot/joint_impedance.h>
 #include <franka_sim/simulation/motion_laws.h>
 
 #include <algorithm>
+
+#include "robot/laws/control_laws.h"
 
 namespace franka_sim {
 

@@ -1,13 +1,14 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/robot/protocols.h>
+#include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/robot/realism.h>
 #include <franka_sim/simulation/files.h>
 #include <franka_sim/simulation/robot_setup.h>
-#include <franka_sim/simulation/robot_text.h>
+#include <tinyxml2.h>
 
 #include <cmath>
 #include <stdexcept>
+#include <vector>
 
 namespace franka_sim {
 namespace {
@@ -74,6 +75,122 @@ RobotInWorld addRobot(const RobotSetup& setup, const char* profile, World& world
   const ControlUnitParameters unit = unitParameters(setup, urdf, physics, has_hand);
   world.addRobot(describeRobot(setup, urdf, physics, has_hand));
   return {unit, physics, &world.arm(id, id), has_hand ? &world.hand(id, id) : nullptr};
+}
+
+namespace {
+
+using tinyxml2::XMLElement;
+
+bool endsWith(const std::string& text, const std::string& end) {
+  return text.size() >= end.size() && text.compare(text.size() - end.size(), end.size(), end) == 0;
+}
+
+// The file in franka_description that shows a link. Both fingers are one mesh.
+std::string meshOf(const std::string& robot, const std::string& part) {
+  const std::string folder = robot == "fr3" ? "meshes/visual/fr3/" : "meshes/visual/";
+  return folder + (endsWith(part, "finger") ? "finger" : part) + ".dae";
+}
+
+void setVisual(XMLElement* link, const std::string& mesh, bool turned) {
+  while (XMLElement* visual = link->FirstChildElement("visual")) {
+    link->DeleteChild(visual);
+  }
+  XMLElement* visual = link->InsertNewChildElement("visual");
+  XMLElement* origin = visual->InsertNewChildElement("origin");
+  origin->SetAttribute("xyz", "0 0 0");
+  origin->SetAttribute("rpy", turned ? "0 0 3.141592653589793" : "0 0 0");
+  visual->InsertNewChildElement("geometry")
+      ->InsertNewChildElement("mesh")
+      ->SetAttribute("filename", ("package://franka_description/" + mesh).c_str());
+}
+
+/// The link's name in an element of a joint, "parent" or "child".
+std::string linkOf(const XMLElement& joint, const char* which) {
+  const XMLElement* const element = joint.FirstChildElement(which);
+  const char* const link = element != nullptr ? element->Attribute("link") : nullptr;
+  return link != nullptr ? link : "";
+}
+
+/// Removes a link, the joint that carries it, and what it carries.
+void removeBranch(XMLElement& robot, const std::string& link) {
+  std::vector<std::string> carried;
+  for (XMLElement* joint = robot.FirstChildElement("joint"); joint != nullptr;) {
+    XMLElement* const next = joint->NextSiblingElement("joint");
+    if (linkOf(*joint, "parent") == link) {
+      carried.push_back(linkOf(*joint, "child"));
+    }
+    if (linkOf(*joint, "child") == link) {
+      robot.DeleteChild(joint);
+    }
+    joint = next;
+  }
+  for (const std::string& child : carried) {
+    removeBranch(robot, child);
+  }
+  for (XMLElement* body = robot.FirstChildElement("link"); body != nullptr;) {
+    XMLElement* const next = body->NextSiblingElement("link");
+    if (body->Attribute("name", link.c_str()) != nullptr) {
+      robot.DeleteChild(body);
+    }
+    body = next;
+  }
+}
+
+}  // namespace
+
+std::string robotText(const std::string& robot, const std::string& arm_id) {
+  const std::string name = "robots/" + robot + ".urdf";
+  const std::string file = packageFile("franka_sim", name);
+  if (file.empty()) {
+    throw std::runtime_error("franka_sim does not find its file " + name +
+                             "; give a robot description with --urdf.");
+  }
+  std::string urdf = readFile(file);
+  const std::string old_name = "\"" + robot + "_";
+  const std::string new_name = "\"" + arm_id + "_";
+  for (std::size_t at = urdf.find(old_name); at != std::string::npos;
+       at = urdf.find(old_name, at + new_name.size())) {
+    urdf.replace(at, old_name.size(), new_name);
+  }
+  return urdf;
+}
+
+std::string withoutHand(const std::string& urdf, const std::string& arm_id) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(urdf.c_str()) != tinyxml2::XML_SUCCESS) {
+    throw std::runtime_error("The description of the robot '" + arm_id +
+                             "' is not XML: " + document.ErrorStr() + ".");
+  }
+  removeBranch(*document.RootElement(), arm_id + "_hand");
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  return printer.CStr();
+}
+
+RobotLook robotWithMeshes(const std::string& robot, const std::string& arm_id) {
+  tinyxml2::XMLDocument document;
+  if (document.Parse(robotText(robot, arm_id).c_str()) != tinyxml2::XML_SUCCESS) {
+    throw std::runtime_error("franka_sim cannot read its file robots/" + robot +
+                             ".urdf: " + document.ErrorStr() + ".");
+  }
+  RobotLook look;
+  for (XMLElement* link = document.RootElement()->FirstChildElement("link"); link != nullptr;
+       link = link->NextSiblingElement("link")) {
+    if (link->FirstChildElement("visual") == nullptr) {
+      continue;
+    }
+    const std::string part = std::string(link->Attribute("name")).substr(arm_id.size() + 1);
+    const std::string mesh = meshOf(robot, part);
+    if (packageFile("franka_description", mesh).empty()) {
+      look.missing.push_back(mesh);
+    } else {
+      setVisual(link, mesh, part == "rightfinger");
+    }
+  }
+  tinyxml2::XMLPrinter printer;
+  document.Print(&printer);
+  look.urdf = printer.CStr();
+  return look;
 }
 
 }  // namespace franka_sim

@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/fci/robot_front.h>
-#include <franka_sim/fci/serving.h>
+#include <franka_sim/serve/sim_robot.h>
 #include <franka_sim/simulation/simulation_server.h>
 #include <unistd.h>
 

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // When the host runs a tick, tested with a robot that only counts.
-#include <franka_sim/fci/host.h>
+#include <franka_sim/serve/host.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -3,10 +3,9 @@
 //
 // Effect of one client, or of a stranger, on the clients of another robot in the same process.
 #include <fcntl.h>
-#include <franka_sim/fci/gripper_server.h>
-#include <franka_sim/fci/host.h>
-#include <franka_sim/fci/line_server.h>
-#include <franka_sim/fci/vacuum_server.h>
+#include <franka_sim/fci/hand_server.h>
+#include <franka_sim/serve/host.h>
+#include <franka_sim/serve/line_server.h>
 
 #include <algorithm>
 #include <atomic>

@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/numbers.h>
-#include <franka_sim/fci/json.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -9,6 +8,8 @@
 #include <map>
 #include <string>
 #include <vector>
+
+#include "serve/robot_report.h"
 
 namespace franka_sim::fci {
 namespace {

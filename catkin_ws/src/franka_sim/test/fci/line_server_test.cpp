@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <arpa/inet.h>
-#include <franka_sim/fci/line_server.h>
+#include <franka_sim/serve/line_server.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
 

@@ -3,11 +3,12 @@
 //
 // The models that a robot serves, loaded as clients load them, compared with the control unit's own
 // model and with numbers independent of KDL.
+#include "fci/served_models.h"
+
 #include <dlfcn.h>
 #include <franka_core/arm_model.h>
 #include <franka_core/limits.h>
 #include <franka_core/numbers.h>
-#include <franka_sim/fci/served_models.h>
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
 

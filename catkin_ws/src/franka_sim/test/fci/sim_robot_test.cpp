@@ -3,9 +3,7 @@
 //
 // A robot with its unit, link and server. The test calls each tick.
 #include <franka_core/limits.h>
-#include <franka_sim/fci/served_models.h>
-#include <franka_sim/fci/serving.h>
-#include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/serve/sim_robot.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -16,6 +14,7 @@
 #include <vector>
 
 #include "../robot/arm_fixture.h"
+#include "fci/served_models.h"
 #include "test_client.h"
 
 namespace franka_sim::fci {

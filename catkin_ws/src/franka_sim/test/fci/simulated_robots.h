@@ -3,9 +3,8 @@
 #pragma once
 
 #include <franka/robot.h>
-#include <franka_sim/fci/host.h>
-#include <franka_sim/fci/served_models.h>
-#include <franka_sim/fci/sim_robot.h>
+#include <franka_sim/serve/host.h>
+#include <franka_sim/serve/sim_robot.h>
 
 #include <algorithm>
 #include <atomic>
@@ -19,6 +18,7 @@
 #include <vector>
 
 #include "../physics/test_support.h"
+#include "fci/served_models.h"
 
 namespace franka_sim::fci {
 

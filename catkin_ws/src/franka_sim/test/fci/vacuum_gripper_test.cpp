@@ -4,7 +4,7 @@
 // The vacuum gripper alone, and through our own client.
 #include <franka/exception.h>
 #include <franka/vacuum_gripper.h>
-#include <franka_sim/fci/vacuum_server.h>
+#include <franka_sim/fci/hand_server.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <ros_test/eventually.h>

@@ -1,10 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/robot/command_link.h>
-#include <franka_sim/robot/command_window.h>
+#include <franka_sim/robot/whole_robot.h>
 #include <gtest/gtest.h>
 
 #include <vector>
+
+#include "robot/safety/safety_monitor.h"
 
 namespace franka_sim {
 namespace {

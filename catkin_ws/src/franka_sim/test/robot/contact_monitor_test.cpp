@@ -1,8 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Contacts and collisions by their thresholds.
-#include <franka_sim/robot/contact_monitor.h>
 #include <gtest/gtest.h>
+
+#include "robot/estimator/state_estimator.h"
 
 namespace franka_sim::test {
 

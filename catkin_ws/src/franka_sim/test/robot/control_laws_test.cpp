@@ -1,11 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Torques of the control laws, against independent results.
-#include <franka_sim/robot/cartesian_impedance.h>
-#include <franka_sim/robot/configuration.h>
-#include <franka_sim/robot/control_laws.h>
-#include <franka_sim/robot/joint_impedance.h>
-#include <franka_sim/robot/state_estimator.h>
+#include "robot/laws/control_laws.h"
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -13,6 +9,8 @@
 #include <random>
 
 #include "fci_fixture.h"
+#include "robot/configuration.h"
+#include "robot/estimator/state_estimator.h"
 
 namespace franka_sim::test {
 

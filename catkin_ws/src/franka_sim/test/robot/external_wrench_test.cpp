@@ -1,13 +1,14 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The external wrench at K, and products of transforms.
-#include <franka_sim/robot/external_wrench.h>
 #include <franka_sim/robot/transforms.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
 #include <array>
 #include <cmath>
+
+#include "robot/estimator/state_estimator.h"
 
 namespace franka_sim::test {
 

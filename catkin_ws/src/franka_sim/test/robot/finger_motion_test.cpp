@@ -1,10 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The hand's fingers: their ramp, their force, and when they stand still.
-#include <franka_sim/robot/finger_force.h>
-#include <franka_sim/robot/standstill.h>
-#include <franka_sim/robot/ticket_log.h>
-#include <franka_sim/robot/width_ramp.h>
+#include <franka_sim/robot/hands/gripper_unit.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The gripper's commands on simulated fingers, with and without an object.
-#include <franka_sim/robot/gripper_unit.h>
+#include <franka_sim/robot/hands/gripper_unit.h>
 #include <gtest/gtest.h>
 
 #include <cmath>

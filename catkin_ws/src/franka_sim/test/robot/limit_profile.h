@@ -3,7 +3,7 @@
 #pragma once
 
 #include <franka_core/limits.h>
-#include <franka_sim/robot/tick.h>
+#include <franka_sim/robot/plant.h>
 
 #include <cmath>
 #include <vector>

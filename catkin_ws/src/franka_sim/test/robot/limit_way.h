@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/robot/motion/inverse_kinematics.h>
-#include <franka_sim/robot/motion/motion_limits.h>
-#include <franka_sim/robot/self_collision.h>
+#include <franka_sim/robot/limits.h>
+#include <franka_sim/robot/safety/collisions.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -15,6 +14,7 @@
 
 #include "limit_profile.h"
 #include "motion/motion_fixture.h"
+#include "robot/motion/cartesian_motion.h"
 
 namespace franka_sim::test {
 

@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Accelerations of the links.
-#include <franka_sim/robot/link_accelerometers.h>
-
 #include <Eigen/Core>
 
 #include "fci_fixture.h"
+#include "robot/estimator/state_estimator.h"
 
 namespace franka_sim::test {
 

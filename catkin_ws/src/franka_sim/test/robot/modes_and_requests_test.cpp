@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Modes, their transitions, and the answers of a ControlUnit to valid and invalid requests.
 #include <franka_sim/robot/control_unit.h>
-#include <franka_sim/robot/parameter_checks.h>
+#include <franka_sim/robot/control_unit_parameters.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,9 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Answers that a control unit gives later.
-#include <franka_sim/robot/pending_answers.h>
-
 #include "fci_fixture.h"
+#include "robot/mode_machine.h"
 
 namespace franka_sim::test {
 

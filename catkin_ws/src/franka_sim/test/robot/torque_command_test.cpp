@@ -1,9 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Torque steps.
-#include <franka_sim/robot/motion_supervisor.h>
-
 #include "fci_fixture.h"
+#include "robot/motion_supervisor.h"
 
 namespace franka_sim::test {
 

@@ -3,7 +3,7 @@
 //
 // One rule for transforms at every input of the control unit.
 #include <franka_core/transform.h>
-#include <franka_sim/robot/parameter_checks.h>
+#include <franka_sim/robot/control_unit_parameters.h>
 #include <transform_sweep.h>
 
 #include <stdexcept>

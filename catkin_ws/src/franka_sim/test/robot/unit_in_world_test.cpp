@@ -3,7 +3,7 @@
 // Control unit and gripper unit on the MuJoCo physics, Panda and FR3.
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/robot/control_unit.h>
-#include <franka_sim/robot/gripper_unit.h>
+#include <franka_sim/robot/hands/gripper_unit.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -307,7 +307,6 @@ TEST_P(UnitInWorldTest, StopsAtSpeedBrakeLikeAReflexAndThenClamp) {
     double braking_torque = 0.0;   // strongest change of a joint's torque, while the motors brake
     double clamping_torque = 0.0;  // and from then on
     double steepest = 0.0;         // change of a joint's torque in a tick
-    double shock = 0.0;            // the same, from the tick in which the brakes close
     int braking = 0;
     int closed = 0;
     for (int i = 0; i < 1000; i++) {
@@ -327,9 +326,7 @@ TEST_P(UnitInWorldTest, StopsAtSpeedBrakeLikeAReflexAndThenClamp) {
         EXPECT_LT(std::abs(state.tau_J[j]), unit->configuration().max_torque[j]);
         double& strongest = closed > 2 ? clamping_torque : braking_torque;
         strongest = std::max(strongest, std::abs(state.tau_J[j] - held[j]));
-        const double step = std::abs(state.tau_J[j] - before[j]);
-        steepest = std::max(steepest, step);
-        shock = closed > 0 ? std::max(shock, step) : 0.0;
+        steepest = std::max(steepest, std::abs(state.tau_J[j] - before[j]));
         jerking = std::max(jerking, std::abs(inertia[j]) * jerk * 1e-3);
       }
     }
@@ -337,16 +334,15 @@ TEST_P(UnitInWorldTest, StopsAtSpeedBrakeLikeAReflexAndThenClamp) {
     std::printf(
         "%s stops from 1 rad/s: %d ms, %.1f mrad, rebound %.3f mrad; torques change by %.1f "
         "Nm, after the brakes have closed by %.1f Nm, in a tick by at most %.2f Nm (jerk limit "
-        "%.2f), as the brakes close by %.2f Nm\n",
+        "%.2f)\n",
         GetParam(), braking, 1e3 * (furthest - from), 1e3 * rebound, braking_torque,
-        clamping_torque, steepest, jerking, shock);
+        clamping_torque, steepest, jerking);
     EXPECT_NEAR(1.0 / ddq * 1e3, braking, 2);
     EXPECT_NEAR(0.5 / ddq, furthest - from, 0.001);
     EXPECT_LT(rebound, 1e-3);
     EXPECT_LT(clamping_torque, 0.25 * braking_torque) << "the brakes had to stop the arm";
     // A fifth more for the control law, which follows the desired motion.
     EXPECT_LT(steepest, 1.2 * jerking);
-    EXPECT_LT(shock, 0.25 * jerking) << "the brakes had to stop what still moved";
     EXPECT_GT(closed, 700);
     EXPECT_EQ((std::array<double, 7>{}), unit->state().joint_collision);
     const std::array<double, 7> stopped = unit->state().q;

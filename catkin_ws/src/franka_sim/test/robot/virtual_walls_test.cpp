@@ -1,12 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Virtual walls.
-#include <franka_sim/robot/motion_supervisor.h>
-
 #include <Eigen/Geometry>
 #include <random>
 
 #include "fci_fixture.h"
+#include "robot/motion_supervisor.h"
 
 namespace franka_sim::test {
 

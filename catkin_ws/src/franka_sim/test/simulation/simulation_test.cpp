@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Robots that a program drives in its own process: commands, laws, refusals, resets.
 #include <franka_core/robot_error.h>
-#include <franka_sim/fci/serving.h>
-#include <franka_sim/fci/sim_robot.h>
-#include <franka_sim/simulation/operator_commands.h>
+#include <franka_sim/serve/operator_commands.h>
+#include <franka_sim/serve/sim_robot.h>
 #include <franka_sim/simulation/simulation.h>
 #include <gtest/gtest.h>
 #include <rt_guard/rt_guard.h>

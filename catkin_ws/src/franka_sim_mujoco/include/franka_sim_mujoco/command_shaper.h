@@ -4,7 +4,7 @@
 
 #include <franka_core/robot_state.h>
 #include <franka_hw/control_mode.h>
-#include <franka_sim/robot/motion/motion_limits.h>
+#include <franka_sim/robot/limits.h>
 #include <franka_sim_mujoco/arm_commands.h>
 
 namespace franka_sim_mujoco {

@@ -4,7 +4,7 @@
 
 #include <controller_interface/controller.h>
 #include <franka_hw/trigger_rate.h>
-#include <franka_sim/robot/gripper_unit.h>
+#include <franka_sim/robot/hands/gripper_unit.h>
 #include <franka_sim_mujoco/gripper_actions.h>
 #include <franka_sim_mujoco/gripper_mailbox.h>
 #include <hardware_interface/joint_command_interface.h>

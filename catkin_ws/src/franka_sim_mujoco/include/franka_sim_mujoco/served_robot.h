@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/fci/host.h>
-#include <franka_sim/fci/line_server.h>
-#include <franka_sim/fci/sim_robot.h>
-#include <franka_sim/simulation/scene_commands.h>
+#include <franka_sim/serve/host.h>
+#include <franka_sim/serve/line_server.h>
+#include <franka_sim/serve/scene_commands.h>
+#include <franka_sim/serve/sim_robot.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 #include <franka_sim_mujoco/service_handlers.h>
 

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/fci/host.h>
 #include <franka_sim/physics/world.h>
-#include <franka_sim/simulation/scene_commands.h>
+#include <franka_sim/serve/host.h>
+#include <franka_sim/serve/scene_commands.h>
 #include <franka_sim_mujoco/clock_publisher.h>
 #include <franka_sim_mujoco/pace.h>
 #include <franka_sim_mujoco/request_queue.h>

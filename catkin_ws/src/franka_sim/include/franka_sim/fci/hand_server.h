@@ -4,8 +4,11 @@
 
 #include <arpa/inet.h>
 #include <franka_core/fci/gripper_codec.h>
+#include <franka_core/fci/protocol.h>
+#include <franka_core/fci/vacuum_codec.h>
 #include <franka_sim/fci/client_slot.h>
-#include <franka_sim/robot/ticket_log.h>
+#include <franka_sim/robot/hands/gripper_unit.h>
+#include <franka_sim/robot/hands/vacuum_gripper_unit.h>
 
 #include <chrono>
 #include <cstdint>
@@ -202,5 +205,60 @@ void HandServer<Device>::publish(std::uint64_t milliseconds) {
     clearClient();
   }
 }
+
+}  // namespace franka_sim::fci
+
+namespace franka_sim::fci {
+
+/// The hand with two fingers, protocol versions 2 and 3.
+struct GripperDevice {
+  using Unit = GripperUnit;
+  using Command = franka_core::fci::gripper::Command;
+  using Request = franka_core::fci::gripper::Request;
+  using ReplyMessage = franka_core::fci::gripper::ReplyMessage;
+  using StateBuffer = franka_core::fci::gripper::StateBuffer;
+
+  static constexpr std::size_t kMaxRequestSize = franka_core::fci::gripper::kMaxRequestSize;
+  static constexpr std::uint16_t kNewestVersion = franka_core::fci::kNewestGripperVersion;
+  static bool supportsVersion(std::uint16_t version) noexcept {
+    return franka_core::fci::isGripperVersion(version);
+  }
+  /// Hands a request other than Connect to the unit. @returns 0 when it refuses.
+  static Unit::Ticket start(Unit& unit, const Request& request) noexcept;
+  /// The unit's state as a datagram. @param message_id [ms]
+  static StateBuffer encode(const Unit& unit, std::uint32_t message_id) noexcept;
+};
+
+using GripperServer = HandServer<GripperDevice>;
+
+extern template class HandServer<GripperDevice>;
+
+}  // namespace franka_sim::fci
+
+namespace franka_sim::fci {
+
+/// The vacuum gripper, protocol version 1. The profiles P0 to P3 are accepted without effect: what
+/// they set on a device is not published.
+struct VacuumDevice {
+  using Unit = VacuumGripperUnit;
+  using Command = franka_core::fci::vacuum::Command;
+  using Request = franka_core::fci::vacuum::Request;
+  using ReplyMessage = franka_core::fci::vacuum::ReplyMessage;
+  using StateBuffer = franka_core::fci::vacuum::StateBuffer;
+
+  static constexpr std::size_t kMaxRequestSize = franka_core::fci::vacuum::kMaxRequestSize;
+  static constexpr std::uint16_t kNewestVersion = franka_core::fci::kVacuumGripperVersion;
+  static bool supportsVersion(std::uint16_t version) noexcept {
+    return franka_core::fci::isVacuumGripperVersion(version);
+  }
+  /// Hands a request other than Connect to the unit. @returns 0 when it refuses.
+  static Unit::Ticket start(Unit& unit, const Request& request) noexcept;
+  /// The unit's state as a datagram. @param message_id [ms]
+  static StateBuffer encode(const Unit& unit, std::uint32_t message_id) noexcept;
+};
+
+using VacuumServer = HandServer<VacuumDevice>;
+
+extern template class HandServer<VacuumDevice>;
 
 }  // namespace franka_sim::fci

@@ -3,11 +3,12 @@
 #pragma once
 
 #include <franka_core/fci/command_codec.h>
+#include <franka_core/fci/commands.h>
 #include <franka_core/fci/reply_codec.h>
 #include <franka_core/fci/state_codec.h>
 #include <franka_core/robot_state.h>
-#include <franka_sim/fci/arm_request_handler.h>
 #include <franka_sim/fci/client_slot.h>
+#include <franka_sim/robot/control_unit.h>
 
 #include <array>
 #include <cstdint>
@@ -16,6 +17,39 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+namespace franka_sim::fci {
+
+/// Handles the requests that a robot server receives from its client, and reports their results.
+/// The control unit implements it; tests use a simpler implementation. Called by one thread;
+/// nothing throws.
+class ArmRequestHandler {
+ public:
+  using Status = franka_core::fci::Status;
+
+  virtual ~ArmRequestHandler() = default;
+
+  /// The present state; modes and configuration include the last request.
+  virtual const franka_core::RobotState& state() const noexcept = 0;
+  /// A client has connected with this protocol version.
+  virtual void connected(std::uint16_t version) noexcept = 0;
+  /// The client has disconnected; its motion may still run.
+  virtual void disconnected() noexcept = 0;
+  /// Whether clients may connect. When it becomes false, a connected client is dropped.
+  virtual bool active() const noexcept = 0;
+
+  /// The answer to any request except Connect and those for models. Move returns kMotionStarted, or
+  /// the reason for its refusal. StopMove and AutomaticErrorRecovery may return nothing now and the
+  /// answer later through takeAnswer.
+  virtual std::optional<Status> handle(const franka_core::fci::Request& request) noexcept = 0;
+  /// The virtual wall with that number; nothing if there is no such number.
+  virtual std::optional<franka_core::fci::CartesianLimit> wall(std::int32_t id) const noexcept = 0;
+
+  /// The result of the motion, the stop or the recovery; each answer is returned once.
+  virtual std::optional<Status> takeAnswer(PendingAnswer which) noexcept = 0;
+};
+
+}  // namespace franka_sim::fci
 
 namespace franka_sim::fci {
 
@@ -159,6 +193,31 @@ class RobotServer {
   franka_core::fci::StateBuffer state_bytes_{};
   franka_core::RobotState shown_;
   franka_core::RobotCommand command_;
+};
+
+}  // namespace franka_sim::fci
+
+namespace franka_sim::fci {
+
+/// Translates requests of the protocol for a control unit, and translates the unit's results back.
+class UnitRequestHandler final : public ArmRequestHandler {
+ public:
+  /// @param unit outlives the handler.
+  explicit UnitRequestHandler(ControlUnit& unit) noexcept : unit_(unit) {}
+
+  const franka_core::RobotState& state() const noexcept override { return unit_.state(); }
+  void connected(std::uint16_t version) noexcept override;
+  void disconnected() noexcept override { unit_.request(ClientLost{}); }
+  bool active() const noexcept override { return unit_.status().fci_active; }
+  std::optional<Status> handle(const franka_core::fci::Request& request) noexcept override;
+  std::optional<franka_core::fci::CartesianLimit> wall(std::int32_t id) const noexcept override;
+  std::optional<Status> takeAnswer(PendingAnswer which) noexcept override;
+
+ private:
+  void applyVersion() noexcept;
+
+  ControlUnit& unit_;
+  std::uint16_t version_{0};  // of a client that connected during another one's motion; otherwise 0
 };
 
 }  // namespace franka_sim::fci

@@ -4,7 +4,7 @@
 
 #include <franka_sim/physics/world.h>
 #include <franka_sim/robot/control_unit_parameters.h>
-#include <franka_sim/robot/gripper_unit.h>
+#include <franka_sim/robot/hands/gripper_unit.h>
 #include <franka_sim/robot/plant.h>
 #include <franka_sim/robot/realism.h>
 

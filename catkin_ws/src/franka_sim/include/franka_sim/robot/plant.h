@@ -2,10 +2,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/tick.h>
+
 #include <array>
 #include <optional>
 
 namespace franka_sim {
+
+using franka_core::kTick;
+
+/// Cutoff of the control unit's own signal filters [Hz] (decisions 2, 3).
+constexpr double kSignalCutoff = 100.0;
 
 /// Readings of the arm's sensors at the end of a tick of 1 ms.
 struct ArmMeasurement {

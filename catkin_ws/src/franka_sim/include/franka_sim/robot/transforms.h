@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/fci/commands.h>
+#include <franka_core/limits.h>
+#include <franka_core/robot_state.h>
+
 #include <array>
 
 namespace franka_sim {
@@ -18,5 +22,25 @@ std::array<double, 6> twist(const std::array<double, 42>& jacobian,
 
 /// Whether the control unit takes a matrix as a pose or a frame: franka_core::isRigidTransform.
 bool isTransform(const Transform& matrix) noexcept;
+
+/// Sign of the elbow in the states: +1 where joint 4 is at or above franka_core::kElbowFlip, else
+/// -1. Real-time safe. Thread-safe.
+/// @param q joint positions [rad]
+inline double elbowSign(const std::array<double, 7>& q) noexcept {
+  return q[3] >= franka_core::kElbowFlip ? 1.0 : -1.0;
+}
+
+/// The elbow: position of joint 3 [rad] and elbowSign(). Real-time safe. Thread-safe.
+inline std::array<double, 2> elbowOf(const std::array<double, 7>& q) noexcept {
+  return {{q[2], elbowSign(q)}};
+}
+
+/// Whether three bounds are positive numbers, as Move requires.
+bool isDeviation(const franka_core::fci::Deviation& deviation) noexcept;
+
+/// Whether the measured end effector is farther from the desired one (O_T_EE_d) than allowed, or
+/// the elbow from elbow_d. Real-time safe.
+bool deviates(const franka_core::RobotState& state,
+              const franka_core::fci::Deviation& allowed) noexcept;
 
 }  // namespace franka_sim

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/fci/host.h>
+#include <franka_sim/serve/host.h>
 #include <franka_sim/simulation/simulation.h>
 #include <sys/types.h>
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "robot/motion/joint_checks.h"
+#include "robot/motion/motion_checks.h"
 
 namespace franka_sim {
 

@@ -1,17 +1,154 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "robot/motion/motion_generator.h"
+
 #include <franka_core/finite.h>
 #include <franka_core/limits.h>
-#include <franka_sim/robot/elbow.h>
-#include <franka_sim/robot/motion/motion_generator.h>
-#include <franka_sim/robot/tick.h>
+#include <franka_core/rotations.h>
+#include <franka_sim/robot/plant.h>
+#include <franka_sim/robot/transforms.h>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 
+#include "robot/motion/rest_sequence.h"
+
 namespace franka_sim {
+
+namespace {
+
+constexpr double kOff = 1000.0;  // [Hz]
+
+double gainOf(double cutoff) noexcept {
+  return cutoff >= kOff ? 1.0 : kTick / (kTick + 1.0 / (2.0 * 3.14159265358979323846 * cutoff));
+}
+
+template <std::size_t N>
+void smooth(double gain, const std::array<double, N>& input,
+            std::array<double, N>& output) noexcept {
+  for (std::size_t i = 0; i < N; i++) {
+    output[i] = gain >= 1.0 ? input[i] : gain * input[i] + (1.0 - gain) * output[i];
+  }
+}
+
+void smoothPose(double gain, const Transform& input, Transform& output) noexcept {
+  if (gain >= 1.0 || !isTransform(input)) {
+    output = input;
+    return;
+  }
+  const Eigen::Map<const Eigen::Matrix4d> next(input.data());
+  Eigen::Map<Eigen::Matrix4d> last(output.data());
+  const Eigen::Quaterniond from(franka_core::orthonormalised(last.topLeftCorner<3, 3>()));
+  const Eigen::Quaterniond to(franka_core::orthonormalised(next.topLeftCorner<3, 3>()));
+  last.topLeftCorner<3, 3>() = from.slerp(gain, to).toRotationMatrix();
+  last.topRightCorner<3, 1>() += gain * (next.topRightCorner<3, 1>() - last.topRightCorner<3, 1>());
+}
+
+}  // namespace
+
+bool CommandFilter::set(const franka_core::fci::SetFiltersRequest& cutoffs) noexcept {
+  bool active = false;
+  for (const double cutoff :
+       {cutoffs.joint_position, cutoffs.joint_velocity, cutoffs.cartesian_position,
+        cutoffs.cartesian_velocity, cutoffs.controller}) {
+    if (!(cutoff >= 1.0 && cutoff <= kOff)) {
+      return false;
+    }
+    active = active || cutoff < kOff;
+  }
+  cutoffs_ = cutoffs;
+  active_ = active;
+  return true;
+}
+
+void CommandFilter::begin(const franka_core::RobotState& state) noexcept {
+  last_ = franka_core::RobotCommand();
+  last_.q_c = state.q_d;
+  last_.O_T_EE_c = state.O_T_EE_c;
+  last_.elbow_c = state.elbow_c;
+}
+
+const franka_core::RobotCommand& CommandFilter::apply(
+    const franka_core::RobotCommand& command) noexcept {
+  if (!active_) {
+    return command;
+  }
+  const franka_core::RobotCommand before = last_;
+  last_ = command;
+  last_.q_c = before.q_c;
+  last_.dq_c = before.dq_c;
+  last_.O_T_EE_c = before.O_T_EE_c;
+  last_.O_dP_EE_c = before.O_dP_EE_c;
+  last_.tau_J_d = before.tau_J_d;
+  last_.elbow_c = before.elbow_c;
+  smooth(gainOf(cutoffs_.joint_position), command.q_c, last_.q_c);
+  smooth(gainOf(cutoffs_.joint_velocity), command.dq_c, last_.dq_c);
+  smoothPose(gainOf(cutoffs_.cartesian_position), command.O_T_EE_c, last_.O_T_EE_c);
+  smooth(gainOf(cutoffs_.cartesian_velocity), command.O_dP_EE_c, last_.O_dP_EE_c);
+  smooth(gainOf(cutoffs_.controller), command.tau_J_d, last_.tau_J_d);
+  if (command.valid_elbow) {
+    smooth(gainOf(cutoffs_.cartesian_position), command.elbow_c, last_.elbow_c);
+    last_.elbow_c[1] = command.elbow_c[1];
+  }
+  return last_;
+}
+
+namespace {
+
+constexpr double kShare = 0.999;  // used share of the limits, so that rounding never exceeds them
+
+}  // namespace
+
+void AsyncJointGenerator::start(const std::array<double, 7>& q,
+                                const std::array<double, 7>& maximum_velocity) noexcept {
+  target_ = q;
+  maximum_velocity_ = maximum_velocity;
+  q_ = q;
+  dq_.fill(0.0);
+  history_.fill(q);
+  newest_ = 0;
+  sample_ = JointSample{};
+  sample_.q = q;
+  stopping_ = false;
+}
+
+void AsyncJointGenerator::step(const MotionLimits& limits) noexcept {
+  JointSample next;
+  newest_ = (newest_ + 1) % kWindow;
+  for (std::size_t i = 0; i < 7; i++) {
+    const double step = kShare * limits.arm.ddq[i] * kTick;
+    const double distance = target_[i] - q_[i];
+    const double landing = std::copysign(landingRate(std::abs(distance), step), distance);
+    const double up = kShare * std::min(maximum_velocity_[i], limits.highestVelocity(i, q_[i]));
+    const double down = kShare * std::max(-maximum_velocity_[i], limits.lowestVelocity(i, q_[i]));
+    const double desired = stopping_ ? 0.0 : std::min(std::max(landing, down), up);
+    const double before = dq_[i];
+    dq_[i] = std::min(std::max(desired, before - step), before + step);
+    // The last step sets the target itself, without rounding.
+    const bool landed = !stopping_ && dq_[i] == landing && std::abs(landing) <= step;
+    q_[i] = landed ? target_[i] : q_[i] + dq_[i] * kTick;
+    target_[i] = stopping_ && dq_[i] == 0.0 ? q_[i] : target_[i];
+    history_[newest_][i] = q_[i];
+    // Differences to the first value keep the mean of equal values exact.
+    double mean = 0.0;
+    for (const std::array<double, 7>& past : history_) {
+      mean += past[i] - q_[i];
+    }
+    next.q[i] = q_[i] + mean / kWindow;
+    next.dq[i] = (next.q[i] - sample_.q[i]) / kTick;
+    next.ddq[i] = (next.dq[i] - sample_.dq[i]) / kTick;
+    next.dddq[i] = (next.ddq[i] - sample_.ddq[i]) / kTick;
+  }
+  sample_ = next;
+}
+
+bool AsyncJointGenerator::atRest() const noexcept {
+  return q_ == target_ && sample_.q == q_ && sample_.dq == std::array<double, 7>{};
+}
 
 using franka_core::RobotError;
 

@@ -1,13 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // How the desired motion brakes.
-#include <franka_sim/robot/motion/motion_generator.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "motion_fixture.h"
+#include "robot/motion/motion_generator.h"
 
 namespace franka_sim::test {
 
@@ -34,8 +34,9 @@ TEST(BrakeTrajectory, StopsEachJointAtItsFullAccelerationWithinItsJerkLimit) {
       EXPECT_GE(brake.dq()[i] * dq[i], 0.0);  // never reverses
     }
   }
-  // Joint 2 takes longest: at half of its acceleration in its first and in its last tick.
-  EXPECT_EQ(static_cast<int>(std::ceil(2.175 / 7.5 / kTick)) + 1, ticks);
+  // Joint 2 takes longest: at half of its acceleration in its first and in its last tick, and a
+  // tick more until its acceleration has ended, too.
+  EXPECT_EQ(static_cast<int>(std::ceil(2.175 / 7.5 / kTick)) + 2, ticks);
   for (std::size_t i = 0; i < 7; i++) {
     const double ramp = arm.ddq[i] / arm.dddq[i];
     const double way = 0.5 * dq[i] * (std::abs(dq[i]) / arm.ddq[i] + 0.5 * ramp);

@@ -1,13 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Elbows, and the joints that Cartesian motions need.
-#include <franka_sim/robot/motion/motion_generator.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "motion_fixture.h"
+#include "robot/motion/motion_generator.h"
 
 namespace franka_sim::test {
 

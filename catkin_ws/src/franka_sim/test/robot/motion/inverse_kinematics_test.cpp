@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inverse kinematics against the forward kinematics of ArmModel, and its behaviour near
 // singularities.
-#include <franka_sim/robot/motion/inverse_kinematics.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>
@@ -11,6 +10,7 @@
 #include <random>
 
 #include "motion_fixture.h"
+#include "robot/motion/cartesian_motion.h"
 
 namespace franka_sim::test {
 

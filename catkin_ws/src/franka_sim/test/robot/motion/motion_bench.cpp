@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // One tick of a MotionGenerator, for each kind of command.
 #include <benchmark/benchmark.h>
-#include <franka_sim/robot/motion/motion_generator.h>
 
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include "../panda_arm.h"
+#include "robot/motion/motion_generator.h"
 
 namespace {
 

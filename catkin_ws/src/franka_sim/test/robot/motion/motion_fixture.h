@@ -2,8 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/robot/motion/motion_generator.h>
-#include <franka_sim/robot/tick.h>
+#include <franka_sim/robot/plant.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -14,6 +13,7 @@
 #include <string>
 
 #include "../panda_arm.h"
+#include "robot/motion/motion_generator.h"
 
 namespace franka_core {
 

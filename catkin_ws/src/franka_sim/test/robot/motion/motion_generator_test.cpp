@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The generators as a whole: starts, states, lost commands, finishing, the elbow.
-#include <franka_sim/robot/motion/motion_generator.h>
+#include "robot/motion/motion_generator.h"
+
 #include <gtest/gtest.h>
 #include <rt_guard/rt_guard.h>
 

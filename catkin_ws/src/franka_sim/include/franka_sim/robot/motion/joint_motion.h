@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/robot/motion/motion_limits.h>
+#include <franka_sim/robot/limits.h>
 
 #include <array>
 

@@ -1,0 +1,213 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/control_unit.h>
+#include <franka_sim/robot/fixed_pointer.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+/// @file
+/// The state that a robot's safety controller shows to the operator, and its names. The names are
+/// those of Desk's interface.
+
+namespace franka_sim {
+
+/// Stops and enabling devices at the robot's connectors. Pressed means that they act.
+enum class SafetyInput : std::size_t {
+  kX31,            ///< the emergency stop of an FR3
+  kX32,            ///< another stop of an FR3
+  kX33,            ///< another stop of an FR3
+  kX4,             ///< Panda: the activation device, pressed stops; FR3: the enabling device
+  kGuidingButton,  ///< the button at the arm's wrist that frees the arm
+};
+constexpr std::size_t kSafetyInputCount = 5;
+constexpr std::array<std::string_view, kSafetyInputCount> kSafetyInputNames{"x31", "x32", "x33",
+                                                                            "x4", "guiding"};
+
+/// The buttons of the Pilot.
+constexpr std::size_t kButtonCount = 7;
+constexpr std::array<std::string_view, kButtonCount> kButtonNames{"circle", "cross", "check", "up",
+                                                                  "down",   "left",  "right"};
+
+/// Errors that lock the robot until they are acknowledged.
+enum class RecoverableError : std::size_t {
+  kEnvironmentDataTimeout,
+  kFsoeConnectionError,
+  kGenericJointError,
+  kGuidingEnablingDevice,
+  kJointPositionError,
+  kSafeInputErrorX31,
+  kSafeInputErrorX32,
+  kSafeInputErrorX33,
+  kSafeInputErrorX4,
+  kTd2Timeout,  ///< the self-test is overdue
+};
+constexpr std::size_t kRecoverableErrorCount = 10;
+constexpr std::array<std::string_view, kRecoverableErrorCount> kRecoverableErrorNames{
+    "environmentDataTimeout", "fsoeConnectionError", "genericJointError", "guidingEnablingDevice",
+    "jointPositionError",     "safeInputErrorX31",   "safeInputErrorX32", "safeInputErrorX33",
+    "safeInputErrorX4",       "td2Timeout"};
+
+/// Recoveries that the operator carries out at the arm, for each joint.
+enum class DemandedRecovery : std::size_t { kJointLimitViolation, kJointPositionError };
+constexpr std::array<std::string_view, 2> kDemandedRecoveryNames{"jointLimitViolation",
+                                                                 "jointPositionErrorDemand"};
+
+/// Why the safety controller refuses a request.
+enum class Refusal : std::size_t {
+  kNone,
+  kNotReady,
+  kBrakesClosed,
+  kEmergencyStopPressed,
+  kSelfTestRunning,
+  kRecoverableErrorActive,
+  kJointRecoveryRequired,
+  kWrongOperatingMode,
+  kMotionActive,
+  kNoAckRequired,
+};
+
+enum class OperatingMode { kExecution, kProgramming };
+enum class GuidingMode : std::size_t { kFree, kTranslation, kRotation, kUser };
+constexpr std::array<std::string_view, 4> kGuidingModeNames{"free", "translation", "rotation",
+                                                            "user"};
+
+/// The light at the arm's base.
+enum class LightColor : std::size_t { kYellow, kWhite, kBlue, kGreen, kPink, kRed };
+constexpr std::array<std::string_view, 6> kLightColorNames{"yellow", "white", "blue",
+                                                           "green",  "pink",  "red"};
+struct Light {
+  LightColor color{LightColor::kBlue};
+  bool blinking{false};
+};
+
+struct SafetyState {
+  bool power{true};
+  std::array<bool, 7> brakes_closed{};  ///< joint by joint
+  bool brakes_moving{false};            ///< they are being opened or closed
+  OperatingMode mode{OperatingMode::kExecution};
+  std::array<bool, kSafetyInputCount> inputs{};
+  bool conflicting_inputs{false};  ///< guiding was requested where it is not allowed
+  std::array<bool, kButtonCount> buttons{};
+  bool arrows_guide_desk{true};  ///< Pilot mode: the arrow keys are for Desk, not for the tool
+  GuidingMode guiding_mode{GuidingMode::kFree};
+  std::array<bool, 7> guiding_axes{{true, true, true, true, true, true, true}};  ///< K, elbow
+  std::array<bool, kRecoverableErrorCount> recoverable{};
+  std::array<std::array<bool, 7>, 2> demanded{};  ///< by DemandedRecovery and joint
+  bool self_test{false};
+  double self_test_left{0.0};   ///< [s]
+  double self_test_due{86400};  ///< [s] until td2Timeout
+  bool end_effector_power{true};
+
+  constexpr bool pressed(SafetyInput input) const noexcept {
+    return inputs[static_cast<std::size_t>(input)];
+  }
+};
+
+/// The rules that decide whether clients may connect and the arm may move.
+enum class SafetyRules {
+  /// Each request is executed at once: a robot that is always ready.
+  kOpen,
+  /// As with a real robot and its Desk: brakes open joint by joint, requests that the state does
+  /// not allow are refused, stops and errors lock the arm, the self-test is due once a day.
+  kDesk,
+};
+
+/// The safety controller of one robot: brakes, stops, operating mode, self-test and errors that the
+/// operator acknowledges. It sends requests to the control unit; the operator's requests come here.
+///
+/// The rules are listed in the decisions (decision 54). Called by one thread, between two ticks.
+/// Real-time safe.
+class SafetyController {
+ public:
+  /// @param unit outlives the controller. @param fr3 an FR3, otherwise a Panda
+  SafetyController(ControlUnit& unit, bool fr3) noexcept : unit_(&unit), fr3_(fr3) {}
+
+  /// The condition after power-up: brakes closed, FCI inactive, no errors. With kOpen: ready.
+  void start(SafetyRules rules) noexcept;
+  /// Call at each tick, before the unit's `actuate`.
+  void step() noexcept;
+
+  // Idempotent. Refused requests change nothing.
+
+  /// Opens the brakes joint by joint; ends when `state().brakes_moving` becomes false.
+  Refusal unlock() noexcept;
+  /// Ends a motion, with Desk's rules also the FCI, then closes the brakes. Never refused.
+  void lock() noexcept;
+  Refusal activateFci() noexcept;
+  /// A running motion ends (kAborted), and clients are disconnected.
+  void deactivateFci() noexcept;
+  /// FR3 only. Programming ends the FCI.
+  Refusal setOperatingMode(OperatingMode mode) noexcept;
+  void press(SafetyInput input, bool pressed) noexcept;
+  void press(std::size_t button, bool pressed) noexcept { state_.buttons[button] = pressed; }
+  /// Presses the user stop: X3.1 of an FR3, X4 of a Panda.
+  void pressUserStop(bool pressed) noexcept;
+  /// Presses the guiding button. @returns why the arm does not become free, kNone if it does
+  Refusal guide(bool active) noexcept;
+  /// @param axes x, y, z, turns about them, elbow: only for GuidingMode::kUser
+  Refusal setGuidingMode(GuidingMode mode, const std::array<bool, 7>& axes) noexcept;
+  void setArrowsGuideDesk(bool desk) noexcept { state_.arrows_guide_desk = desk; }
+  /// Closes the brakes and tests; ends when `state().self_test` becomes false.
+  Refusal startSelfTest() noexcept;
+  /// @param due [s] until the self-test is overdue; 0: from the next tick on
+  void setSelfTestDue(double due) noexcept;
+  Refusal acknowledge(RecoverableError error) noexcept;
+  /// Only while the enabling device is pressed.
+  Refusal acknowledge(DemandedRecovery recovery) noexcept;
+  void inject(RecoverableError error, bool active) noexcept;
+  void inject(DemandedRecovery recovery, std::size_t joint, bool active) noexcept;
+  void setEndEffectorPower(bool on) noexcept { state_.end_effector_power = on; }
+  /// No client can connect, and no request is accepted until `start`.
+  void switchOff() noexcept;
+  /// Whether the operator may move the arm by Desk now.
+  Refusal allowsOperatorMotion() const noexcept;
+
+  /// Durations [s]: of opening or closing all brakes, and of the self-test.
+  void setBrakeTime(double seconds) noexcept { brake_time_ = seconds; }
+  void setSelfTestTime(double seconds) noexcept { self_test_time_ = seconds; }
+
+  const SafetyState& state() const noexcept { return state_; }
+  SafetyRules rules() const noexcept { return rules_; }
+  bool isFr3() const noexcept { return fr3_; }
+  Light light() const noexcept;
+  bool brakesClosed() const noexcept;
+  bool fciActive() const noexcept { return unit_->status().fci_active; }
+  /// Whether clients of the hand may connect.
+  bool handServed() const noexcept;
+  /// Whether time must advance: brakes move, or the self-test runs.
+  bool busy() const noexcept { return state_.brakes_moving || state_.self_test; }
+
+ private:
+  enum class BrakeMotion { kNone, kOpening, kClosing };
+
+  bool ruled() const noexcept { return rules_ == SafetyRules::kDesk; }
+  bool stopPressed() const noexcept;
+  bool anyRecoverable() const noexcept;
+  Refusal refusalOfMotors() const noexcept;
+  void moveBrakes(BrakeMotion motion) noexcept;
+  void closeBrakes() noexcept;
+  void advanceBrakes() noexcept;
+  void advanceSelfTest() noexcept;
+  void advanceClock() noexcept;
+  void applyStops() noexcept;
+
+  FixedPointer<ControlUnit> unit_;
+  bool fr3_;
+  SafetyRules rules_{SafetyRules::kOpen};
+  SafetyState state_;
+  BrakeMotion brakes_{BrakeMotion::kNone};
+  double brake_time_{5.0};      // [s] (decision 54)
+  double self_test_time_{8.0};  // [s] (decision 54)
+  double since_{0.0};           // the brakes' motion began [s]
+};
+
+/// The word for a refusal in Desk's interface, such as "BrakesClosed", and a sentence about it.
+std::string_view nameOf(Refusal refusal) noexcept;
+std::string_view sentenceOf(Refusal refusal) noexcept;
+
+}  // namespace franka_sim

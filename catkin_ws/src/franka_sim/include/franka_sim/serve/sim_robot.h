@@ -1,0 +1,174 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_core/arm_model.h>
+#include <franka_sim/fci/hand_server.h>
+#include <franka_sim/fci/robot_server.h>
+#include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/robot/whole_robot.h>
+#include <franka_sim/serve/host.h>
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+namespace franka_sim::fci {
+
+/// The network side of one robot: the servers of its units. Called by one thread.
+class RobotFront : public HostedRobot {
+ public:
+  /// Ports of the tools that are served; 0: the system chooses.
+  struct ToolPorts {
+    std::optional<std::uint16_t> hand;
+    std::optional<std::uint16_t> vacuum;
+  };
+
+  /// @param robot outlives this; it has the tools whose ports are given
+  /// @throws std::runtime_error if a port cannot be opened
+  RobotFront(WholeRobot& robot, RobotServerParameters server, const ToolPorts& tools);
+
+  const RobotServer& server() const noexcept { return server_; }
+  std::uint16_t gripperPort() const noexcept { return hand_ ? hand_->port() : 0; }
+  std::uint16_t vacuumPort() const noexcept { return vacuum_ ? vacuum_->port() : 0; }
+
+  /// Sets the function that reports a self-collision or a contact reflex, once each time the error
+  /// appears. Its argument is the text after the robot's name and a colon. It is called within
+  /// `observe`.
+  void onCollision(std::function<void(const std::string&)> report) { report_ = std::move(report); }
+
+  /// Sets the function that reports why connections were ended (ClientSlot::onRefusal). Its
+  /// argument is the text after the robot's name and a colon. It is called within `serve`.
+  void onRefusal(const ClientSlot::Report& report);
+
+  void observe() override;
+  void actuate() override;
+  void serve(bool stops_only) override;
+  bool idle() const override;
+  void publish(std::uint64_t ticks, bool same_moment, bool keep_end) override;
+  void repeat() override;
+  bool hasNews() const override { return server_.hasNews(); }
+  bool receiveCommand() override { return server_.receiveCommand(); }
+  bool expectsCommand() const override { return server_.expectsCommands(); }
+  bool asynchronous() const override { return server_.asynchronous(); }
+  bool motionHasBegun() const override { return server_.motionHasBegun(); }
+  bool settling() const override;
+  bool settlesInKnownTime() const override { return robot_.safety().busy(); }
+  bool handBusy() const override;
+  /// Whether a client is connected to the arm or to the hand.
+  bool hasClients() const;
+  void addDescriptors(std::vector<pollfd>& fds) const override;
+  void addCommandDescriptor(std::vector<pollfd>& fds) const override {
+    server_.addCommandDescriptor(fds);
+  }
+
+ protected:
+  /// The client's answer to the last state; null if there is none. Between motions it drops the
+  /// commands in the link, which belong to another motion.
+  const franka_core::RobotCommand* takeCommand() noexcept;
+
+ private:
+  void publishTools(std::uint64_t ticks);
+
+  WholeRobot& robot_;
+  UnitRequestHandler handler_;
+  RobotServer server_;
+  std::unique_ptr<GripperServer> hand_;
+  std::unique_ptr<VacuumServer> vacuum_;
+  std::function<void(const std::string&)> report_;
+};
+
+}  // namespace franka_sim::fci
+
+namespace franka_sim::fci {
+
+/// Holds the units, which must exist before their servers.
+struct OwnedUnits {
+  OwnedUnits(const ControlUnitParameters& unit, ArmPlant& arm,
+             const std::optional<WholeRobot::Hand>& hand,
+             const std::optional<VacuumGripperParameters>& vacuum, unsigned command_delay)
+      : units(unit, arm, hand, vacuum, command_delay) {}
+
+  WholeRobot units;
+};
+
+/// One robot on the network: its units with their servers.
+/// Called by one thread.
+class SimRobot final : private OwnedUnits, public RobotFront {
+ public:
+  struct Hand {
+    HandPlant* plant;
+    GripperParameters parameters;
+    std::uint16_t port{franka_core::fci::kGripperPort};  ///< 0: the system chooses
+  };
+  struct Vacuum {
+    VacuumGripperParameters parameters;
+    std::uint16_t port{franka_core::fci::kVacuumGripperPort};  ///< 0: the system chooses
+  };
+
+  /// @param arm outlives the robot, as the hand's plant does. @param command_delay [ticks]
+  /// @throws std::runtime_error if a port cannot be opened, std::invalid_argument if a parameter is
+  /// invalid.
+  SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
+           const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum = {},
+           unsigned command_delay = 0);
+
+  WholeRobot& whole() noexcept { return units; }
+  ControlUnit& unit() noexcept { return units.unit(); }
+  CommandLink& link() noexcept { return units.link(); }
+  /// Null if the robot has none.
+  VacuumGripperUnit* vacuum() noexcept { return units.vacuum(); }
+
+  /// As those of WholeRobot.
+  std::uint64_t hash() const noexcept { return units.hash(); }
+  void restart() noexcept { units.restart(); }
+  void halt() noexcept { units.halt(); }
+};
+
+}  // namespace franka_sim::fci
+
+/// @file
+/// Sets up the network servers of a Panda or an FR3, for every program that runs a world.
+
+namespace franka_sim::fci {
+
+/// Servers at an address of this machine, with the models of the arm that clients request.
+RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
+                               const franka_core::ArmModel& arm);
+
+/// A hand to serve, with the gains of its fingers. @param fingers outlive the robot
+SimRobot::Hand servedHand(HandPlant& fingers, const GripperLatency& latency);
+
+/// A robot that behaves as behind its own interface, of its newest protocol.
+/// @param unit the robot's own configuration, as the user enters it in Desk
+/// @param arm outlives the robot @param command_delay of every command [ticks]
+/// @throws as SimRobot
+SimRobot servedRobot(const std::string& address, const ProtocolRange& protocols,
+                     ControlUnitParameters unit, ArmPlant& arm,
+                     const std::optional<SimRobot::Hand>& hand,
+                     const std::optional<SimRobot::Vacuum>& vacuum = {},
+                     unsigned command_delay = 0);
+
+/// The two links that came too close, named as in the description without the arm's name: "link2
+/// and hand".
+std::string linksOf(const SelfCollision::Pair& pair);
+
+/// Sets the load as the user does in Desk.
+/// @throws std::runtime_error with a sentence when the robot refuses it
+void setLoad(SimRobot& robot, const franka_core::Payload& load);
+
+/// Message about a collision that raised this error (self-collision, joint or Cartesian reflex):
+/// "it met something, joint 4: external torque 23.4 Nm, upper threshold 20 Nm".
+std::string collisionOf(const ControlUnit& unit, franka_core::RobotError error);
+
+/// The links or the axis of a collision that raised this error (an index of RobotState::errors);
+/// empty for other errors.
+std::string detailOf(const ControlUnit& unit, std::size_t error);
+
+/// Mode, client, errors (of collisions: the links or the axis) and joints in one line for the user.
+std::string describe(SimRobot& robot);
+
+}  // namespace franka_sim::fci

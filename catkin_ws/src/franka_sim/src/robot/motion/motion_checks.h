@@ -1,0 +1,68 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/robot/limits.h>
+#include <franka_sim/robot/motion/joint_motion.h>
+
+#include <array>
+#include <cstddef>
+
+#include "robot/motion/cartesian_motion.h"
+
+namespace franka_sim {
+
+/// Values as a client reads them from a state of 32 bit floats.
+inline double asEchoed(double value) noexcept {
+  // Volatile, because GCC 12 at -O2 otherwise treats two neighbouring conversions as a copy and
+  // drops the rounding.
+  const volatile float narrow = static_cast<float>(value);
+  return narrow;
+}
+
+template <std::size_t kSize>
+std::array<double, kSize> asEchoed(std::array<double, kSize> values) noexcept {
+  for (double& value : values) {
+    value = asEchoed(value);
+  }
+  return values;
+}
+
+/// The flag of each rule, and the factor on the jerk limit.
+struct JointFlags {
+  franka_core::RobotError position, velocity, acceleration, jerk;
+  double jerk_factor;
+};
+
+/// Every rule, position to jerk, that a step violates.
+/// @param last the sample before it.
+ErrorSet judge(const JointSample& step, const JointSample& last, const JointFlags& flags,
+               const MotionLimits& limits) noexcept;
+
+/// The same for the rule of the jerk alone.
+ErrorSet judgeJerk(const JointSample& step, const JointSample& last, const JointFlags& flags,
+                   const MotionLimits& limits) noexcept;
+
+/// The step from last to positions [rad], or by velocities [rad/s].
+JointSample stepToPositions(const JointSample& last, const std::array<double, 7>& q) noexcept;
+JointSample stepByVelocities(const JointSample& last, const std::array<double, 7>& dq) noexcept;
+/// The step that keeps the acceleration.
+JointSample stepByAcceleration(const JointSample& last) noexcept;
+/// A history as a client reads it from states of 32 bit floats.
+JointSample asEchoed(const JointSample& sample) noexcept;
+
+/// Every rule, position to jerk, that a step violates; all those of the elbow have one flag.
+/// @param last the sample before it.
+ErrorSet judge(const CartesianSample& step, const CartesianSample& last,
+               const MotionLimits& limits) noexcept;
+
+/// The step from last to a pose, or by a twist in O, with the elbow at q3 [rad].
+CartesianSample stepToPose(const CartesianSample& last, const Transform& pose, double q3) noexcept;
+CartesianSample stepByTwist(const CartesianSample& last, const std::array<double, 6>& twist,
+                            double q3) noexcept;
+/// The step that keeps the accelerations.
+CartesianSample stepByAcceleration(const CartesianSample& last) noexcept;
+/// A history as a client reads it from states of 32 bit floats.
+CartesianSample asEchoed(const CartesianSample& sample) noexcept;
+
+}  // namespace franka_sim

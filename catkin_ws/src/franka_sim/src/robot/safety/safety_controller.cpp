@@ -1,0 +1,445 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/robot/plant.h>
+#include <franka_sim/robot/safety/safety_controller.h>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace franka_sim {
+
+using franka_core::RobotMode;
+
+namespace {
+
+constexpr double kSelfTestPeriod = 86400.0;  // [s] (decision 54)
+
+// Translations, rotations and elbow that the operator may move.
+std::array<bool, 7> axesOf(GuidingMode mode, const std::array<bool, 7>& chosen) noexcept {
+  switch (mode) {
+    case GuidingMode::kTranslation:
+      return {true, true, true, false, false, false, false};
+    case GuidingMode::kRotation:
+      return {false, false, false, true, true, true, false};
+    case GuidingMode::kUser:
+      return chosen;
+    default:
+      return {true, true, true, true, true, true, true};
+  }
+}
+
+bool any(const std::array<bool, 7>& joints) noexcept {
+  return std::any_of(joints.begin(), joints.end(), [](bool joint) { return joint; });
+}
+
+}  // namespace
+
+// --- start and power -----------------------------------------------------------------------------
+
+void SafetyController::start(SafetyRules rules) noexcept {
+  rules_ = rules;
+  state_ = SafetyState{};
+  moveBrakes(BrakeMotion::kNone);
+  unit_->request(UserStop{false});
+  unit_->request(FciActivation{!ruled()});
+  unit_->request(Brakes{ruled()});
+  state_.brakes_closed.fill(ruled());
+}
+
+void SafetyController::switchOff() noexcept {
+  deactivateFci();
+  unit_->request(Guiding{false});
+  unit_->request(Brakes{true});
+  state_.brakes_closed.fill(true);
+  moveBrakes(BrakeMotion::kNone);
+  state_.self_test = false;
+  state_.power = false;
+}
+
+// --- brakes --------------------------------------------------------------------------------------
+
+Refusal SafetyController::refusalOfMotors() const noexcept {
+  if (!state_.power) {
+    return Refusal::kNotReady;
+  }
+  if (!ruled()) {
+    return Refusal::kNone;
+  }
+  if (state_.self_test) {
+    return Refusal::kSelfTestRunning;
+  }
+  if (anyRecoverable()) {
+    return Refusal::kRecoverableErrorActive;
+  }
+  if (any(state_.demanded[0]) || any(state_.demanded[1])) {
+    return Refusal::kJointRecoveryRequired;
+  }
+  return fr3_ && state_.pressed(SafetyInput::kX31) ? Refusal::kEmergencyStopPressed
+                                                   : Refusal::kNone;
+}
+
+void SafetyController::moveBrakes(BrakeMotion motion) noexcept {
+  brakes_ = motion;
+  since_ = 0.0;
+  state_.brakes_moving = motion != BrakeMotion::kNone;
+}
+
+Refusal SafetyController::unlock() noexcept {
+  const Refusal refusal = refusalOfMotors();
+  if (refusal != Refusal::kNone) {
+    return refusal;
+  }
+  if (!ruled()) {
+    unit_->request(Brakes{false});
+  } else if (brakesClosed() && brakes_ != BrakeMotion::kOpening) {
+    moveBrakes(BrakeMotion::kOpening);
+  }
+  return Refusal::kNone;
+}
+
+void SafetyController::lock() noexcept {
+  if (ruled()) {
+    deactivateFci();
+  }
+  closeBrakes();
+}
+
+// The motors bring the arm to rest before the unit closes its brakes.
+void SafetyController::closeBrakes() noexcept {
+  unit_->request(Brakes{true});
+  const bool all = std::all_of(state_.brakes_closed.begin(), state_.brakes_closed.end(),
+                               [](bool closed) { return closed; });
+  if (ruled() && !all && brakes_ != BrakeMotion::kClosing) {
+    moveBrakes(BrakeMotion::kClosing);
+  }
+}
+
+void SafetyController::advanceBrakes() noexcept {
+  if (brakes_ == BrakeMotion::kNone) {
+    return;
+  }
+  const bool closing = brakes_ == BrakeMotion::kClosing;
+  if (closing && !unit_->status().brakes_closed) {
+    return;  // the arm still brakes
+  }
+  since_ += kTick;
+  const double joints = static_cast<double>(state_.brakes_closed.size());
+  const double share = brake_time_ > 0.0 ? since_ / brake_time_ : 1.0;
+  const auto moved = static_cast<std::size_t>(std::min(joints, share * joints));
+  std::fill_n(state_.brakes_closed.begin(), moved, closing);
+  if (moved < state_.brakes_closed.size()) {
+    return;
+  }
+  moveBrakes(BrakeMotion::kNone);
+  if (!closing) {
+    unit_->request(Brakes{false});
+  }
+}
+
+bool SafetyController::brakesClosed() const noexcept { return any(state_.brakes_closed); }
+
+// --- FCI and operating mode ----------------------------------------------------------------------
+
+Refusal SafetyController::activateFci() noexcept {
+  Refusal refusal = refusalOfMotors();
+  if (ruled() && refusal == Refusal::kNone) {
+    if (brakesClosed()) {
+      refusal = Refusal::kBrakesClosed;
+    } else if (state_.mode != OperatingMode::kExecution) {
+      refusal = Refusal::kWrongOperatingMode;
+    } else if (stopPressed()) {
+      refusal = Refusal::kEmergencyStopPressed;
+    } else if (!fciActive() && unit_->state().robot_mode == RobotMode::kMove) {
+      refusal = Refusal::kMotionActive;
+    }
+  }
+  if (refusal == Refusal::kNone) {
+    unit_->request(FciActivation{true});
+  }
+  return refusal;
+}
+
+void SafetyController::deactivateFci() noexcept { unit_->request(FciActivation{false}); }
+
+Refusal SafetyController::setOperatingMode(OperatingMode mode) noexcept {
+  if (mode == state_.mode) {
+    return state_.power ? Refusal::kNone : Refusal::kNotReady;
+  }
+  if (const Refusal refusal = refusalOfMotors(); refusal != Refusal::kNone) {
+    return refusal;
+  }
+  if (mode == OperatingMode::kProgramming) {
+    deactivateFci();
+  } else {
+    guide(false);
+  }
+  state_.mode = mode;
+  return Refusal::kNone;
+}
+
+Refusal SafetyController::allowsOperatorMotion() const noexcept {
+  const Refusal refusal = refusalOfMotors();
+  if (refusal != Refusal::kNone) {
+    return refusal;
+  }
+  if (brakesClosed()) {
+    return Refusal::kBrakesClosed;
+  }
+  if (stopPressed()) {
+    return Refusal::kEmergencyStopPressed;
+  }
+  const bool client = ruled() && fciActive();  // the FCI has exclusive control of the arm
+  return client || unit_->state().robot_mode == RobotMode::kMove ? Refusal::kMotionActive
+                                                                 : Refusal::kNone;
+}
+
+bool SafetyController::handServed() const noexcept {
+  return state_.power && state_.end_effector_power && (!ruled() || fciActive());
+}
+
+// --- inputs --------------------------------------------------------------------------------------
+
+void SafetyController::press(SafetyInput input, bool pressed) noexcept {
+  if (input == SafetyInput::kGuidingButton) {
+    guide(pressed);
+    return;
+  }
+  state_.inputs[static_cast<std::size_t>(input)] = pressed;
+  if (!fr3_ && input == SafetyInput::kX4 && pressed) {
+    state_.conflicting_inputs = false;  // its next release activates the robot again
+  }
+  applyStops();
+  if (fr3_ && ruled() && input == SafetyInput::kX31 && pressed) {
+    lock();
+  }
+}
+
+void SafetyController::pressUserStop(bool pressed) noexcept {
+  if (ruled()) {
+    press(fr3_ ? SafetyInput::kX31 : SafetyInput::kX4, pressed);
+  } else {
+    unit_->request(UserStop{pressed});
+  }
+}
+
+bool SafetyController::stopPressed() const noexcept {
+  return fr3_ ? state_.pressed(SafetyInput::kX31) || state_.pressed(SafetyInput::kX32) ||
+                    state_.pressed(SafetyInput::kX33)
+              : state_.pressed(SafetyInput::kX4);
+}
+
+// A Panda may be guided while its activation device is pressed; the unit cannot guide while it is
+// stopped.
+void SafetyController::applyStops() noexcept {
+  const bool guided = !fr3_ && unit_->state().robot_mode == RobotMode::kGuiding;
+  const bool stop = (stopPressed() && !guided) || (!fr3_ && state_.conflicting_inputs);
+  if (stop != unit_->status().user_stop_pressed) {
+    unit_->request(UserStop{stop});
+  }
+  if (guided && !stopPressed()) {
+    guide(false);
+  }
+}
+
+Refusal SafetyController::guide(bool active) noexcept {
+  state_.inputs[static_cast<std::size_t>(SafetyInput::kGuidingButton)] = active;
+  if (!active) {
+    state_.conflicting_inputs = state_.conflicting_inputs && !fr3_;
+    unit_->request(Guiding{false});
+    if (ruled()) {
+      applyStops();
+    }
+    return Refusal::kNone;
+  }
+  Refusal refusal = refusalOfMotors();
+  if (ruled() && refusal == Refusal::kNone) {
+    const bool allowed = fr3_ ? state_.mode == OperatingMode::kProgramming && !stopPressed()
+                              : state_.pressed(SafetyInput::kX4);
+    if (brakesClosed()) {
+      refusal = Refusal::kBrakesClosed;
+    } else if (!allowed) {
+      state_.conflicting_inputs = true;
+      refusal = Refusal::kWrongOperatingMode;
+    } else {
+      unit_->request(UserStop{false});
+    }
+  }
+  if (refusal == Refusal::kNone) {
+    unit_->request(Guiding{true});
+  } else if (ruled()) {
+    applyStops();
+  }
+  return refusal;
+}
+
+Refusal SafetyController::setGuidingMode(GuidingMode mode,
+                                         const std::array<bool, 7>& axes) noexcept {
+  const std::array<bool, 7> free = axesOf(mode, axes);
+  franka_core::fci::SetGuidingModeRequest request;
+  std::copy_n(free.begin(), request.guiding_mode.size(), request.guiding_mode.begin());
+  request.nullspace = free.back();
+  if (unit_->request(request) != Status::kSuccess) {
+    return Refusal::kMotionActive;
+  }
+  state_.guiding_mode = mode;
+  state_.guiding_axes = free;
+  return Refusal::kNone;
+}
+
+// --- self-test and errors ------------------------------------------------------------------------
+
+Refusal SafetyController::startSelfTest() noexcept {
+  const Refusal refusal = refusalOfMotors();
+  if (refusal != Refusal::kNone) {
+    return refusal;
+  }
+  deactivateFci();
+  unit_->request(Brakes{true});
+  moveBrakes(BrakeMotion::kNone);
+  state_.brakes_closed.fill(true);
+  state_.self_test = true;
+  state_.self_test_left = self_test_time_;
+  return Refusal::kNone;
+}
+
+void SafetyController::advanceSelfTest() noexcept {
+  state_.self_test_left -= kTick;
+  if (state_.self_test_left > 0.0) {
+    return;
+  }
+  state_.self_test = false;
+  state_.self_test_left = 0.0;
+  state_.self_test_due = kSelfTestPeriod;
+  if (!ruled()) {
+    unit_->request(Brakes{false});
+    unit_->request(FciActivation{true});
+  }
+}
+
+void SafetyController::setSelfTestDue(double due) noexcept {
+  state_.self_test_due = std::max(due, kTick);
+}
+
+void SafetyController::advanceClock() noexcept {
+  const double before = state_.self_test_due;
+  state_.self_test_due = std::max(0.0, before - kTick);
+  if (ruled() && before > 0.0 && state_.self_test_due == 0.0) {
+    inject(RecoverableError::kTd2Timeout, true);
+  }
+}
+
+Refusal SafetyController::acknowledge(RecoverableError error) noexcept {
+  bool& active = state_.recoverable[static_cast<std::size_t>(error)];
+  if (!active) {
+    return Refusal::kNoAckRequired;
+  }
+  active = false;
+  return Refusal::kNone;
+}
+
+Refusal SafetyController::acknowledge(DemandedRecovery recovery) noexcept {
+  std::array<bool, 7>& joints = state_.demanded[static_cast<std::size_t>(recovery)];
+  if (!any(joints)) {
+    return Refusal::kNoAckRequired;
+  }
+  if (!state_.pressed(SafetyInput::kX4)) {
+    return Refusal::kJointRecoveryRequired;
+  }
+  joints.fill(false);
+  return Refusal::kNone;
+}
+
+void SafetyController::inject(RecoverableError error, bool active) noexcept {
+  state_.recoverable[static_cast<std::size_t>(error)] = active;
+  if (active && ruled()) {
+    lock();
+  }
+}
+
+void SafetyController::inject(DemandedRecovery recovery, std::size_t joint, bool active) noexcept {
+  state_.demanded[static_cast<std::size_t>(recovery)][joint] = active;
+  if (active && ruled()) {
+    lock();
+  }
+}
+
+bool SafetyController::anyRecoverable() const noexcept {
+  return std::any_of(state_.recoverable.begin(), state_.recoverable.end(),
+                     [](bool error) { return error; });
+}
+
+// --- a tick --------------------------------------------------------------------------------------
+
+void SafetyController::step() noexcept {
+  if (!state_.power) {
+    return;
+  }
+  if (state_.self_test) {
+    advanceSelfTest();
+  } else {
+    advanceClock();
+    advanceBrakes();
+  }
+  if (!ruled()) {
+    state_.brakes_closed.fill(unit_->status().brakes_closed);
+  }
+}
+
+Light SafetyController::light() const noexcept {
+  const RobotMode mode = unit_->state().robot_mode;
+  const bool failed = anyRecoverable() || any(state_.demanded[0]) || any(state_.demanded[1]) ||
+                      mode == RobotMode::kReflex || mode == RobotMode::kAutomaticErrorRecovery;
+  if (!state_.power || state_.self_test) {
+    return {LightColor::kYellow, true};
+  }
+  if (failed) {
+    return {LightColor::kRed};
+  }
+  if (brakesClosed()) {
+    return {LightColor::kYellow, state_.brakes_moving};
+  }
+  if (state_.conflicting_inputs) {
+    return {LightColor::kPink};
+  }
+  if (fr3_ && stopPressed()) {
+    return {LightColor::kYellow};
+  }
+  if (fr3_ ? state_.mode == OperatingMode::kProgramming : stopPressed()) {
+    return {LightColor::kWhite};
+  }
+  const bool green = mode == RobotMode::kMove || (fr3_ && fciActive());
+  return {green ? LightColor::kGreen : LightColor::kBlue};
+}
+
+// --- words ---------------------------------------------------------------------------------------
+
+namespace {
+
+struct RefusalWords {
+  std::string_view name, sentence;
+};
+constexpr std::array<RefusalWords, 10> kRefusals{{
+    {"", ""},
+    {"NotReady", "The robot is switched off; switch it on."},
+    {"BrakesClosed", "The brakes are closed; unlock the joints first."},
+    {"EmergencyStopPressed", "A stop is pressed; release it."},
+    {"SelfTestRunning", "The self-test runs; wait for its end."},
+    {"RecoverableErrorActive", "An error of the safety controller is active; acknowledge it."},
+    {"JointRecoveryRequired",
+     "A joint needs manual recovery: press the enabling device X4, then acknowledge."},
+    {"WrongOperatingMode", "The operating mode, or the activation device, does not allow this."},
+    {"MotionActive", "A motion runs, or the FCI is active; end it first."},
+    {"NoAckRequired", "There is nothing to acknowledge."},
+}};
+
+}  // namespace
+
+std::string_view nameOf(Refusal refusal) noexcept {
+  return kRefusals[static_cast<std::size_t>(refusal)].name;
+}
+
+std::string_view sentenceOf(Refusal refusal) noexcept {
+  return kRefusals[static_cast<std::size_t>(refusal)].sentence;
+}
+
+}  // namespace franka_sim

@@ -1,0 +1,256 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_core/fci/texts.h>
+#include <franka_core/numbers.h>
+#include <franka_core/robot_error.h>
+#include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/serve/sim_robot.h>
+
+#include <array>
+#include <stdexcept>
+#include <utility>
+
+#include "fci/served_models.h"
+
+namespace franka_sim::fci {
+
+using franka_core::RobotError;
+
+RobotFront::RobotFront(WholeRobot& robot, RobotServerParameters server, const ToolPorts& tools)
+    : robot_(robot), handler_(robot.unit()), server_(server, handler_) {
+  if (tools.hand) {
+    hand_ = std::make_unique<GripperServer>(server.address, *tools.hand, *robot_.hand());
+  }
+  if (tools.vacuum) {
+    vacuum_ = std::make_unique<VacuumServer>(server.address, *tools.vacuum, *robot_.vacuum());
+  }
+}
+
+void RobotFront::observe() {
+  constexpr std::array<RobotError, 3> kCollisions{RobotError::kSelfCollisionAvoidanceViolation,
+                                                  RobotError::kJointReflex,
+                                                  RobotError::kCartesianReflex};
+  const ControlUnit& unit = robot_.unit();
+  std::array<bool, kCollisions.size()> before{};
+  for (std::size_t i = 0; i < before.size(); i++) {
+    before[i] = unit.state().errors[indexOf(kCollisions[i])];
+  }
+  robot_.observe();
+  for (std::size_t i = 0; report_ && i < before.size(); i++) {
+    if (!before[i] && unit.state().errors[indexOf(kCollisions[i])]) {
+      report_(collisionOf(unit, kCollisions[i]) + " (" +
+              franka_core::kErrorNames[indexOf(kCollisions[i])] + ").");
+    }
+  }
+}
+
+const franka_core::RobotCommand* RobotFront::takeCommand() noexcept {
+  if (!server_.motionHasBegun()) {
+    robot_.link().clear();
+  }
+  return server_.takeCommand();
+}
+
+void RobotFront::actuate() { robot_.actuate(takeCommand()); }
+
+void RobotFront::serve(bool stops_only) {
+  server_.serve(stops_only);
+  const bool tools = robot_.safety().handServed();
+  if (hand_) {
+    hand_->setOpen(tools);
+    hand_->serve(stops_only);
+  }
+  if (vacuum_) {
+    vacuum_->setOpen(tools);
+    vacuum_->serve(stops_only);
+  }
+}
+
+void RobotFront::publish(std::uint64_t ticks, bool same_moment, bool keep_end) {
+  server_.publish(ticks, same_moment, keep_end);
+  publishTools(ticks);
+}
+
+void RobotFront::publishTools(std::uint64_t ticks) {
+  if (hand_) {
+    hand_->publish(ticks);
+  }
+  if (vacuum_) {
+    vacuum_->publish(ticks);
+  }
+}
+
+void RobotFront::repeat() {
+  if (server_.asynchronous() || server_.receiveCommand()) {
+    server_.repeat();
+  }
+  publishTools(0);
+}
+
+void RobotFront::onRefusal(const ClientSlot::Report& report) {
+  server_.onRefusal(report);
+  if (hand_) {
+    hand_->onRefusal(report);
+  }
+  if (vacuum_) {
+    vacuum_->onRefusal(report);
+  }
+}
+
+bool RobotFront::hasClients() const {
+  return server_.hasClient() || (hand_ && hand_->hasClient()) || (vacuum_ && vacuum_->hasClient());
+}
+
+bool RobotFront::idle() const {
+  return server_.idle() && (!hand_ || hand_->idle()) && (!vacuum_ || vacuum_->idle());
+}
+
+bool RobotFront::settling() const {
+  const franka_core::RobotState& state = robot_.unit().state();
+  if (state.robot_mode == franka_core::RobotMode::kGuiding) {
+    return false;  // nothing brakes an arm in Guiding: it may never come to rest
+  }
+  const bool abandoned =
+      state.robot_mode == franka_core::RobotMode::kMove && !server_.expectsCommands();
+  const UnitStatus status = robot_.unit().status();
+  return status.settling || abandoned || !status.resting || robot_.safety().busy();
+}
+
+bool RobotFront::handBusy() const {
+  return (hand_ && hand_->busy()) || (vacuum_ && vacuum_->busy());
+}
+
+void RobotFront::addDescriptors(std::vector<pollfd>& fds) const {
+  server_.addDescriptors(fds);
+  if (hand_) {
+    hand_->addDescriptors(fds);
+  }
+  if (vacuum_) {
+    vacuum_->addDescriptors(fds);
+  }
+}
+
+}  // namespace franka_sim::fci
+
+namespace franka_sim::fci {
+
+namespace {
+
+std::string toText(const std::array<double, 7>& values) {
+  std::string text;
+  for (const double value : values) {
+    text += " " + franka_core::numberText(value, 9);
+  }
+  return text;
+}
+
+std::string errorNames(const ControlUnit& unit) {
+  const std::array<bool, franka_core::kErrorCount>& errors = unit.state().errors;
+  std::string text;
+  for (std::size_t i = 0; i < errors.size(); i++) {
+    text += errors[i] ? std::string(" ") + franka_core::kErrorNames[i] : "";
+    const std::string detail = errors[i] ? detailOf(unit, i) : "";
+    text += detail.empty() ? "" : " (" + detail + ")";
+  }
+  return text.empty() ? " none" : text;
+}
+
+}  // namespace
+
+std::string detailOf(const ControlUnit& unit, std::size_t error) {
+  const UnitStatus status = unit.status();
+  if (error == indexOf(RobotError::kSelfCollisionAvoidanceViolation)) {
+    return linksOf(status.self_collision);
+  }
+  if (error == indexOf(RobotError::kJointReflex) && status.joint_collision.happened) {
+    return describeJointCollision(status.joint_collision);
+  }
+  if (error == indexOf(RobotError::kCartesianReflex) && status.cartesian_collision.happened) {
+    return describeCartesianCollision(status.cartesian_collision, unit.configuration().rules);
+  }
+  return "";
+}
+
+RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
+                               const franka_core::ArmModel& arm) {
+  RobotServerParameters server;
+  server.address = address;
+  server.oldest_version = protocols.oldest;
+  server.newest_version = protocols.newest;
+  server.model_library = servedLibrary(arm);
+  server.urdfs = {{8, servedUrdf(arm, 8)}, {10, servedUrdf(arm, 10)}};  // (decision 8)
+  return server;
+}
+
+SimRobot::Hand servedHand(HandPlant& fingers, const GripperLatency& latency) {
+  return {&fingers, handParameters(latency)};
+}
+
+SimRobot servedRobot(const std::string& address, const ProtocolRange& protocols,
+                     ControlUnitParameters unit, ArmPlant& arm,
+                     const std::optional<SimRobot::Hand>& hand,
+                     const std::optional<SimRobot::Vacuum>& vacuum, unsigned command_delay) {
+  unit.rules = InterfaceRules::kFci;
+  unit.protocol_version = protocols.newest;
+  return SimRobot(unit, arm, servedAt(address, protocols, unit.model), hand, vacuum, command_delay);
+}
+
+std::string linksOf(const SelfCollision::Pair& pair) {
+  const auto name = [](int link) {
+    return link == kHandLink ? std::string("hand") : "link" + std::to_string(link);
+  };
+  return name(pair.first) + " and " + name(pair.second);
+}
+
+void setLoad(SimRobot& robot, const franka_core::Payload& load) {
+  const std::optional<Status> status = robot.unit().request(loadRequest(load));
+  if (status == Status::kInvalidArgumentRejected) {
+    throw std::runtime_error("The load was refused. " + payloadFault(load));
+  }
+  if (status != Status::kSuccess) {
+    throw std::runtime_error("The load was refused: a motion runs. End it, then set the load.");
+  }
+}
+
+std::string collisionOf(const ControlUnit& unit, RobotError error) {
+  const std::string detail = detailOf(unit, indexOf(error));
+  return error == RobotError::kSelfCollisionAvoidanceViolation
+             ? "its " + detail + " came too close to each other"
+             : "it met something, " + detail;
+}
+
+std::string describe(SimRobot& robot) {
+  const franka_core::RobotState& state = robot.unit().state();
+  return std::string(franka_core::fci::modeName(state.robot_mode)) + ", client of protocol " +
+         std::to_string(robot.server().version()) + ", errors" + errorNames(robot.unit()) + ", q" +
+         toText(state.q);
+}
+
+}  // namespace franka_sim::fci
+
+namespace franka_sim::fci {
+
+namespace {
+
+std::optional<WholeRobot::Hand> unitOf(const std::optional<SimRobot::Hand>& hand) {
+  return hand ? std::optional<WholeRobot::Hand>({hand->plant, hand->parameters}) : std::nullopt;
+}
+
+std::optional<VacuumGripperParameters> unitOf(const std::optional<SimRobot::Vacuum>& vacuum) {
+  return vacuum ? std::optional(vacuum->parameters) : std::nullopt;
+}
+
+template <typename Tool>
+std::optional<std::uint16_t> portOf(const std::optional<Tool>& tool) {
+  return tool ? std::optional(tool->port) : std::nullopt;
+}
+
+}  // namespace
+
+SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
+                   const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum,
+                   unsigned command_delay)
+    : OwnedUnits(unit, arm, unitOf(hand), unitOf(vacuum), command_delay),
+      RobotFront(units, std::move(server), {portOf(hand), portOf(vacuum)}) {}
+
+}  // namespace franka_sim::fci
