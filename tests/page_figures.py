@@ -202,7 +202,7 @@ def fidelity():
         (
             "time constant # ms between finger pads and graspable objects (a grasp must not creep), # ms",
             [
-                1000 * constant("franka_sim/src/physics/contact_settings.h", f'k{what}Solref = "# 1";')
+                1000 * constant("franka_sim/src/physics/contacts.h", f'k{what}Solref = "# 1";')
                 for what in ("Grasp", "Contact")
             ],
         ),
@@ -276,7 +276,7 @@ def fidelity():
             * constant(drive_test, "wheel_->applyEffort(#); step(500); EXPECT_LT")
             / constant(wheel, '<dynamics damping="0.5" friction="#"/>'),
         ),
-        ("# cm", 100 * constant("franka_sim/src/physics/mesh_loader.cpp", "kPlate = #;")),
+        ("# cm", 100 * constant("franka_sim/src/physics/meshes.cpp", "kPlate = #;")),
         ("nothing for # s", constant("franka_gripper/src/franka_gripper/gripper_node.py", "SILENCE = #")),
         (
             "polls every # ms",

@@ -42,7 +42,7 @@ NO_NAMES = {
 # Files that no node has: the names are those of their callers.
 OF_ALL = {
     "franka_hw/include/franka_hw/services.h",
-    "franka_sim_mujoco/include/franka_sim_mujoco/service_handlers.h",
+    "franka_sim_mujoco/src/service_handlers.h",
     "franka_sim_mujoco/src/service_handlers.cpp",
     "franka_sim_mujoco/src/param_reader.cpp",
 }

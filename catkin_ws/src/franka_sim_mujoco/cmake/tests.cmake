@@ -14,7 +14,7 @@ catkin_add_gtest(${PROJECT_NAME}_parts_test
 if(TARGET ${PROJECT_NAME}_parts_test)
   # Test helpers of franka_sim, which only the source space has.
   target_include_directories(${PROJECT_NAME}_parts_test PRIVATE
-    ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include ${CMAKE_CURRENT_SOURCE_DIR}/../franka_sim/test)
+    src ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include ${CMAKE_CURRENT_SOURCE_DIR}/../franka_sim/test)
   target_link_libraries(${PROJECT_NAME}_parts_test
     franka_sim_ros gtest_main ${CMAKE_DL_LIBS} Threads::Threads)
 endif()
@@ -22,7 +22,7 @@ endif()
 find_package(rostest REQUIRED)
 add_rostest_gtest(arm_parameters_test test/arm_parameters.test test/arm_parameters_test.cpp)
 target_include_directories(arm_parameters_test PRIVATE
-  ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
+  src ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
 target_compile_definitions(arm_parameters_test PRIVATE
   FRANKA_SIM_ROBOTS="${CMAKE_CURRENT_SOURCE_DIR}/../franka_sim/robots")
 target_link_libraries(arm_parameters_test franka_sim_ros)

@@ -5,10 +5,7 @@
 #include <franka_core/transform.h>
 #include <franka_hw/setters.h>
 #include <franka_sim/robot/control_unit_parameters.h>
-#include <franka_sim_mujoco/arm_parameters.h>
 #include <franka_sim_mujoco/arm_services.h>
-#include <franka_sim_mujoco/log_names.h>
-#include <franka_sim_mujoco/service_answer.h>
 #include <ros/console.h>
 #include <ros/service.h>
 #include <std_srvs/SetBool.h>
@@ -18,6 +15,9 @@
 #include <optional>
 #include <stdexcept>
 #include <utility>
+
+#include "arm_parameters.h"
+#include "service_handlers.h"
 
 namespace franka_sim_mujoco {
 

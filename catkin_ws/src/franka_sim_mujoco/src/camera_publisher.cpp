@@ -1,9 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim_mujoco/camera_publisher.h>
-#include <franka_sim_mujoco/log_names.h>
-#include <franka_sim_mujoco/sim_messages.h>
-#include <franka_sim_mujoco/simulation.h>
+#include "camera_publisher.h"
+
 #include <ros/console.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/distortion_models.h>
@@ -15,6 +13,10 @@
 #include <cmath>
 #include <cstring>
 #include <exception>
+
+#include "service_handlers.h"
+#include "sim_messages.h"
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 

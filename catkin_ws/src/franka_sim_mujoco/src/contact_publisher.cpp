@@ -1,13 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "contact_publisher.h"
+
 #include <franka_sim_mujoco/Contacts.h>
-#include <franka_sim_mujoco/contact_publisher.h>
-#include <franka_sim_mujoco/sim_messages.h>
-#include <franka_sim_mujoco/simulation.h>
 #include <ros/console.h>
 
 #include <chrono>
 #include <exception>
+
+#include "sim_messages.h"
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 

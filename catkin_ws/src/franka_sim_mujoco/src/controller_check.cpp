@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "controller_check.h"
+
 #include <franka_hw/resource_helpers.h>
-#include <franka_sim_mujoco/controller_check.h>
 #include <hardware_interface/robot_hw.h>
 
 #include <algorithm>

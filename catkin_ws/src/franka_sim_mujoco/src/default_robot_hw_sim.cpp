@@ -1,11 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim_mujoco/default_robot_hw_sim.h>
-#include <franka_sim_mujoco/exception_text.h>
+#include "default_robot_hw_sim.h"
+
 #include <ros/console.h>
 
 #include <exception>
 #include <pluginlib/class_list_macros.hpp>
+
+#include "service_handlers.h"
 
 namespace franka_sim_mujoco {
 

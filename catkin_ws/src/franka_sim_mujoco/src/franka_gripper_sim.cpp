@@ -2,20 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/numbers.h>
 #include <franka_sim/robot/realism.h>
-#include <franka_sim_mujoco/arm_parameters.h>
-#include <franka_sim_mujoco/exception_text.h>
 #include <franka_sim_mujoco/franka_gripper_sim.h>
-#include <franka_sim_mujoco/param_reader.h>
 #include <ros/console.h>
 
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 
+#include "arm_parameters.h"
+#include "param_reader.h"
+#include "service_handlers.h"
+
 namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr char kLog[] = "franka_gripper_sim";
+constexpr char kGripperLog[] = "franka_gripper_sim";
 constexpr double kPublishRate = 30.0;  ///< [Hz]
 
 std::string readArmId(const ros::NodeHandle& node) {
@@ -106,7 +107,7 @@ bool FrankaGripperSim::init(hardware_interface::EffortJointInterface* hw, ros::N
     return true;
   } catch (...) {
     // Includes HardwareInterfaceException for the fingers' handles.
-    ROS_ERROR_NAMED(kLog, "The gripper %s does not start: %s", node.getNamespace().c_str(),
+    ROS_ERROR_NAMED(kGripperLog, "The gripper %s does not start: %s", node.getNamespace().c_str(),
                     exceptionText().c_str());
     return false;
   }

@@ -7,12 +7,7 @@
 #include <franka_sim/physics/world.h>
 #include <franka_sim/robot/errors.h>
 #include <franka_sim/serve/sim_robot.h>
-#include <franka_sim_mujoco/arm_parameters.h>
-#include <franka_sim_mujoco/controller_check.h>
-#include <franka_sim_mujoco/exception_text.h>
 #include <franka_sim_mujoco/franka_hw_sim.h>
-#include <franka_sim_mujoco/log_names.h>
-#include <franka_sim_mujoco/param_reader.h>
 #include <ros/console.h>
 
 #include <algorithm>
@@ -20,6 +15,11 @@
 #include <pluginlib/class_list_macros.hpp>
 #include <stdexcept>
 #include <utility>
+
+#include "arm_parameters.h"
+#include "controller_check.h"
+#include "param_reader.h"
+#include "service_handlers.h"
 
 namespace franka_sim_mujoco {
 

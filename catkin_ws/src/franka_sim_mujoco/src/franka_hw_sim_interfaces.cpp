@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // FrankaHWSim: the declarations of the URDF, and the handles for them.
 #include <franka_sim_mujoco/franka_hw_sim.h>
-#include <franka_sim_mujoco/log_names.h>
 #include <joint_limits_interface/joint_limits_urdf.h>
 #include <ros/console.h>
 
 #include <algorithm>
 #include <set>
 #include <stdexcept>
+
+#include "service_handlers.h"
 
 namespace franka_sim_mujoco {
 

@@ -8,18 +8,6 @@
 /// CameraPublisher and GazeboTopics. Requires use_sim_time.
 
 #include <franka_hw/usage.h>
-#include <franka_sim_mujoco/camera_publisher.h>
-#include <franka_sim_mujoco/contact_publisher.h>
-#include <franka_sim_mujoco/gazebo_topics.h>
-#include <franka_sim_mujoco/log_names.h>
-#include <franka_sim_mujoco/marker_publisher.h>
-#include <franka_sim_mujoco/param_reader.h>
-#include <franka_sim_mujoco/picture_service.h>
-#include <franka_sim_mujoco/resources.h>
-#include <franka_sim_mujoco/sim_services.h>
-#include <franka_sim_mujoco/simulation.h>
-#include <franka_sim_mujoco/window_view.h>
-#include <franka_sim_mujoco/world_file.h>
 #include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/init.h>
@@ -32,6 +20,18 @@
 #include <optional>
 #include <string>
 #include <vector>
+
+#include "camera_publisher.h"
+#include "contact_publisher.h"
+#include "gazebo_models.h"
+#include "marker_publisher.h"
+#include "param_reader.h"
+#include "picture_service.h"
+#include "resources.h"
+#include "service_handlers.h"
+#include "sim_services.h"
+#include "simulation.h"
+#include "window_view.h"
 
 namespace {
 

@@ -6,15 +6,16 @@
 
 #include <franka_sim/physics/lights.h>
 #include <franka_sim/physics/pose_conversions.h>
-#include <franka_sim_mujoco/gazebo_models.h>
-#include <franka_sim_mujoco/sim_messages.h>
-#include <franka_sim_mujoco/sim_services.h>
-#include <franka_sim_mujoco/simulation.h>
 #include <gazebo_msgs/DeleteLight.h>
 #include <gazebo_msgs/GetLightProperties.h>
 #include <gazebo_msgs/SetLightProperties.h>
 
 #include <string>
+
+#include "gazebo_models.h"
+#include "sim_messages.h"
+#include "sim_services.h"
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 

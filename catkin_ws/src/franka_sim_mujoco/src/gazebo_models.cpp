@@ -1,13 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "gazebo_models.h"
+
 #include <franka_sim/physics/pose_conversions.h>
-#include <franka_sim_mujoco/gazebo_models.h>
-#include <franka_sim_mujoco/sim_messages.h>
-#include <franka_sim_mujoco/simulation.h>
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+
+#include "sim_messages.h"
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 

@@ -8,12 +8,6 @@
 #include <franka_core/numbers.h>
 #include <franka_sim/physics/body_properties.h>
 #include <franka_sim/physics/pose_conversions.h>
-#include <franka_sim/physics/sizes.h>
-#include <franka_sim_mujoco/gazebo_models.h>
-#include <franka_sim_mujoco/pace.h>
-#include <franka_sim_mujoco/sim_messages.h>
-#include <franka_sim_mujoco/sim_services.h>
-#include <franka_sim_mujoco/simulation.h>
 #include <gazebo_msgs/ApplyBodyWrench.h>
 #include <gazebo_msgs/ApplyJointEffort.h>
 #include <gazebo_msgs/BodyRequest.h>
@@ -29,6 +23,12 @@
 #include <cstdint>
 #include <stdexcept>
 #include <string>
+
+#include "gazebo_models.h"
+#include "pace.h"
+#include "sim_messages.h"
+#include "sim_services.h"
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 

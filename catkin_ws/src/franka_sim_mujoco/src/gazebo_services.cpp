@@ -5,10 +5,6 @@
 /// SimServices: the most used services of Gazebo, with its names and types. Errors are reported in
 /// status_message.
 
-#include <franka_sim_mujoco/gazebo_models.h>
-#include <franka_sim_mujoco/sim_messages.h>
-#include <franka_sim_mujoco/sim_services.h>
-#include <franka_sim_mujoco/simulation.h>
 #include <gazebo_msgs/DeleteModel.h>
 #include <gazebo_msgs/GetJointProperties.h>
 #include <gazebo_msgs/GetLinkState.h>
@@ -25,6 +21,11 @@
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "gazebo_models.h"
+#include "sim_messages.h"
+#include "sim_services.h"
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 

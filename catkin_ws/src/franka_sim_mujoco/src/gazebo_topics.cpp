@@ -1,9 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim_mujoco/gazebo_models.h>
-#include <franka_sim_mujoco/gazebo_topics.h>
-#include <franka_sim_mujoco/sim_messages.h>
-#include <franka_sim_mujoco/simulation.h>
 #include <gazebo_msgs/LinkStates.h>
 #include <gazebo_msgs/ModelStates.h>
 #include <ros/console.h>
@@ -13,6 +9,10 @@
 #include <functional>
 #include <string>
 #include <vector>
+
+#include "gazebo_models.h"
+#include "sim_messages.h"
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 

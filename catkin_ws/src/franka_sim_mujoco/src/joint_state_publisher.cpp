@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "joint_state_publisher.h"
+
 #include <franka_sim/physics/world.h>
-#include <franka_sim_mujoco/joint_state_publisher.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 
 #include <algorithm>

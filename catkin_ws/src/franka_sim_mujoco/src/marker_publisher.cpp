@@ -1,9 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "marker_publisher.h"
+
 #include <franka_sim/physics/pose_conversions.h>
-#include <franka_sim_mujoco/marker_publisher.h>
-#include <franka_sim_mujoco/sim_messages.h>
-#include <franka_sim_mujoco/simulation.h>
 #include <ros/console.h>
 
 #include <algorithm>
@@ -15,6 +14,9 @@
 #include <set>
 #include <string>
 #include <utility>
+
+#include "sim_messages.h"
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 

@@ -4,7 +4,7 @@
 /// @file
 /// SimServices: objects, states, gravity and snapshots.
 
-#include <franka_sim/physics/sizes.h>
+#include <franka_sim/physics/body_properties.h>
 #include <franka_sim_mujoco/DeleteObject.h>
 #include <franka_sim_mujoco/GetBodyState.h>
 #include <franka_sim_mujoco/GetJointStates.h>
@@ -15,13 +15,14 @@
 #include <franka_sim_mujoco/SetJointStates.h>
 #include <franka_sim_mujoco/SpawnObject.h>
 #include <franka_sim_mujoco/TakeSnapshot.h>
-#include <franka_sim_mujoco/sim_messages.h>
-#include <franka_sim_mujoco/sim_services.h>
-#include <franka_sim_mujoco/simulation.h>
 
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include "sim_messages.h"
+#include "sim_services.h"
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 

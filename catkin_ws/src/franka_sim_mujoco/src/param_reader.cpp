@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "param_reader.h"
+
 #include <franka_core/numbers.h>
-#include <franka_sim_mujoco/param_reader.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <cmath>

@@ -1,12 +1,14 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim_mujoco/picture_service.h>
-#include <franka_sim_mujoco/simulation.h>
+#include "picture_service.h"
+
 #include <ros/advertise_service_options.h>
 #include <sensor_msgs/image_encodings.h>
 
 #include <cmath>
 #include <stdexcept>
+
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 

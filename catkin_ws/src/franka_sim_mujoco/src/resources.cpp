@@ -1,13 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "resources.h"
+
 #include <franka_sim/physics/resource_uri.h>
-#include <franka_sim_mujoco/resources.h>
 #include <ros/package.h>
 
 #include <cstdlib>
 #include <filesystem>
 #include <initializer_list>
 #include <sstream>
+#include <stdexcept>
 
 namespace franka_sim_mujoco {
 
@@ -81,6 +83,46 @@ Folders gazeboResourceFolders() {
 Folders gazeboPluginFolders() {
   static const Folders kExported = exportedFolders({"plugin_path"});
   return kExported;
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+bool isFile(const fs::path& path) {
+  std::error_code error;
+  return fs::is_regular_file(path, error);
+}
+
+}  // namespace
+
+std::string findWorldFile(const std::string& name, const std::vector<std::string>& folders) {
+  if (name.empty()) {
+    return "";
+  }
+  const fs::path given(name);
+  if (isFile(given)) {
+    return given.string();
+  }
+  fs::path mjcf = given;
+  mjcf.replace_extension(".xml");
+  if (given.has_parent_path() && isFile(mjcf)) {
+    return mjcf.string();
+  }
+  std::string searched;
+  for (const std::string& folder : folders) {
+    for (const fs::path& name_there : {given, mjcf.filename()}) {
+      const fs::path candidate = fs::path(folder) / name_there;
+      if (isFile(candidate)) {
+        return candidate.string();
+      }
+    }
+    searched += (searched.empty() ? "" : ", ") + folder;
+  }
+  throw std::runtime_error(
+      "The world '" + name + "' was not found: there is no such file, and neither it nor a " +
+      mjcf.filename().string() + " in " + searched +
+      ". Give the path of an MJCF or SDF file or the name of a world that is there.");
 }
 
 }  // namespace franka_sim_mujoco

@@ -1,20 +1,21 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "robot_instance.h"
+
 #include <franka_sim/physics/urdf_text.h>
 #include <franka_sim/robot/errors.h>
-#include <franka_sim_mujoco/combined_hw_sim.h>
-#include <franka_sim_mujoco/exception_text.h>
-#include <franka_sim_mujoco/joint_state_publisher.h>
-#include <franka_sim_mujoco/log_names.h>
-#include <franka_sim_mujoco/pace.h>
-#include <franka_sim_mujoco/robot_instance.h>
-#include <franka_sim_mujoco/transform_publisher.h>
 #include <ros/console.h>
 
 #include <algorithm>
 #include <exception>
 #include <stdexcept>
 #include <utility>
+
+#include "combined_hw_sim.h"
+#include "joint_state_publisher.h"
+#include "pace.h"
+#include "service_handlers.h"
+#include "transform_publisher.h"
 
 namespace franka_sim_mujoco {
 

@@ -4,13 +4,6 @@
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/urdf_text.h>
 #include <franka_sim/robot/realism.h>
-#include <franka_sim_mujoco/arm_parameters.h>
-#include <franka_sim_mujoco/log_names.h>
-#include <franka_sim_mujoco/param_reader.h>
-#include <franka_sim_mujoco/plugin_element.h>
-#include <franka_sim_mujoco/resources.h>
-#include <franka_sim_mujoco/robot_instance.h>
-#include <franka_sim_mujoco/robot_type.h>
 #include <ros/console.h>
 #include <transmission_interface/transmission_parser.h>
 
@@ -21,6 +14,13 @@
 #include <sstream>
 #include <stdexcept>
 #include <utility>
+
+#include "arm_parameters.h"
+#include "param_reader.h"
+#include "plugin_element.h"
+#include "resources.h"
+#include "robot_instance.h"
+#include "service_handlers.h"
 
 namespace franka_sim_mujoco {
 

@@ -1,5 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "served_robot.h"
+
 #include <franka_core/robot_error.h>
 #include <franka_msgs/SetLoad.h>
 #include <franka_sim/physics/world.h>
@@ -8,14 +10,14 @@
 #include <franka_sim_mujoco/GetServedRobot.h>
 #include <franka_sim_mujoco/SetPacketDelay.h>
 #include <franka_sim_mujoco/SetPacketLoss.h>
-#include <franka_sim_mujoco/arm_parameters.h>
-#include <franka_sim_mujoco/robot_instance.h>
-#include <franka_sim_mujoco/served_robot.h>
 #include <ros/console.h>
 #include <std_srvs/SetBool.h>
 
 #include <algorithm>
 #include <stdexcept>
+
+#include "arm_parameters.h"
+#include "robot_instance.h"
 
 namespace franka_sim_mujoco {
 

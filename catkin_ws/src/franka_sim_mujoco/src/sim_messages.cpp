@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "sim_messages.h"
+
 #include <franka_core/numbers.h>
-#include <franka_sim_mujoco/sim_messages.h>
 
 #include <cmath>
 #include <stdexcept>

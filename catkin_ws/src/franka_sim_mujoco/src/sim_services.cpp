@@ -1,5 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "sim_services.h"
+
 #include <franka_sim_mujoco/Benchmark.h>
 #include <franka_sim_mujoco/DeleteRobot.h>
 #include <franka_sim_mujoco/GetBodyPose.h>
@@ -9,14 +11,14 @@
 #include <franka_sim_mujoco/SetRealTimeFactor.h>
 #include <franka_sim_mujoco/SpawnRobot.h>
 #include <franka_sim_mujoco/Step.h>
-#include <franka_sim_mujoco/sim_messages.h>
-#include <franka_sim_mujoco/sim_services.h>
-#include <franka_sim_mujoco/simulation.h>
 #include <std_srvs/Trigger.h>
 
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "sim_messages.h"
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 

@@ -1,12 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "simulation.h"
+
 #include <franka_core/numbers.h>
 #include <franka_sim/physics/bare_steps.h>
 #include <franka_sim/physics/urdf_text.h>
-#include <franka_sim_mujoco/exception_text.h>
-#include <franka_sim_mujoco/log_names.h>
-#include <franka_sim_mujoco/resources.h>
-#include <franka_sim_mujoco/simulation.h>
 #include <ros/console.h>
 #include <ros/init.h>
 
@@ -14,6 +12,9 @@
 #include <cmath>
 #include <stdexcept>
 #include <utility>
+
+#include "resources.h"
+#include "service_handlers.h"
 
 namespace franka_sim_mujoco {
 

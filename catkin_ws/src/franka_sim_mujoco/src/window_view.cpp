@@ -1,15 +1,17 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "window_view.h"
+
 #include <franka_sim/physics/window.h>
-#include <franka_sim_mujoco/log_names.h>
-#include <franka_sim_mujoco/simulation.h>
-#include <franka_sim_mujoco/window_view.h>
 #include <ros/console.h>
 
 #include <chrono>
 #include <exception>
 #include <string>
 #include <vector>
+
+#include "service_handlers.h"
+#include "simulation.h"
 
 namespace franka_sim_mujoco {
 namespace {

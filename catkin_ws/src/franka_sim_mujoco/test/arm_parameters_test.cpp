@@ -4,8 +4,9 @@
 /// @file
 /// The control unit's configuration from ROS parameters.
 
+#include "arm_parameters.h"
+
 #include <franka_sim/physics/world.h>
-#include <franka_sim_mujoco/arm_parameters.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <ros_test/log_catcher.h>

@@ -4,7 +4,8 @@
 /// @file
 /// Which resources controllers may claim together.
 
-#include <franka_sim_mujoco/controller_check.h>
+#include "controller_check.h"
+
 #include <gtest/gtest.h>
 
 #include <set>

@@ -6,8 +6,6 @@
 
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
-#include <franka_sim_mujoco/resources.h>
-#include <franka_sim_mujoco/world_file.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,6 +15,7 @@
 #include <string>
 #include <vector>
 
+#include "resources.h"
 #include "sentences.h"
 #include "temporary_folder.h"
 

@@ -4,7 +4,8 @@
 /// @file
 /// The pace of simulated time and how often /clock is published.
 
-#include <franka_sim_mujoco/pace.h>
+#include "pace.h"
+
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 

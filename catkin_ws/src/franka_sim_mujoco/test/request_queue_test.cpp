@@ -4,8 +4,8 @@
 /// @file
 /// Work that other threads queue for the stepping thread, and what services answer about it.
 
-#include <franka_sim_mujoco/request_queue.h>
-#include <franka_sim_mujoco/service_answer.h>
+#include "request_queue.h"
+
 #include <gtest/gtest.h>
 
 #include <atomic>
@@ -16,6 +16,7 @@
 #include <thread>
 
 #include "sentences.h"
+#include "service_handlers.h"
 
 namespace franka_sim_mujoco {
 namespace {

@@ -4,8 +4,6 @@
 /// @file
 /// What a description says: whether it is that of a Panda or of an FR3, and its plugin element.
 
-#include <franka_sim_mujoco/plugin_element.h>
-#include <franka_sim_mujoco/robot_type.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,6 +12,8 @@
 #include <string>
 #include <vector>
 
+#include "arm_parameters.h"
+#include "plugin_element.h"
 #include "sentences.h"
 
 namespace franka_sim_mujoco {

@@ -22,7 +22,7 @@ constexpr const char* kRobotJointSuffixes[] = {"_joint1", "_joint2",        "_jo
                                                "_joint7", "_finger_joint1", "_finger_joint2"};
 
 /// Interprets a controller's claims for an arm with a hand, by the original's rules. The simulation
-/// itself allows more (franka_sim_mujoco/controller_check.h). Functions have no side effects.
+/// itself allows more (controller_check.h of franka_sim_mujoco). Functions have no side effects.
 class ControllerVerifier {
  public:
   /// @param joints of the robot, by name

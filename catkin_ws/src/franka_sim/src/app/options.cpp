@@ -6,7 +6,7 @@
 #include <franka_core/numbers.h>
 #include <franka_core/spin_rule.h>
 #include <franka_sim/fci/sockets.h>
-#include <franka_sim/physics/sizes.h>
+#include <franka_sim/physics/body_properties.h>
 #include <franka_sim/robot/realism.h>
 
 #include <CLI/CLI.hpp>

@@ -1,8 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/body_properties.h>
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <vector>
 
@@ -40,3 +42,25 @@ void endPushes(World& world, const std::string& body) {
 }
 
 }  // namespace franka_sim
+
+namespace franka_sim::sizes {
+
+void check(const std::array<double, 3>& values, double largest, const char* unit,
+           const std::string& what) {
+  for (const double value : values) {
+    check(value, largest, unit, what);
+  }
+}
+
+void check(double value, double largest, const char* unit, const std::string& what) {
+  if (!std::isfinite(value)) {
+    throw std::runtime_error(what + " is not finite; give numbers in " + unit + ".");
+  }
+  if (std::abs(value) > largest) {
+    throw std::runtime_error(what + " is " + franka_core::numberText(value) + " " + unit +
+                             "; at most " + franka_core::numberText(largest) + " " + unit +
+                             " are simulated.");
+  }
+}
+
+}  // namespace franka_sim::sizes

@@ -9,7 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "physics/degree.h"
+#include "physics/rotations.h"
 #include "physics/sdf_frames.h"
 #include "physics/xml_util.h"
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/body_properties.h>
 #include <franka_sim/physics/lights.h>
-#include <franka_sim/physics/sizes.h>
 
 #include <algorithm>
 #include <stdexcept>
 
-#include "physics/model_lights.h"
+#include "physics/scene_model.h"
 #include "physics/world_impl.h"
 
 namespace franka_sim {

@@ -3,11 +3,12 @@
 #pragma once
 
 #include <franka_sim/physics/world.h>
+#include <mujoco/mujoco.h>
 
 #include <string>
 #include <vector>
 
-#include "physics/mesh_loader.h"
+#include "physics/meshes.h"
 
 namespace franka_sim::physics {
 
@@ -21,5 +22,10 @@ std::vector<MeshPart> visualParts(const std::string& uri, const ResourceResolver
 /// std::runtime_error with a sentence starting with `where` when it cannot be found or read.
 std::string collisionFile(const std::string& uri, const ResourceResolver& resolve,
                           const std::string& where);
+
+/// Simplifies the meshes of a model that is only drawn, and shades them smoothly up to edges of 30
+/// degrees (decision 63). They lose their convex hulls. Meshes with texture coordinates stay as
+/// they are. Not real-time safe.
+void simplifyDrawnMeshes(mjModel* model);
 
 }  // namespace franka_sim::physics

@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/mjcf_files.h"
 
+#include <franka_core/numbers.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cstdlib>
 #include <memory>
 #include <set>
@@ -117,6 +121,131 @@ void makeFilesAbsolute(XMLElement* root, const std::string& folder) {
         }
       }
     }
+  }
+}
+
+namespace {
+
+using Solver = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>;
+
+/// Excess of the largest moment that is not worth a note: the last digits of a text.
+constexpr double kUnnoticed = 1e-6;
+
+/// Share of the largest moment by which it exceeds the sum of the others. @param moments ascending
+double excessOf(const Eigen::Vector3d& moments) {
+  return moments.z() > 0 ? 1 - (moments.x() + moments.y()) / moments.z() : 1;
+}
+
+bool isPossible(const Eigen::Vector3d& moments) {
+  return moments.x() >= 0 && moments.x() + moments.y() >= moments.z();
+}
+
+/// Takes whether the last <compiler> that decides about `balanceinertia` sets it.
+bool takeBalance(XMLElement* root) {
+  bool balance = false;
+  for (auto* e = root->FirstChildElement("compiler"); e != nullptr;
+       e = e->NextSiblingElement("compiler")) {
+    if (e->Attribute("balanceinertia") != nullptr) {
+      balance = optional(*e, "balanceinertia") == "true";
+      e->DeleteAttribute("balanceinertia");
+    }
+  }
+  return balance;
+}
+
+Eigen::Matrix3d writtenInertia(const XMLElement& inertial, const std::string& where) {
+  Eigen::Matrix3d matrix = Eigen::Matrix3d::Zero();
+  if (inertial.Attribute("fullinertia") != nullptr) {
+    const auto m = numbers(inertial, "fullinertia", {0, 0, 0, 0, 0, 0}, where);
+    matrix << m[0], m[3], m[4], m[3], m[1], m[5], m[4], m[5], m[2];
+  } else {
+    const auto m = numbers(inertial, "diaginertia", {0, 0, 0}, where);
+    matrix.diagonal() << m[0], m[1], m[2];
+  }
+  return matrix;
+}
+
+void repair(XMLElement* inertial, const std::string& where, bool balance,
+            std::set<std::string>* notes) {
+  const Eigen::Matrix3d written = writtenInertia(*inertial, where);
+  const Eigen::Vector3d moments = Solver(written).eigenvalues();
+  if (isPossible(moments)) {
+    return;
+  }
+  const Eigen::Matrix3d m = balance && moments.x() >= 0
+                                ? Eigen::Matrix3d(Eigen::Matrix3d::Identity() * moments.mean())
+                                : possibleInertia(written, where, notes);
+  if (inertial->Attribute("fullinertia") != nullptr) {
+    inertial->SetAttribute("fullinertia",
+                           toText({m(0, 0), m(1, 1), m(2, 2), m(0, 1), m(0, 2), m(1, 2)}).c_str());
+  } else {
+    inertial->SetAttribute("diaginertia", toText({m(0, 0), m(1, 1), m(2, 2)}).c_str());
+  }
+}
+
+void repairBelow(XMLElement* parent, const std::string& title, bool balance,
+                 std::set<std::string>* notes) {
+  for (auto* body = parent->FirstChildElement("body"); body != nullptr;
+       body = body->NextSiblingElement("body")) {
+    XMLElement* inertial = body->FirstChildElement("inertial");
+    if (inertial != nullptr && (inertial->Attribute("diaginertia") != nullptr ||
+                                inertial->Attribute("fullinertia") != nullptr)) {
+      repair(inertial,
+             title + ", body '" + optional(*body, "name") + "' in line " +
+                 std::to_string(body->GetLineNum()),
+             balance, notes);
+    }
+    repairBelow(body, title, balance, notes);
+  }
+}
+
+}  // namespace
+
+Eigen::Matrix3d possibleInertia(const Eigen::Matrix3d& inertia, const std::string& where,
+                                std::set<std::string>* notes) {
+  const Solver solver(inertia);
+  Eigen::Vector3d moments = solver.eigenvalues();
+  if (isPossible(moments)) {
+    return inertia;
+  }
+  const double excess = excessOf(moments);
+  if (!(excess <= kRoundedInertia)) {
+    throw std::runtime_error(where + ": no body has this inertia: the principal moments " +
+                             toText(moments) +
+                             " must be positive and the largest at most the sum of the others.");
+  }
+  if (excess > kUnnoticed) {
+    notes->insert("the inertia of " + where + " (its principal moments " + toText(moments) +
+                  " miss those of a body by " + franka_core::fixedText(100 * excess, 2) +
+                  " % and are moved to the nearest possible ones)");
+  }
+  moments = moments.cwiseMax(0.0);
+  // A little less than the sum, which rounding of the rotated matrix must not exceed again.
+  moments.z() = std::min(moments.z(), (moments.x() + moments.y()) * (1 - 1e-12));
+  const Eigen::Matrix3d& axes = solver.eigenvectors();
+  return axes * moments.asDiagonal() * axes.transpose();
+}
+
+void writeInertial(const UrdfInertial& inertial, XMLElement* body) {
+  if (inertial.mass == 0) {
+    return;
+  }
+  // Principal axes are computed here: MuJoCo's diagonalisation is accurate to 1e-8 only.
+  const Solver solver(inertial.inertia);
+  Eigen::Matrix3d axes = solver.eigenvectors();
+  axes.col(2) = axes.col(0).cross(axes.col(1));
+  XMLElement* element = append(body, "inertial");
+  element->SetAttribute("pos", toText(inertial.com).c_str());
+  element->SetAttribute("quat", toText(Eigen::Quaterniond(axes).normalized()).c_str());
+  element->SetAttribute("mass", toText({inertial.mass}).c_str());
+  element->SetAttribute("diaginertia", toText(Eigen::Vector3d(solver.eigenvalues())).c_str());
+}
+
+void repairInertias(XMLElement* root, const std::string& title, std::set<std::string>* notes) {
+  const bool balance = takeBalance(root);
+  for (auto* e = root->FirstChildElement("worldbody"); e != nullptr;
+       e = e->NextSiblingElement("worldbody")) {
+    repairBelow(e, title, balance, notes);
   }
 }
 

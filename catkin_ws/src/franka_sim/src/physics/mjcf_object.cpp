@@ -6,10 +6,9 @@
 
 #include <stdexcept>
 
-#include "physics/compile.h"
-#include "physics/degree.h"
 #include "physics/mjcf_files.h"
-#include "physics/mjcf_inertial.h"
+#include "physics/model_compiler.h"
+#include "physics/rotations.h"
 #include "physics/urdf_object.h"
 #include "physics/xml_util.h"
 

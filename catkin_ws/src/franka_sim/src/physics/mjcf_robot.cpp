@@ -7,9 +7,9 @@
 #include <optional>
 #include <set>
 
-#include "physics/contact_settings.h"
+#include "physics/contacts.h"
 #include "physics/mesh_assets.h"
-#include "physics/mjcf_inertial.h"
+#include "physics/mjcf_files.h"
 #include "physics/xml_util.h"
 
 namespace franka_sim::physics {

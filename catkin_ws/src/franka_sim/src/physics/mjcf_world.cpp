@@ -12,11 +12,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "physics/compile.h"
-#include "physics/contact_settings.h"
-#include "physics/degree.h"
+#include "physics/contacts.h"
 #include "physics/mjcf_files.h"
-#include "physics/mjcf_inertial.h"
+#include "physics/model_compiler.h"
+#include "physics/rotations.h"
 #include "physics/xml_util.h"
 
 namespace franka_sim::physics {

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "physics/contact_capacity.h"
+#include "physics/contacts.h"
 #include "physics/mjcf_object.h"
 #include "physics/mjcf_robot.h"
 #include "physics/robot_model.h"

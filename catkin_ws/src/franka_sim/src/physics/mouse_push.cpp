@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/degree.h"
+#include "physics/rotations.h"
 
 namespace franka_sim::physics {
 namespace {

@@ -6,8 +6,8 @@
 
 #include <vector>
 
-#include "physics/geom_contact.h"
-#include "physics/motor_side.h"
+#include "physics/contacts.h"
+#include "physics/joint_dynamics.h"
 #include "physics/ownership.h"
 
 namespace franka_sim::physics {

@@ -9,8 +9,8 @@
 #include <array>
 #include <string>
 
-#include "physics/motor_side.h"
-#include "physics/preparation_thread.h"
+#include "physics/joint_dynamics.h"
+#include "physics/step_preparation.h"
 
 namespace franka_sim::physics {
 

@@ -8,10 +8,9 @@
 #include <limits>
 #include <stdexcept>
 
-#include "physics/degree.h"
-#include "physics/engine_errors.h"
 #include "physics/gl_context.h"
-#include "physics/model_lights.h"
+#include "physics/model_compiler.h"
+#include "physics/rotations.h"
 #include "physics/scene_model.h"
 #include "physics/world_impl.h"
 

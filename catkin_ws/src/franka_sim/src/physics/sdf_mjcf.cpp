@@ -8,10 +8,10 @@
 #include <set>
 #include <stdexcept>
 
-#include "physics/contact_settings.h"
-#include "physics/degree.h"
-#include "physics/mesh_loader.h"
-#include "physics/mjcf_inertial.h"
+#include "physics/contacts.h"
+#include "physics/meshes.h"
+#include "physics/mjcf_files.h"
+#include "physics/rotations.h"
 #include "physics/xml_util.h"
 
 namespace franka_sim::physics {

@@ -6,8 +6,8 @@
 #include <map>
 #include <stdexcept>
 
-#include "physics/mjcf_inertial.h"
-#include "physics/sdf_files.h"
+#include "physics/mjcf_files.h"
+#include "physics/model_files.h"
 #include "physics/sdf_frames.h"
 #include "physics/sdf_scene.h"
 #include "physics/sdf_shapes.h"

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "physics/camera_sensor.h"
-#include "physics/mesh_loader.h"
+#include "physics/meshes.h"
 #include "physics/urdf_robot.h"
 
 namespace franka_sim::physics {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "physics/sdf_files.h"
+#include "physics/model_files.h"
 
 namespace franka_sim::physics {
 

@@ -19,7 +19,7 @@ using tinyxml2::XMLDocument;
 using tinyxml2::XMLElement;
 
 /// Limit for models that include each other.
-constexpr int kMaxDepth = 32;
+constexpr int kMaxElementDepth = 32;
 
 class Expander {
  public:
@@ -85,7 +85,7 @@ class Expander {
   XMLElement* included(const XMLElement& include, XMLDocument* into, const std::string& folder,
                        int depth) {
     const std::string uri = childText(include, "uri");
-    if (depth >= kMaxDepth) {
+    if (depth >= kMaxElementDepth) {
       throw std::runtime_error(title_ + ": models include each other without end, at '" + uri +
                                "'.");
     }

@@ -8,8 +8,8 @@
 #include <optional>
 #include <utility>
 
-#include "physics/compile.h"
 #include "physics/mjcf_robot.h"
+#include "physics/model_compiler.h"
 #include "physics/world_impl.h"
 
 namespace franka_sim {

@@ -2,16 +2,58 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/spin_rule.h>
 #include <mujoco/mujoco.h>
 
+#include <atomic>
+#include <functional>
 #include <optional>
+#include <thread>
 #include <vector>
 
-#include "physics/collision_scope.h"
 #include "physics/equality_solver.h"
-#include "physics/joint_friction.h"
+#include "physics/joint_dynamics.h"
+#include "physics/robot_clearance.h"
 
 namespace franka_sim::physics {
+
+/// Prepares the next step on a thread of its own while the stepping thread computes something else,
+/// so that a tick takes less time (decision 62).
+///
+/// Neither thread waits for the other one to wake up. This thread checks for requests without sleep
+/// while SpinRule recommends that, and the stepping thread cancels a request that has not begun.
+/// One stepping thread at a time calls request() and finish().
+class PreparationThread {
+ public:
+  /// @param prepare must not throw. Not real-time safe.
+  explicit PreparationThread(std::function<void()> prepare);
+  ~PreparationThread();
+  PreparationThread(const PreparationThread&) = delete;
+  PreparationThread& operator=(const PreparationThread&) = delete;
+
+  /// Asks for one call of `prepare`. Real-time safe.
+  void request() noexcept { state_.store(State::kRequested, std::memory_order_release); }
+  /// Returns when nothing is being prepared and nothing is requested any more; what `prepare` wrote
+  /// is visible then. Real-time safe.
+  void finish() noexcept {
+    if (state_.load(std::memory_order_acquire) != State::kIdle) {
+      cancelOrWait();
+    }
+  }
+
+ private:
+  enum class State { kIdle, kRequested, kRunning };
+
+  void run();
+  bool takeRequest() noexcept;
+  void cancelOrWait() noexcept;
+
+  std::function<void()> prepare_;
+  std::atomic<State> state_{State::kIdle};
+  std::atomic<bool> ends_{false};
+  franka_core::SpinRule spin_rule_;
+  std::thread thread_;
+};
 
 /// A number that is not finite, or beyond MuJoCo's range. MuJoCo itself would reset the whole world
 /// and continue (2.2 has no option against that), so it is checked before MuJoCo does.

@@ -7,7 +7,7 @@
 #include <map>
 #include <stdexcept>
 
-#include "physics/mjcf_inertial.h"
+#include "physics/mjcf_files.h"
 #include "physics/sdf_frames.h"
 #include "physics/xml_util.h"
 

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <stdexcept>
 
-#include "physics/engine_errors.h"
 #include "physics/glfw.h"
+#include "physics/model_compiler.h"
 #include "physics/mouse_push.h"
 #include "physics/scene_model.h"
 
@@ -20,7 +20,7 @@ using physics::glfw;
 namespace {
 
 constexpr int kWidth = 1200, kHeight = 900;  ///< [pixel]
-constexpr int kMaxGeoms = 4000;
+constexpr int kMaxWindowGeoms = 4000;
 constexpr double kZoomStep = 0.05;
 constexpr double kContactDot = 0.004;         ///< [m]
 constexpr double kMetresPerNewton = 0.005;    ///< length of contact force arrows
@@ -244,7 +244,7 @@ struct Window::Impl {
     mjr_freeContext(&context);
     mjr_makeContext(model, &context, mjFONTSCALE_150);
     mjv_freeScene(&scene);
-    mjv_makeScene(model, &scene, kMaxGeoms);
+    mjv_makeScene(model, &scene, kMaxWindowGeoms);
   }
 };
 

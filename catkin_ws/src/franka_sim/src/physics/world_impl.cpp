@@ -6,8 +6,8 @@
 #include <cstring>
 #include <stdexcept>
 
-#include "physics/model_lights.h"
-#include "physics/quaternions.h"
+#include "physics/rotations.h"
+#include "physics/scene_model.h"
 #include "physics/state_carry.h"
 
 namespace franka_sim {

@@ -15,19 +15,15 @@
 #include <string>
 #include <vector>
 
-#include "physics/collision_scope.h"
-#include "physics/compile.h"
-#include "physics/engine_errors.h"
-#include "physics/geom_contact.h"
-#include "physics/joint_friction.h"
+#include "physics/contacts.h"
+#include "physics/joint_dynamics.h"
 #include "physics/mjcf_world.h"
-#include "physics/model_identity.h"
-#include "physics/motor_side.h"
+#include "physics/model_compiler.h"
 #include "physics/object_rest.h"
 #include "physics/ownership.h"
 #include "physics/plants.h"
-#include "physics/preparation_thread.h"
 #include "physics/robot_clearance.h"
+#include "physics/scene_model.h"
 #include "physics/step_preparation.h"
 
 namespace franka_sim {

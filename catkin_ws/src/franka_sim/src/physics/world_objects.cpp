@@ -4,7 +4,7 @@
 /// @file
 /// World: objects and external changes at run time.
 
-#include <franka_sim/physics/sizes.h>
+#include <franka_sim/physics/body_properties.h>
 #include <franka_sim/physics/world.h>
 
 #include <algorithm>

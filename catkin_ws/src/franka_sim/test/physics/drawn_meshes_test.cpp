@@ -1,7 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/drawn_meshes.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -13,7 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "physics/compile.h"
+#include "physics/mesh_assets.h"
+#include "physics/model_compiler.h"
 
 namespace franka_sim::physics {
 namespace {

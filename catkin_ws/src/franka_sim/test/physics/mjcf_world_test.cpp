@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "physics/compile.h"
+#include "physics/model_compiler.h"
 #include "temporary_folder.h"
 #include "test_support.h"
 

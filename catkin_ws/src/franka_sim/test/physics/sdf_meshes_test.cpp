@@ -7,9 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "physics/kept_files.h"
-#include "physics/mesh_reader.h"
-#include "physics/triangle_mesh.h"
+#include "physics/meshes.h"
+#include "physics/model_files.h"
 #include "sdf_test.h"
 
 namespace franka_sim::test {

@@ -1,0 +1,137 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "physics/contacts.h"
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+namespace franka_sim::physics {
+namespace {
+
+/// A box in a pile has four contacts with each of the four boxes below it, and as many with
+/// neighbors at two of its sides. A robot has enough for a grasp and several links in contact
+/// (chosen here).
+constexpr int kContactsOfMovingGeom = 24;
+/// Memory grows with the square of the rows: with fewer of them contacts share their friction,
+/// which needs 32 rows for a box on four others.
+constexpr int kContactsWithRowsOfMovingGeom = 11;
+constexpr int kContactsOfRobot = 40;
+constexpr int kMinContacts = 100;
+/// Pads of a gripper have torsional friction.
+constexpr int kRowsOfGraspContact = 4;
+/// Of the joints' friction.
+constexpr int kRowsOfRobot = 9;
+/// MuJoCo 2.2 counts the bytes of a state in an int. For r rows and v degrees of freedom, its
+/// matrices of constraints take 12 r^2 + 24 r v; the rest of it gets what remains of the int.
+constexpr double kMaxMatrixBytes = 2.08e9;
+/// The stack is memory that is used where it is needed only; MuJoCo counts it in an int, too.
+constexpr double kMaxStack = 2.5e8;  // [numbers]
+
+int rowsWithoutContacts(const mjModel& model, int robots) {
+  int rows = 6 * model.neq + 3 * model.ntendon + kRowsOfRobot * robots;
+  for (int j = 0; j < model.njnt; ++j) {
+    rows += model.jnt_limited[j] != 0 ? 2 : 0;
+  }
+  for (int dof = 0; dof < model.nv; ++dof) {
+    rows += model.dof_frictionloss[dof] > 0 ? 1 : 0;
+  }
+  return rows;
+}
+
+/// Contacts of a pair of shapes follow each other.
+int endOfPair(const mjData& data, int first) noexcept {
+  int end = first + 1;
+  while (end < data.ncon && data.contact[end].geom1 == data.contact[first].geom1 &&
+         data.contact[end].geom2 == data.contact[first].geom2) {
+    ++end;
+  }
+  return end;
+}
+
+void shareFriction(mjData* data) noexcept {
+  constexpr int kSliding = 3;  // rows of a contact without torsional friction
+  for (int first = 0, end = 0; first < data->ncon; first = end) {
+    end = endOfPair(*data, first);
+    mjContact* const contacts = data->contact;
+    if (end - first <= 2 || contacts[first].dim != kSliding) {
+      continue;
+    }
+    const auto distance = [contacts, first](int c) {
+      double between[3];
+      mju_sub3(between, contacts[c].pos, contacts[first].pos);
+      return mju_norm3(between);
+    };
+    int farthest = first + 1;
+    for (int c = first + 2; c < end; ++c) {
+      farthest = distance(c) > distance(farthest) ? c : farthest;
+    }
+    const double share = 0.5 * (end - first);
+    for (int c = first; c < end; ++c) {
+      if (c != first && c != farthest) {
+        contacts[c].dim = 1;
+        continue;
+      }
+      for (double& friction : contacts[c].friction) {
+        friction *= share;
+      }
+    }
+  }
+}
+
+}  // namespace
+
+void setContactCapacity(mjModel* model, const std::vector<int>& robot_of_body,
+                        const GivenSizes& given) {
+  std::vector<bool> collides(model->ngeom);
+  int rows_of_contact = 3;
+  for (int geom = 0; geom < model->ngeom; ++geom) {
+    collides[geom] = (model->geom_contype[geom] | model->geom_conaffinity[geom]) != 0;
+    if (collides[geom]) {
+      rows_of_contact = std::max(rows_of_contact, model->geom_condim[geom]);
+    }
+  }
+  for (int pair = 0; pair < model->npair; ++pair) {
+    collides[model->pair_geom1[pair]] = collides[model->pair_geom2[pair]] = true;
+  }
+  int geoms = 0;
+  for (int geom = 0; geom < model->ngeom; ++geom) {
+    const int body = model->geom_bodyid[geom];
+    const bool is_object = robot_of_body[body] < 0 && model->body_weldid[body] != 0;
+    geoms += is_object && collides[geom] ? 1 : 0;
+  }
+  std::set<int> robots(robot_of_body.begin(), robot_of_body.end());
+  robots.erase(-1);
+  const int robot_count = static_cast<int>(robots.size());
+  if (!given.nconmax) {
+    model->nconmax =
+        std::max(kContactsOfMovingGeom * geoms, kMinContacts) + kContactsOfRobot * robot_count;
+  }
+  if (!given.njmax) {
+    const double v = model->nv;
+    const double most = std::sqrt(v * v + kMaxMatrixBytes / 12) - v;
+    const int contacts = std::max(kContactsWithRowsOfMovingGeom * geoms, kMinContacts);
+    const double rows = rowsWithoutContacts(*model, robot_count) + rows_of_contact * contacts +
+                        kRowsOfGraspContact * kContactsOfRobot * robot_count;
+    model->njmax = static_cast<int>(std::min(rows, most));
+  }
+  if (!given.nstack) {
+    const double side = model->njmax + model->neq + model->nv;
+    model->nstack = std::max(model->nstack, static_cast<int>(std::min(5 * side * side, kMaxStack)));
+  }
+}
+
+void firstHalf(const mjModel* model, mjData* data) {
+  const mjWarningStat before = data->warning[mjWARN_CNSTRFULL];
+  mj_step1(model, data);
+  if (data->warning[mjWARN_CNSTRFULL].number == before.number) {
+    return;
+  }
+  data->warning[mjWARN_CNSTRFULL] = before;
+  shareFriction(data);
+  mj_makeConstraint(model, data);
+  mj_projectConstraint(model, data);
+  mj_fwdVelocity(model, data);
+}
+
+}  // namespace franka_sim::physics

@@ -1,0 +1,165 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <franka_sim/physics/world.h>
+#include <franka_sim/serve/host.h>
+#include <franka_sim/serve/scene_commands.h>
+
+#include <atomic>
+#include <cstdint>
+#include <future>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "pace.h"
+#include "request_queue.h"
+#include "robot_instance.h"
+
+namespace franka_sim_mujoco {
+
+struct SimulationOptions {
+  std::string world_file;        ///< MJCF or SDF; empty: the empty world
+  double real_time_factor{1.0};  ///< see paceOf
+  double clock_rate{0.0};        ///< maximum rate of /clock in wall time [Hz]; 0: clockRateOf
+  bool paused{false};
+};
+
+/// Content of the world, and its settings.
+struct SimulationInventory {
+  std::vector<std::string> robots, objects, bodies, joints, cameras;
+  std::array<double, 3> gravity{};
+  bool paused{false};
+  double real_time_factor{1};
+};
+
+/// Progress of the simulation.
+struct SimulationState {
+  std::uint64_t tick{0};  ///< since the start; a reset does not change it
+  ros::Time time;
+  std::uint64_t state_hash{0};  ///< World::stateHash
+};
+
+/// The world, its robots and the one thread that steps them. A cycle serves requests; then the host
+/// keeps the pace and serves clients of served robots; then each other robot runs readSim,
+/// controllers, writeSim; then physics, then /clock.
+///
+/// While a robot waits for the controllers that its launch file starts (RobotPlan), time does not
+/// run faster than real time: the nodes that start them need the processors.
+///
+/// ROS time starts at 1 ms and grows by 1 ms per tick; it never goes back, not even when the world
+/// is reset. All public functions throw std::runtime_error with a sentence. Thread-safe.
+class Simulation {
+ public:
+  /// Builds the world. @throws std::runtime_error as World, or for a wrong factor
+  Simulation(const SimulationOptions& options, ros::NodeHandle& node);
+  ~Simulation();
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
+
+  void start();
+  /// Ends the stepping thread; later requests are refused.
+  void stop();
+  /// Whether the simulation ended because a tick failed.
+  bool failed() const noexcept { return failed_; }
+
+  void setPaused(bool paused);
+  void setRealTimeFactor(double factor);
+  /// Advances a paused simulation without waiting for the pace and returns when done.
+  SimulationState step(std::uint32_t ticks);
+  SimulationState state();
+  /// Resets everything to its initial state; controllers are restarted. A world that has stopped
+  /// (World::stopped) runs again.
+  void reset();
+
+  /// Adds a robot; as an object, if its URDF is that of one (franka_sim::isUrdfOfObject).
+  /// @returns World::unsupported of it
+  std::string spawn(const SpawnOrder& order);
+  void remove(const std::string& robot);  ///< or an object
+  /// @returns unsupported elements of the text, as World::unsupported, and robots that overlap the
+  /// object
+  std::string spawnObject(const std::string& name, const std::string& text,
+                          const franka_sim::Pose& pose);
+  void removeObject(const std::string& name);
+  SimulationInventory inventory();
+
+  /// Teleports joints; robots that have one of them restart their controllers.
+  /// @param velocities one per name
+  void setJoints(const std::vector<std::string>& names, const std::vector<double>& positions,
+                 const std::vector<double>& velocities);
+
+  /// Stores the world's state under a name (at most kMaxSnapshots). @returns its hash
+  std::uint64_t takeSnapshot(const std::string& name);
+  /// Restores the world; control units and controllers restart. @returns its hash
+  std::uint64_t restoreSnapshot(const std::string& name);
+  static constexpr std::size_t kMaxSnapshots = 32;
+
+  /// Runs work on the world in the stepping thread, between ticks.
+  void withWorld(const std::function<void(franka_sim::World&)>& work);
+
+  /// One line per robot for the user: its mode and errors. Call it in the work of withWorld.
+  std::vector<std::string> conditions() const;
+
+  /// Computing time of the stepping thread for a tick and for each of its parts [us]. Makes `ticks`
+  /// ticks without waiting for the whole, and as many again for the parts. Physics includes the
+  /// publishing of /clock.
+  struct Benchmark {
+    double tick{0}, physics{0}, read{0}, update{0}, write{0}, bare{0};
+  };
+  Benchmark benchmark(std::uint32_t ticks);
+
+ private:
+  void loop();
+  void advance();
+  /// Makes ticks without waiting. @returns the mean computing time of one [us]
+  double timeTicks(std::uint32_t ticks);
+  void standStill();
+  void finishStepping();
+  /// Of an object that a URDF describes.
+  void placeJoints(const SpawnOrder& order);
+  void reportWarnings();
+  /// Reports faults of the world; one that has stopped pauses the simulation.
+  void watchWorld();
+  /// @throws std::runtime_error with a sentence if the world has stopped
+  void requireRunningWorld() const;
+  /// Call after the world was reset or restored.
+  void worldWasReset();
+  /// Limits the pace while robots start, and restores it afterwards.
+  void reviewPace();
+  void applyPace();
+  SimulationState stateNow() const;
+  ros::Time time() const;
+  /// @throws std::runtime_error with a sentence while a client moves a robot
+  void requireRest() const;
+  RobotInstance* find(const std::string& name);
+  OperatorAccess operatorAccess();
+  std::vector<franka_sim::SceneRobot> sceneRobots() const;
+
+  RequestQueue requests_;
+  HardwareLoader loader_;
+  franka_sim::World world_;
+  std::vector<std::unique_ptr<RobotInstance>> robots_;
+  std::map<std::string, franka_sim::Snapshot> snapshots_;
+  ClockPublisher clock_;
+  franka_sim::fci::Host host_;
+  franka_sim::SceneText scene_;
+  ShortSleeps short_sleeps_;
+  TickTimes times_;
+  bool timing_{false};
+  double real_time_factor_;
+  double clock_rate_;
+  bool starting_{false};  ///< pace is limited now
+  bool paused_;
+  bool paused_by_fault_{false};  ///< the world has stopped
+  std::uint64_t tick_count_{0};
+  std::uint32_t steps_left_{0};
+  std::optional<std::promise<SimulationState>> stepped_;
+  std::atomic<bool> stop_{false}, failed_{false};
+  std::thread thread_;
+};
+
+}  // namespace franka_sim_mujoco
