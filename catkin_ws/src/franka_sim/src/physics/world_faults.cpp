@@ -120,13 +120,10 @@ std::vector<Overlap> World::overlaps(const std::string& robot) const {
                          return candidate.name != "world" && candidate.name == link;
                        });
   };
-  const mjModel& model = *impl_->model;
-  const physics::EngineErrorScope scope;
-  const physics::DataPtr data = physics::copyData(model, *impl_->data);
-  mj_fwdPosition(&model, data.get());
+  const mjData& data = impl_->findContacts();
   std::vector<Overlap> result;
-  for (int c = 0; c < data->ncon; ++c) {
-    const mjContact& contact = data->contact[c];
+  for (int c = 0; c < data.ncon; ++c) {
+    const mjContact& contact = data.contact[c];
     std::string link = impl_->geom_links[contact.geom1], body = impl_->geom_links[contact.geom2];
     if (owned(body)) {
       std::swap(link, body);

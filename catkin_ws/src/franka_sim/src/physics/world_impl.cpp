@@ -488,6 +488,16 @@ const std::vector<GeomContact>& World::Impl::contacts() noexcept {
   return kept_contacts;
 }
 
+const mjData& World::Impl::findContacts() {
+  contacts();
+  contacts_kept = true;
+  preparation.drop();
+  updateKinematics();
+  const physics::EngineErrorScope scope;
+  mj_collision(model.get(), data.get());
+  return *data;
+}
+
 void World::Impl::reset() {
   mj_resetData(model.get(), data.get());
   placeInitially(*model, data.get(), robots);

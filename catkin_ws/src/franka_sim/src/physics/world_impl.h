@@ -116,7 +116,10 @@ struct World::Impl {
   /// Decides about the next tick and sets the length of its physics steps; returns their number.
   int startTick();
   const std::vector<GeomContact>& contacts() noexcept;  ///< of the last step
-  bool isObject(int body) const noexcept;               ///< one that can move
+  /// Searches the present state for contacts, and keeps those of the last step for contacts().
+  /// @returns data with what was found, without forces. @throws EngineError
+  const mjData& findContacts();
+  bool isObject(int body) const noexcept;  ///< one that can move
   const std::string& faultText();
   void requireRuns();  ///< throws the fault's sentence
   void clearFaults() noexcept;

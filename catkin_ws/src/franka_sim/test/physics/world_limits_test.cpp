@@ -276,5 +276,25 @@ TEST(Overlaps, AreReportedForARobotThatStartsInTheTable) {
   EXPECT_NE(std::string::npos, world.describeOverlaps("panda").find("fr3_link"));
 }
 
+TEST(Overlaps, AreFoundWithoutEffectOnTheWorld) {
+  const auto run = [](World& world, int ticks) {
+    for (int i = 0; i < ticks; ++i) {
+      world.step();
+    }
+  };
+  World searched(test::world("stone")), other(test::world("stone"));
+  for (World* world : {&searched, &other}) {
+    world->addRobot(robot("panda"));
+    run(*world, 20);
+  }
+  EXPECT_NE("", searched.describeOverlaps("panda"));
+  ASSERT_FALSE(other.contacts().empty());
+  ASSERT_EQ(other.contacts().size(), searched.contacts().size());
+  EXPECT_EQ(other.contacts()[0].force, searched.contacts()[0].force);
+  run(searched, 100);
+  run(other, 100);
+  EXPECT_EQ(other.stateHash(), searched.stateHash());
+}
+
 }  // namespace
 }  // namespace franka_sim::test
