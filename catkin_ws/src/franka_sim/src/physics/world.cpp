@@ -57,50 +57,6 @@ World::Impl& World::Access::operator*() const noexcept {
   return *impl_;
 }
 
-void World::addRobot(const RobotDescription& robot) {
-  const std::string whose = " of the robot '" + robot.name + "'";
-  sizes::check(robot.base.position, sizes::kMaxPosition, "m", "The position" + whose);
-  for (const auto& [joint, position] : robot.initial_positions) {
-    sizes::check(position, sizes::kMaxPosition, "m or rad",
-                 "The initial position of joint '" + joint + "'" + whose);
-  }
-  const auto present = robots();
-  if (std::find(present.begin(), present.end(), robot.name) != present.end()) {
-    throw std::runtime_error("There is already a robot '" + robot.name +
-                             "' in the simulated world; give the new one another name.");
-  }
-  auto added = std::make_unique<physics::RobotModel>(physics::buildRobot(robot));
-  for (const physics::UrdfLink& link : added->urdf.links) {
-    if (link.name != "world" && impl_->frames.count(link.name) > 0) {
-      throw std::runtime_error("Robot '" + robot.name + "' brings a link '" + link.name +
-                               "', and the simulated world has a body of that name already; give "
-                               "the robot another arm_id.");
-    }
-  }
-  for (const physics::UrdfJoint& joint : added->urdf.joints) {
-    if (joint.type != physics::UrdfJoint::Type::kFixed && impl_->has(joint.name)) {
-      throw std::runtime_error("Robot '" + robot.name + "' brings a joint '" + joint.name +
-                               "', and the simulated world has a joint of that name already; give "
-                               "the robot another arm_id.");
-    }
-  }
-  std::vector<std::unique_ptr<physics::RobotModel>> all = impl_->copyRobots();
-  all.push_back(std::move(added));
-  impl_->rebuild(&all);
-  impl_->news.insert(unsupported(robot.name));
-}
-
-void World::removeRobot(const std::string& name) {
-  impl_->robot(name);
-  std::vector<std::unique_ptr<physics::RobotModel>> rest;
-  for (const auto& robot : impl_->robots) {
-    if (robot->description.name != name) {
-      rest.push_back(std::make_unique<physics::RobotModel>(*robot));
-    }
-  }
-  impl_->rebuild(&rest);
-}
-
 std::vector<std::string> World::robots() const {
   std::vector<std::string> names;
   for (const auto& robot : impl_->robots) {

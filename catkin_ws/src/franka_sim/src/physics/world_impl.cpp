@@ -36,98 +36,46 @@ bool isOfRobot(const physics::Ownership& owners, const mjContact& contact) {
   return owners.robot_of_geom[contact.geom1] >= 0 || owners.robot_of_geom[contact.geom2] >= 0;
 }
 
-/// Per MuJoCo body the index of its robot, or -1.
-std::vector<int> robotOfBody(const mjModel& model,
-                             const std::vector<std::unique_ptr<RobotModel>>& robots) {
-  std::vector<int> robot_of_body(model.nbody, -1);
-  for (std::size_t r = 0; r < robots.size(); ++r) {
-    for (const physics::Segment& segment : robots[r]->segments) {
-      const std::string& link = robots[r]->urdf.links[segment.link].name;
-      const int body = mj_name2id(&model, mjOBJ_BODY, link.c_str());
-      if (body > 0) {
-        robot_of_body[body] = static_cast<int>(r);
-      }
-    }
-  }
-  return robot_of_body;
-}
-
 }  // namespace
 
 World::Impl::Impl(const std::string& file, ResourceResolver resolve)
-    : world(std::make_unique<physics::MjcfWorld>(file, std::move(resolve))) {
+    : world(std::make_shared<physics::MjcfWorld>(file, std::move(resolve))) {
   pushes.reserve(kExpectedPushes);
-  std::vector<std::unique_ptr<RobotModel>> none;
-  rebuild(&none);
+  const auto first = beginChange();
+  first->compile();
+  exchange(*first);
 }
 
-void World::Impl::placeInitially(const mjModel& m, mjData* d,
-                                 const std::vector<std::unique_ptr<RobotModel>>& all) const {
-  for (const auto& robot : all) {
-    for (const physics::UrdfJoint& joint : robot->urdf.joints) {
-      const int id = mj_name2id(&m, mjOBJ_JOINT, joint.name.c_str());
-      if (joint.type != physics::UrdfJoint::Type::kFixed && id >= 0) {
-        d->qpos[m.jnt_qposadr[id]] = robot->initialPosition(joint);
-      }
-    }
-  }
-}
-
-std::vector<std::unique_ptr<RobotModel>> World::Impl::copyRobots() const {
-  std::vector<std::unique_ptr<RobotModel>> copies;
-  for (const auto& robot : robots) {
-    copies.push_back(std::make_unique<RobotModel>(*robot));
-  }
-  return copies;
-}
-
-void World::Impl::rebuild(std::vector<std::unique_ptr<RobotModel>>* candidates,
-                          std::unique_ptr<physics::MjcfWorld> new_world) {
+void World::Impl::exchange(WorldChange::Content& change) {
   faultText();  // while its model still exists
-  const physics::MjcfWorld& merged = new_world ? *new_world : *world;
-  std::vector<const RobotModel*> list;
-  for (const auto& robot : *candidates) {
-    list.push_back(robot.get());
-  }
-  const std::string title =
-      list.empty() ? merged.title()
-                   : merged.title() + " with robot '" + list.back()->description.name + "'";
-  physics::ModelPtr new_model = physics::compile(merged.merge(list, false), title);
-  physics::setContactCapacity(new_model.get(), robotOfBody(*new_model, *candidates),
-                              merged.givenSizes());
-  physics::ModelIdentity new_identity = physics::identityOf(*new_model, list);
   if (set_gravity) {
-    std::copy(set_gravity->begin(), set_gravity->end(), new_model->opt.gravity);
+    std::copy(set_gravity->begin(), set_gravity->end(), change.model->opt.gravity);
   }
   std::map<std::string, WorldLight> kept_lights;
   for (const auto& [name, light] : set_lights) {
-    const int id = mj_name2id(new_model.get(), mjOBJ_LIGHT, name.c_str());
+    const int id = mj_name2id(change.model.get(), mjOBJ_LIGHT, name.c_str());
     if (id >= 0) {
-      physics::writeLight(new_model.get(), id, light);
+      physics::writeLight(change.model.get(), id, light);
       kept_lights.emplace(name, light);
     }
   }
-  physics::DataPtr new_data = physics::makeData(*new_model);
-  mj_resetData(new_model.get(), new_data.get());
-  placeInitially(*new_model, new_data.get(), *candidates);
   std::map<std::string, double> torques;
   const physics::JointFrictions old_frictions = frictions;
   if (model) {
-    physics::carryState(*model, *data, *new_model, new_data.get());
+    physics::carryState(*model, *data, *change.model, change.data.get());
     for (int j = 0; j < model->njnt; ++j) {
       torques[nameOf(*model, mjOBJ_JOINT, j)] = motor_side.torque(model->jnt_dofadr[j]);
     }
   }
   // Nothing below throws, except for lack of memory.
-  robots.swap(*candidates);
-  if (new_world) {
-    world = std::move(new_world);
-  }
-  generation = physics::uniqueModelNumber();
-  identity = std::move(new_identity);
+  robots.swap(change.robots);
+  world.swap(change.world);
+  std::swap(identity, change.identity);
   set_lights.swap(kept_lights);
-  model.swap(new_model);
-  data.swap(new_data);
+  model.swap(change.model);
+  data.swap(change.data);
+  data->ncon = 0;  // those of a model that was taken back
+  generation = change.generation = physics::uniqueModelNumber();
   index();
   for (const auto& [joint, torque] : torques) {
     const int id = mj_name2id(model.get(), mjOBJ_JOINT, joint.c_str());
@@ -161,7 +109,7 @@ void World::Impl::index() {
   kinematics_fresh = false;
   kept_qpos.assign(model->nq, 0.0);
   preparation.fit(*model);
-  owners = physics::Ownership(*model, robotOfBody(*model, robots));
+  owners = physics::Ownership(*model, physics::robotOfBody(*model, robots));
   clearance.fit(*model, owners);
   object_rest.fit(*model, owners);
   collisions.fit(*model, owners);
@@ -500,7 +448,7 @@ const mjData& World::Impl::findContacts() {
 
 void World::Impl::reset() {
   mj_resetData(model.get(), data.get());
-  placeInitially(*model, data.get(), robots);
+  physics::placeInitially(*model, data.get(), robots);
   for (auto& [key, arm] : arms) {
     arm->reset();
   }

@@ -8,6 +8,8 @@
 
 #include <Eigen/Geometry>
 #include <array>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <optional>
@@ -48,12 +50,39 @@ struct NamedFrame {
   Frame frame;
 };
 
+namespace physics {
+
+/// In the order of addition.
+using Robots = std::vector<std::shared_ptr<const RobotModel>>;
+
+/// Puts robots' joints at their initial positions.
+void placeInitially(const mjModel& model, mjData* data, const Robots& robots);
+/// Per MuJoCo body the index of its robot, or -1.
+std::vector<int> robotOfBody(const mjModel& model, const Robots& robots);
+
+}  // namespace physics
+
+/// The content of a world and the model compiled from it. compile() uses nothing else of the world.
+struct WorldChange::Content {
+  std::shared_ptr<const physics::MjcfWorld> world;
+  physics::Robots robots;
+  std::uint64_t generation{0};             ///< of the model that it replaces
+  std::string added;                       ///< name of what is added; or empty
+  std::function<void(Content&)> describe;  ///< changes `world` or `robots`
+
+  physics::ModelPtr model;
+  physics::DataPtr data;  ///< in its initial state
+  physics::ModelIdentity identity;
+
+  void compile();
+};
+
 struct World::Impl {
   Impl(const std::string& file, ResourceResolver resolve);
 
   // World file with objects, and robots, in the order of addition.
-  std::unique_ptr<physics::MjcfWorld> world;
-  std::vector<std::unique_ptr<physics::RobotModel>> robots;
+  std::shared_ptr<const physics::MjcfWorld> world;
+  physics::Robots robots;
   std::map<std::string, std::unique_ptr<physics::MujocoArm>> arms;      ///< "<robot>/<arm_id>"
   std::map<std::string, std::unique_ptr<physics::MujocoHand>> hands;    ///< "<robot>/<arm_id>"
   std::map<std::string, std::unique_ptr<physics::MujocoDrive>> drives;  ///< by the joint's name
@@ -96,12 +125,11 @@ struct World::Impl {
   /// Calls prepareStep(). The last member: it ends before the others do.
   std::unique_ptr<physics::PreparationThread> preparation_thread;
 
-  /// Rebuilds the merged model of the given robots, with the present state carried over by name.
-  /// Strong guarantee. @param new_world replaces the present one, unless null
-  void rebuild(std::vector<std::unique_ptr<physics::RobotModel>>* candidates,
-               std::unique_ptr<physics::MjcfWorld> new_world = nullptr);
-  /// Copies of the present robots, as a base for candidates.
-  std::vector<std::unique_ptr<physics::RobotModel>> copyRobots() const;
+  /// A change that begins with the present world and robots.
+  std::shared_ptr<WorldChange::Content> beginChange() const;
+  /// Exchanges the model and what it was compiled from with those of the change. The present state
+  /// is carried over by name. Strong guarantee.
+  void exchange(WorldChange::Content& change);
   /// @throws std::runtime_error when a body of that name exists
   void checkNewBody(const std::string& body, const std::string& of) const;
   void step() noexcept;
@@ -138,8 +166,6 @@ struct World::Impl {
   const physics::RobotModel& robot(const std::string& name) const;  ///< throws
 
  private:
-  void placeInitially(const mjModel& m, mjData* d,
-                      const std::vector<std::unique_ptr<physics::RobotModel>>& all) const;
   void index();
   void orderFrames();
   void bindPlants();

@@ -22,28 +22,6 @@ bool hasOneDegree(const mjModel& model, int joint) {
 
 }  // namespace
 
-void World::addObject(const std::string& name, const std::string& text, const Pose& pose) {
-  impl_->checkNewBody(name, "Object '" + name + "'");
-  const auto names = robots();
-  if (std::find(names.begin(), names.end(), name) != names.end()) {
-    throw std::runtime_error("Object '" + name +
-                             "' cannot be put into the simulated world: a robot "
-                             "has that name; choose another one.");
-  }
-  sizes::check(pose.position, sizes::kMaxPosition, "m",
-               "The position in the pose of object '" + name + "'");
-  auto new_world = impl_->world->with(name, text, pose);
-  auto same_robots = impl_->copyRobots();
-  impl_->rebuild(&same_robots, std::move(new_world));
-  impl_->news.insert(unsupported(name));
-}
-
-void World::removeObject(const std::string& name) {
-  auto new_world = impl_->world->without(name);
-  auto same_robots = impl_->copyRobots();
-  impl_->rebuild(&same_robots, std::move(new_world));
-}
-
 std::vector<std::string> World::objects() const { return impl_->world->objects(); }
 
 std::string World::unsupported(const std::string& name) const {

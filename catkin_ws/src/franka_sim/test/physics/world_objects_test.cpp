@@ -5,7 +5,10 @@
 #include <franka_sim/physics/urdf_text.h>
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <cmath>
+#include <functional>
+#include <thread>
 
 #include "physics/world_impl.h"
 #include "test_support.h"
@@ -237,6 +240,86 @@ TEST(WorldObjects, ErrorsHaveACauseAndChangeNothing) {
   expectSentence([&] { world.removeObject("nobody"); }, {"nobody"});
   EXPECT_THAT(world.objects(), ElementsAre("ball"));
   EXPECT_THAT(world.bodies(), Not(Contains("x")));
+}
+
+/// A change that is compiled while the world is stepped gives the same bits as one made at once.
+TEST(WorldChanges, CompiledDuringTicksRepeatBitForBit) {
+  const struct {
+    const char* what;
+    RobotDescription present;
+    std::function<WorldChange(World&)> begin;
+    std::function<void(World&)> at_once;
+  } cells[] = {
+      {"new object", robot("panda"),
+       [](World& w) { return w.beginAddObject("cube", kUrdf, at(1, 1, 0.3)); },
+       [](World& w) { w.addObject("cube", kUrdf, at(1, 1, 0.3)); }},
+      {"new robot", robot("panda"), [](World& w) { return w.beginAddRobot(robot("fr3")); },
+       [](World& w) { w.addRobot(robot("fr3")); }},
+      {"object less", robot("fr3"), [](World& w) { return w.beginRemoveObject("other"); },
+       [](World& w) { w.removeObject("other"); }},
+      {"robot less", robot("fr3"), [](World& w) { return w.beginRemoveRobot("fr3"); },
+       [](World& w) { w.removeRobot("fr3"); }},
+  };
+  for (const auto& cell : cells) {
+    SCOPED_TRACE(cell.what);
+    World stepped, at_once;
+    for (World* world : {&stepped, &at_once}) {
+      world->addRobot(cell.present);
+      world->addObject("ball", kBall, at(-1, 0, 0.5));
+      world->addObject("other", kUrdf, at(0, -1, 0.5));
+    }
+    WorldChange change = cell.begin(stepped);
+    std::atomic<bool> compiled{false};
+    std::thread thread([&] {
+      change.compile();
+      compiled = true;
+    });
+    int ticks = 0;
+    for (; ticks < 10 || !compiled; ++ticks) {
+      stepped.step();
+    }
+    thread.join();
+    stepped.setGravity({0, 0, -5});  // the model has been compiled before
+    stepped.apply(change);
+    run(at_once, ticks);
+    at_once.setGravity({0, 0, -5});
+    cell.at_once(at_once);
+    EXPECT_EQ(at_once.stateHash(), stepped.stateHash());
+    run(stepped, 200);
+    run(at_once, 200);
+    EXPECT_EQ(at_once.stateHash(), stepped.stateHash());
+  }
+}
+
+TEST(WorldChanges, AreNotAppliedAfterAnotherOne) {
+  World world;
+  WorldChange late = world.beginAddObject("cube", kUrdf, at(0, 1, 2));
+  EXPECT_THROW(world.apply(late), std::logic_error) << "not compiled";
+  late.compile();
+  world.addObject("ball", kBall, at(1, 0, 0.5));
+  const std::uint64_t before = world.stateHash();
+  EXPECT_THROW(world.apply(late), std::logic_error);
+  EXPECT_EQ(before, world.stateHash());
+  EXPECT_THAT(world.objects(), ElementsAre("ball"));
+}
+
+TEST(WorldChanges, AreTakenBack) {
+  World changed, unchanged;
+  for (World* world : {&changed, &unchanged}) {
+    world->addObject("ball", kBall, at(1, 0, 0));
+    run(*world, 400);
+  }
+  WorldChange change = changed.beginAddRobot(robot("panda"));
+  change.compile();
+  changed.apply(change);
+  EXPECT_THAT(changed.robots(), ElementsAre("panda"));
+  changed.apply(change);
+  EXPECT_THAT(changed.robots(), ElementsAre());
+  EXPECT_EQ(unchanged.stateHash(), changed.stateHash());
+  run(changed, 400);
+  run(unchanged, 400);
+  EXPECT_EQ(unchanged.stateHash(), changed.stateHash());
+  EXPECT_NO_THROW(changed.addRobot(robot("panda")));
 }
 
 TEST(WorldObjects, TwistsReferToTheBodysOrigin) {

@@ -133,6 +133,21 @@ class Snapshot {
   std::shared_ptr<const Content> content_;
 };
 
+/// A robot or an object that is added to a world or removed from it, in three steps, because the
+/// second one takes up to seconds: World::beginAddRobot() and the like, compile(), World::apply().
+class WorldChange {
+ public:
+  struct Content;
+  explicit WorldChange(std::shared_ptr<Content> content) : content_(std::move(content)) {}
+  /// Compiles the new model. Any thread may call it while another one uses the world, and may step
+  /// it. Not real-time safe. @throws std::runtime_error with a sentence if the change is impossible
+  void compile();
+  Content& content() noexcept { return *content_; }  ///< for World
+
+ private:
+  std::shared_ptr<Content> content_;
+};
+
 /// The simulated world: an MJCF or SDF world file with robots from URDFs, stepped in ticks of 1 ms.
 ///
 /// Called by one thread at a time. Functions that change the set of robots allocate and throw
@@ -162,6 +177,21 @@ class World {
   void addObject(const std::string& name, const std::string& text, const Pose& pose);
   void removeObject(const std::string& name);  ///< its state is lost
   std::vector<std::string> objects() const;    ///< names
+
+  /// @name First step of a change. The four functions above make all three steps.
+  /// @{
+  WorldChange beginAddRobot(const RobotDescription& robot) const;
+  WorldChange beginRemoveRobot(const std::string& name) const;
+  WorldChange beginAddObject(const std::string& name, const std::string& text,
+                             const Pose& pose) const;
+  WorldChange beginRemoveObject(const std::string& name) const;
+  /// @}
+  /// Last step: what is added begins in its initial state; all else keeps the state that it has
+  /// now. A second call takes the change back. Takes less than a tick. Not real-time safe.
+  /// @throws std::logic_error before compile(), or if another change was applied since the first
+  /// step
+  void apply(WorldChange& change);
+
   /// One sentence that names elements of the world file (or of an object or robot) that are not
   /// simulated as they are written; empty when there are none.
   std::string unsupported(const std::string& name = "") const;
