@@ -14,6 +14,7 @@ from fci_motion import begin, drive, hold
 from fci_wire import COMMUNICATION, IDLE, LAYOUTS, MOVE, REFLEX, STOP, Client
 from franka_msgs.srv import SetLoad
 from franka_sim_mujoco.srv import (
+    DeleteObject,
     DeleteRobot,
     GetJointStates,
     GetServedRobot,
@@ -21,6 +22,8 @@ from franka_sim_mujoco.srv import (
     SetJointStates,
     SetPacketDelay,
     SetPacketLoss,
+    SetRealTimeFactor,
+    SpawnObject,
     SpawnRobot,
     TakeSnapshot,
 )
@@ -41,6 +44,7 @@ USER_STOPPED = 5
 SUCCESS, PREEMPTED = 0, 2  # statuses of replies
 OK = (True, "")
 NOTHING = [0.0] * 9  # as an inertia
+BALL = "<body name='ball'><freejoint/><geom type='sphere' size='0.05' mass='0.3'/></body>"
 
 pytestmark = pytest.mark.own_process
 
@@ -270,6 +274,19 @@ def test_a_paused_world_pauses_its_motions(client):
     motion.during(call, "/gazebo/unpause_physics", Empty)
     motion.run(100)
     end = motion.end()
+    assert (end["status"], end["mode"]) == (0, IDLE)
+
+
+@pytest.mark.parametrize(("robot", "factor"), [("panda", 0.0), ("fr3", 1.0)], indirect=["robot"])
+def test_objects_come_and_go_during_a_motion(client, factor):
+    call("/gazebo/set_real_time_factor", SetRealTimeFactor, factor)
+    motion = Motion(client)
+    motion.run(100, finish=False)
+    assert motion.during(call, "/gazebo/spawn_object", SpawnObject, "ball", BALL, at(2, 2, 1)).success
+    assert motion.during(call, "/gazebo/delete_object", DeleteObject, "ball").success
+    motion.run(100)
+    end = motion.end()
+    call("/gazebo/set_real_time_factor", SetRealTimeFactor, 0.0)
     assert (end["status"], end["mode"]) == (0, IDLE)
 
 

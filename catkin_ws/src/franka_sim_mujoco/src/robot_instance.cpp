@@ -54,8 +54,8 @@ class Stopwatch {
 }  // namespace
 
 RobotInstance::RobotInstance(const RobotPlan& plan, franka_sim::World& world,
-                             HardwareLoader& loader, BetweenTicks between_ticks,
-                             const OperatorAccess& access)
+                             franka_sim::WorldChange& added, HardwareLoader& loader,
+                             BetweenTicks between_ticks, const OperatorAccess& access)
     : name_(plan.description.name), control_ticks_(plan.control_ticks) {
   for (const SimulatedArm& arm : plan.arms) {
     if (!arm.type.empty()) {
@@ -65,7 +65,7 @@ RobotInstance::RobotInstance(const RobotPlan& plan, franka_sim::World& world,
   for (const auto& joint : plan.urdf.joints_) {
     joints_.insert(joint.first);
   }
-  world.addRobot(plan.description);
+  world.apply(added);
   try {
     start(plan, world, loader, std::move(between_ticks), access);
   } catch (...) {
@@ -73,7 +73,7 @@ RobotInstance::RobotInstance(const RobotPlan& plan, franka_sim::World& world,
     joint_states_.reset();
     manager_.reset();
     hardware_.reset();
-    world.removeRobot(name_);
+    world.apply(added);  // takes it back
     throw;
   }
 }

@@ -75,9 +75,10 @@ struct TickTimes {
 class RobotInstance {
  public:
   /// Adds the robot to the world and starts its hardware; the world is unchanged if it throws.
+  /// @param added adds plan.description; compiled
   /// @throws std::runtime_error with a sentence
-  RobotInstance(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
-                BetweenTicks between_ticks, const OperatorAccess& access);
+  RobotInstance(const RobotPlan& plan, franka_sim::World& world, franka_sim::WorldChange& added,
+                HardwareLoader& loader, BetweenTicks between_ticks, const OperatorAccess& access);
   ~RobotInstance();
   RobotInstance(const RobotInstance&) = delete;
   RobotInstance& operator=(const RobotInstance&) = delete;

@@ -25,6 +25,9 @@ constexpr std::chrono::milliseconds kServedIdleSleep{1};  ///< if clients wait
 constexpr std::chrono::milliseconds kIdleSleep{20};
 /// Compiling a world with several robots takes seconds on a slow machine.
 constexpr std::chrono::milliseconds kSpawnTimeout{60000};
+/// While time waits for the compiler, clients see so often that the robots are there (chosen here:
+/// they give up after a second, and what an idle one receives in lock-step hardly depends on it).
+constexpr std::chrono::milliseconds kStandStillPeriod{300};
 constexpr double kMaxClockRate = 1000.0;  ///< [Hz] (decision 22)
 
 /// The time for reading a thread's clock, which is a tenth of a tick [us].
@@ -299,17 +302,20 @@ std::string Simulation::spawn(const SpawnOrder& order) {
   }
   const RobotPlan plan = planRobot(order);
   std::string notes;
-  requests_.run(
+  change(
       [&] {
         if (find(order.name) != nullptr) {
           throw std::runtime_error("There already is a robot named '" + order.name +
                                    "': choose another name or delete that one first.");
         }
+        return world_.beginAddRobot(plan.description);
+      },
+      [&](franka_sim::WorldChange& added) {
         const BetweenTicks between_ticks = [this](const std::function<void()>& work) {
           requests_.run(work);
         };
-        auto robot =
-            std::make_unique<RobotInstance>(plan, world_, loader_, between_ticks, operatorAccess());
+        auto robot = std::make_unique<RobotInstance>(plan, world_, added, loader_, between_ticks,
+                                                     operatorAccess());
         if (robot->served() != nullptr) {
           robot->served()->addTo(host_);
         }
@@ -321,10 +327,38 @@ std::string Simulation::spawn(const SpawnOrder& order) {
           ROS_WARN_NAMED(kLog, "%s Give it another place (x, y, z) or other joint positions.",
                          overlaps.c_str());
         }
-        host_.restartClock();
+      });
+  return notes;
+}
+
+void Simulation::change(const std::function<franka_sim::WorldChange()>& begin,
+                        const std::function<void(franka_sim::WorldChange&)>& finish) {
+  const std::lock_guard<std::mutex> one_at_a_time(change_mutex_);
+  std::optional<franka_sim::WorldChange> change;
+  bool finished = false;
+  const auto finish_it = [&] {
+    finish(*change);
+    host_.restartClock();
+    finished = true;
+  };
+  requests_.run(
+      [&] {
+        change.emplace(begin());
+        if (real_time_factor_ > 0.0 && steps_left_ == 0) {
+          return;
+        }
+        auto compiled = std::async(std::launch::async, [&] { change->compile(); });
+        while (compiled.wait_for(kStandStillPeriod) != std::future_status::ready) {
+          host_.standStill();
+        }
+        compiled.get();
+        finish_it();
       },
       kSpawnTimeout);
-  return notes;
+  if (!finished) {
+    change->compile();
+    requests_.run(finish_it, kSpawnTimeout);
+  }
 }
 
 void Simulation::placeJoints(const SpawnOrder& order) {
@@ -344,26 +378,30 @@ void Simulation::placeJoints(const SpawnOrder& order) {
 
 void Simulation::remove(const std::string& name) {
   std::unique_ptr<RobotInstance> removed;
-  requests_.run([&] {
-    const std::vector<std::string> objects = world_.objects();
-    if (std::find(objects.begin(), objects.end(), name) != objects.end()) {
-      world_.removeObject(name);  // its URDF was that of an object
-      return;
-    }
-    const auto robot = std::find_if(robots_.begin(), robots_.end(), [&](const auto& candidate) {
-      return candidate->name() == name;
-    });
-    if (robot == robots_.end()) {
-      throw std::runtime_error("There is no robot named '" + name + "'.");
-    }
-    removed = std::move(*robot);
-    if (removed->served() != nullptr) {
-      removed->served()->removeFrom(host_);
-    }
-    robots_.erase(robot);
-    world_.removeRobot(name);
-    host_.restartClock();
-  });
+  change(
+      [&] {
+        const std::vector<std::string> objects = world_.objects();
+        if (std::find(objects.begin(), objects.end(), name) != objects.end()) {
+          return world_.beginRemoveObject(name);  // its URDF was that of an object
+        }
+        if (find(name) == nullptr) {
+          throw std::runtime_error("There is no robot named '" + name + "'.");
+        }
+        return world_.beginRemoveRobot(name);
+      },
+      [&](franka_sim::WorldChange& rest) {
+        const auto robot = std::find_if(robots_.begin(), robots_.end(), [&](const auto& candidate) {
+          return candidate->name() == name;
+        });
+        if (robot != robots_.end()) {
+          removed = std::move(*robot);
+          if (removed->served() != nullptr) {
+            removed->served()->removeFrom(host_);
+          }
+          robots_.erase(robot);
+        }
+        world_.apply(rest);
+      });
   // Destroyed outside of the stepping thread: its action servers and services may wait for their
   // threads.
   removed.reset();
@@ -372,31 +410,27 @@ void Simulation::remove(const std::string& name) {
 std::string Simulation::spawnObject(const std::string& name, const std::string& text,
                                     const franka_sim::Pose& pose) {
   std::string unsupported;
-  requests_.run(
-      [&] {
-        const std::vector<std::string> before = world_.bodies();
-        world_.addObject(name, text, pose);
-        unsupported = world_.unsupported(name);
-        reportWarnings();
-        for (const std::string& robot : world_.robots()) {
-          for (const franka_sim::Overlap& overlap : world_.overlaps(robot)) {
-            if (std::find(before.begin(), before.end(), overlap.body) == before.end()) {
-              unsupported += (unsupported.empty() ? "" : " ") + overlap.body + " begins within " +
-                             overlap.link + ", which it will push.";
-            }
-          }
-        }
-        host_.restartClock();
-      },
-      kSpawnTimeout);
+  change([&] { return world_.beginAddObject(name, text, pose); },
+         [&](franka_sim::WorldChange& added) {
+           const std::vector<std::string> before = world_.bodies();
+           world_.apply(added);
+           unsupported = world_.unsupported(name);
+           reportWarnings();
+           for (const std::string& robot : world_.robots()) {
+             for (const franka_sim::Overlap& overlap : world_.overlaps(robot)) {
+               if (std::find(before.begin(), before.end(), overlap.body) == before.end()) {
+                 unsupported += (unsupported.empty() ? "" : " ") + overlap.body +
+                                " begins within " + overlap.link + ", which it will push.";
+               }
+             }
+           }
+         });
   return unsupported;
 }
 
 void Simulation::removeObject(const std::string& name) {
-  requests_.run([&] {
-    world_.removeObject(name);
-    host_.restartClock();
-  });
+  change([&] { return world_.beginRemoveObject(name); },
+         [&](franka_sim::WorldChange& rest) { world_.apply(rest); });
 }
 
 SimulationInventory Simulation::inventory() {

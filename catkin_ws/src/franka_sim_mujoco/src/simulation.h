@@ -8,9 +8,11 @@
 
 #include <atomic>
 #include <cstdint>
+#include <functional>
 #include <future>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -115,6 +117,12 @@ class Simulation {
  private:
   void loop();
   void advance();
+  /// Changes the set of robots and objects. Ticks go on while the new model is compiled, unless
+  /// they do not follow the clock (factor 0, step()): then time stands still. Not in the stepping
+  /// thread.
+  /// @param begin, finish are called in the stepping thread: first step of the change, and last
+  void change(const std::function<franka_sim::WorldChange()>& begin,
+              const std::function<void(franka_sim::WorldChange&)>& finish);
   /// Makes ticks without waiting. @returns the mean computing time of one [us]
   double timeTicks(std::uint32_t ticks);
   void standStill();
@@ -140,6 +148,7 @@ class Simulation {
   std::vector<franka_sim::SceneRobot> sceneRobots() const;
 
   RequestQueue requests_;
+  std::mutex change_mutex_;  ///< held during a change: there is one at a time
   HardwareLoader loader_;
   franka_sim::World world_;
   std::vector<std::unique_ptr<RobotInstance>> robots_;
