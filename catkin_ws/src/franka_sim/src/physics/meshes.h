@@ -78,7 +78,7 @@ struct SolidMesh {
   bool is_convex{true};  ///< else its convex hull collides
 };
 
-/// A mesh file of any format assimp knows, converted for MuJoCo and kept in memory (kept_files.h);
+/// A mesh file of any format assimp knows, converted for MuJoCo and kept in memory (keepFile);
 /// an unchanged file is read once. Thread-safe.
 /// @throws std::runtime_error with the file and the error.
 DrawnMesh loadMeshToDraw(const MeshSource& source);

@@ -4,14 +4,14 @@
 /// @file
 /// World: robots and objects that come and go.
 
-#include <franka_sim/physics/sizes.h>
+#include <franka_sim/physics/body_properties.h>
 
 #include <algorithm>
 #include <set>
 #include <stdexcept>
 #include <utility>
 
-#include "physics/contact_capacity.h"
+#include "physics/contacts.h"
 #include "physics/world_impl.h"
 
 namespace franka_sim {

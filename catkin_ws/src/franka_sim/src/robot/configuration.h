@@ -28,9 +28,9 @@ class Configuration {
 
   /// Each function applies a request, or refuses it (kInvalidArgumentRejected) and changes nothing:
   /// frames that are not rigid or beyond 10 m, loads that no arm can hold (payloadFault),
-  /// thresholds that are not finite or negative, stiffnesses out of range (parameter_checks.h),
-  /// versions other than 3 to 10. A lower threshold may lie above the upper one: with reflexes
-  /// there are then no contacts.
+  /// thresholds that are not finite or negative, stiffnesses out of range
+  /// (control_unit_parameters.h), versions other than 3 to 10. A lower threshold may lie above the
+  /// upper one: with reflexes there are then no contacts.
   Status apply(const franka_core::fci::SetNEToEERequest& request) noexcept;
   Status apply(const franka_core::fci::SetEEToKRequest& request) noexcept;
   Status apply(const franka_core::fci::SetLoadRequest& request) noexcept;

@@ -24,7 +24,7 @@ namespace franka_sim::fci {
 /// command that replaces another one ends it: the earlier one's reply is Aborted.
 ///
 /// Called by one thread. serve allocates only when a client connects.
-/// @tparam Device defines what differs between gripper and vacuum gripper (gripper_server.h).
+/// @tparam Device defines what differs between the two: GripperDevice, VacuumDevice.
 template <typename Device>
 class HandServer {
  public:

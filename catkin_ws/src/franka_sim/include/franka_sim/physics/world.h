@@ -262,7 +262,7 @@ class World {
   /// @throws std::runtime_error if the robots or objects differ; nothing has changed
   void restore(const Snapshot& snapshot);
 
-  // Limits of these arguments: physics/sizes.h.
+  // Limits of these arguments: physics/body_properties.h.
   std::array<double, 3> gravity() const;                  ///< [m/s^2]
   void setGravity(const std::array<double, 3>& gravity);  ///< [m/s^2]; a reset does not change it
   Pose bodyPose(const std::string& body) const;           ///< in the world frame
@@ -283,7 +283,7 @@ class World {
                         double position);  ///< teleport; velocity becomes 0
   void setJointVelocity(const std::string& joint, double velocity);  ///< [rad/s] or [m/s]
   /// A force and torque on a body at its origin or at `point` (world), for `ticks` ticks from now.
-  /// @throws std::runtime_error with a sentence beyond the limits of sizes.h
+  /// @throws std::runtime_error with a sentence beyond the limits of body_properties.h
   void push(const std::string& body, const std::array<double, 3>& force,
             const std::array<double, 3>& torque, std::uint64_t ticks);
   /// The same force at a point, without a torque of its own.

@@ -60,7 +60,7 @@ inline const franka_core::ArmModel& model() {
   return arm;
 }
 
-/// A value rounded to 32 bit float. Volatile: see src/robot/motion/as_echoed.h.
+/// A value rounded to 32 bit float. Volatile: see src/robot/motion/motion_checks.h.
 inline double asFloat(double value) {
   const volatile float narrow = static_cast<float>(value);
   return narrow;
