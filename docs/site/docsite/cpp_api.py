@@ -24,8 +24,8 @@ XML = OUT / "doxygen" / "xml"
 # Public parts of packages whose other headers are internal.
 PARTS = {
     "libfranka": r"/franka/|/franka_core/[^/]+\.h$",
-    "franka_sim": r"/simulation/|/physics/(world|physics_config)\.h|/robot/(plant|configuration|realism|"
-    r"control_unit|control_unit_parameters|unit_requests)\.h",
+    "franka_sim": r"/simulation/|/physics/(world|physics_config)\.h|/robot/(plant|realism|"
+    r"control_unit|control_unit_parameters)\.h",
     "franka_sim_mujoco": r"/(robot_hw_sim|franka_hw_sim|default_robot_hw_sim)\.h",
 }
 # Forwarding headers of other names, and a package whose headers are for itself.

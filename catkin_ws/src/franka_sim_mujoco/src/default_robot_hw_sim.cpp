@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "default_robot_hw_sim.h"
-
+#include <franka_sim_mujoco/default_robot_hw_sim.h>
 #include <ros/console.h>
 
 #include <exception>

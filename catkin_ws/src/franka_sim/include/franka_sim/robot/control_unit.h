@@ -103,8 +103,8 @@ inline franka_core::fci::MoveRequest torqueControl() noexcept {
 /// Status of a control unit that is not part of franka_core::RobotState.
 struct UnitStatus {
   bool brakes_closed{false};  ///< the joints are locked (UserStopped, Other, once the arm rests)
-  bool user_stop_pressed{false};
-  bool fci_active{true};
+  bool user_stop_pressed{false};  ///< the button's state, whatever the mode
+  bool fci_active{true};          ///< clients may control the arm
   /// Time must advance even if no client answers: the arm brakes or recovers.
   bool settling{false};
   /// No joint moves, or so slowly that a sensor would not see it.

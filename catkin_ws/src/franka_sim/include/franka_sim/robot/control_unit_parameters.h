@@ -110,7 +110,8 @@ void checkParameters(const ControlUnitParameters& parameters);
 
 /// Protocol versions that a robot speaks.
 struct ProtocolRange {
-  std::uint16_t oldest, newest;
+  std::uint16_t oldest;  ///< included
+  std::uint16_t newest;  ///< included
 };
 
 /// All versions of a robot's generation (decision 25). @param robot "fr3"; any other value is a

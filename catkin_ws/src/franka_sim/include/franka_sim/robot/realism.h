@@ -63,9 +63,10 @@ class SensorNoise {
  public:
   explicit SensorNoise(const SensorPhysics& physics) noexcept;
 
-  /// @param dq measured [rad/s]
+  /// Measured torques with noise, ripple and resolution [Nm]. @param dq measured [rad/s]
   std::array<double, 7> torques(const std::array<double, 7>& tau_J,
                                 const std::array<double, 7>& dq) noexcept;
+  /// Measured velocities with noise [rad/s].
   std::array<double, 7> velocities(const std::array<double, 7>& dq) noexcept;
   /// Repeats the same noise from the start.
   void restart() noexcept;
