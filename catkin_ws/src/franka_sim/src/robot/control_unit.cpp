@@ -99,7 +99,9 @@ ControlUnit::ControlUnit(const ControlUnit& other) : ControlUnit(other.configura
 }
 
 ControlUnit& ControlUnit::operator=(const ControlUnit& other) noexcept {
-  *parts_ = *other.parts_;
+  if (this != &other) {
+    *parts_ = *other.parts_;
+  }
   return *this;
 }
 

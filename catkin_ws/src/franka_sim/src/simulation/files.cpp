@@ -39,8 +39,8 @@ std::vector<std::string> rospack(const std::string& arguments) {
     return lines;
   }
   const std::string command = "rospack " + arguments + " 2>/dev/null";
-  const std::unique_ptr<std::FILE, decltype(&::pclose)> pipe(::popen(command.c_str(), "re"),
-                                                             ::pclose);
+  const auto close = [](std::FILE* file) { ::pclose(file); };
+  const std::unique_ptr<std::FILE, decltype(close)> pipe(::popen(command.c_str(), "re"), close);
   std::string line;
   for (int c = pipe ? std::fgetc(pipe.get()) : EOF; c != EOF; c = std::fgetc(pipe.get())) {
     if (c != '\n') {

@@ -25,8 +25,8 @@ class FnvHash {
   /// a multiplication of one hash waits for the one before.
   void addBytes(const std::uint8_t* bytes, std::size_t size) noexcept {
     std::array<FnvHash, 4> lanes{*this, *this, *this, *this};
-    std::size_t i = 0;
-    for (; i + kBlock <= size; i += kBlock) {
+    const std::size_t whole = size - size % kBlock;
+    for (std::size_t i = 0; i < whole; i += kBlock) {
       std::array<std::uint64_t, 4> words;
       std::memcpy(words.data(), bytes + i, kBlock);
       for (std::size_t lane = 0; lane < lanes.size(); lane++) {
@@ -36,7 +36,7 @@ class FnvHash {
     for (const FnvHash& lane : lanes) {
       addWord(lane.value_, kMix);
     }
-    for (; i < size; i++) {
+    for (std::size_t i = whole; i < size; i++) {
       addByte(bytes[i]);
     }
   }
