@@ -11,7 +11,7 @@ import pytest
 from desk_fixtures import desk_with_robot, fresh_desk, fresh_robot
 from desk_robot import OPEN
 from desk_server import basic
-from pyfranka.desk.fci_keeper import ATTEMPT
+from pyfranka.desk.fci import ATTEMPT
 from waiting import wait_for
 
 TOKEN = "/admin/api/control-token"

@@ -16,7 +16,7 @@ import pytest
 from desk_fixtures import desk_with_robot
 from desk_server import PASSWORD, USER, SteppedLoop, basic, unverified
 from pyfranka.desk import Limits, Options, Settings
-from pyfranka.desk.answers import DeskError
+from pyfranka.desk.errors import DeskError
 from pyfranka.desk.limits import LOGIN_RATE, Throttle
 from pyfranka.desk.server import LINGER, ROUTES
 from pyfranka.desk.sessions import digest_of

@@ -16,7 +16,8 @@ import typing
 
 if typing.TYPE_CHECKING:
     from pyfranka.desk.desk import Desk
-    from pyfranka.desk.robot import Refused, Robot, RobotGone
+    from pyfranka.desk.errors import Refused, RobotGone
+    from pyfranka.desk.robot import Robot
     from pyfranka.desk.server import make_app
     from pyfranka.desk.settings import Limits, Options, Settings
 
@@ -25,9 +26,9 @@ _MODULES = {
     "Desk": "desk",
     "Limits": "settings",
     "Options": "settings",
-    "Refused": "robot",
+    "Refused": "errors",
     "Robot": "robot",
-    "RobotGone": "robot",
+    "RobotGone": "errors",
     "Settings": "settings",
     "make_app": "server",
 }

@@ -11,13 +11,11 @@ import urllib.parse
 
 from aiohttp import web
 
-from pyfranka.desk.answers import DeskError
+from pyfranka.desk.desk import Desk
+from pyfranka.desk.errors import DeskError
 from pyfranka.desk.limits import address_of
 from pyfranka.desk.routes import Call, Login, Token
 from pyfranka.desk.sessions import User
-
-if typing.TYPE_CHECKING:
-    from pyfranka.desk.desk import Desk
 
 COOKIE = "authorization"
 SAFE_METHODS = {"GET", "HEAD", "OPTIONS"}

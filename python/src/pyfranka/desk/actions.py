@@ -5,20 +5,11 @@
 from __future__ import annotations
 
 import asyncio
-import typing
 
-from pyfranka.desk.answers import DeskError
-from pyfranka.desk.robot import Refused
-
-if typing.TYPE_CHECKING:
-    from pyfranka.desk.desk import Desk
+from pyfranka.desk.desk import Desk
+from pyfranka.desk.errors import DeskError, Refused
 
 SELF_TEST_LIMIT = 300.0  # [s] to wait for its end (chosen here: the longest wait of a client)
-
-
-async def unlock(desk: Desk) -> None:
-    """Opens the brakes; returns when all are open."""
-    await desk.robot.send("joints unlock")
 
 
 async def lock(desk: Desk) -> None:
@@ -72,11 +63,6 @@ async def move_to_pack_pose(desk: Desk) -> None:
     with desk.fci.paused():
         await desk.robot.send("fci off")
         await desk.robot.send("move pack")
-
-
-async def stop_motion(desk: Desk) -> None:
-    """Ends Desk's own motion."""
-    await desk.robot.send("move stop", urgent=True)
 
 
 async def _until_tested(desk: Desk) -> None:

@@ -7,7 +7,7 @@ from __future__ import annotations
 import math
 import typing
 
-from pyfranka.desk.answers import bad_request
+from pyfranka.desk.errors import bad_request
 
 MAX_TEXT_LENGTH = 200  # [characters] (chosen here)
 

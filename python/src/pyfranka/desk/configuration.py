@@ -6,14 +6,12 @@ from __future__ import annotations
 
 import math
 import typing
+from collections.abc import Callable
 
 from pyfranka.desk import checks
-from pyfranka.desk.answers import bad_request
-from pyfranka.desk.end_effectors import ANGLES, Load, load_of_objects
-from pyfranka.desk.sessions import User, digest_of
-
-if typing.TYPE_CHECKING:
-    from pyfranka.desk.desk import Desk
+from pyfranka.desk.end_effectors import ANGLES, EndEffectors, Load, load_of_objects
+from pyfranka.desk.errors import bad_request
+from pyfranka.desk.sessions import User, Users, digest_of
 
 Json = dict[str, typing.Any]
 END_EFFECTORS = ("None", "FrankaHand", "CobotPump", "GenericCan", "Other")
@@ -24,20 +22,26 @@ MAX_USERS = 50  # (chosen here)
 
 class Configuration:
     """Kept while the program runs. The part about the network is only stored: the command line sets the real
-    address."""
+    address. close_sessions: ends all logins of the user of that name."""
 
-    def __init__(self, desk: Desk):
-        self._desk = desk
+    def __init__(
+        self,
+        address: str,
+        users: Users,
+        end_effectors: EndEffectors,
+        close_sessions: Callable[[str], None],
+    ):
+        self._known_users, self._end_effectors, self._close_sessions = users, end_effectors, close_sessions
         self._end_effector: Json | None = None
         self._network: Json = {
-            "robot": {"network": {"address": desk.robot.address, "netmask": "255.255.255.0"}},
+            "robot": {"network": {"address": address, "netmask": "255.255.255.0"}},
             "shopFloor": {"type": "Dhcp", "address": "", "netmask": ""},
         }
         self.mounting: Json = {"orientation": dict.fromkeys(ANGLES, 0.0)}
 
     def get(self) -> Json:
         """All of it; passwords are never shown."""
-        users = [{"name": user.name, "role": user.role} for user in self._desk.users]
+        users = [{"name": user.name, "role": user.role} for user in self._known_users]
         return {
             END_EFFECTOR: {"endEffector": self._end_effector or self._present_end_effector()},
             NETWORK: self._network,
@@ -51,7 +55,7 @@ class Configuration:
         network = _network(value[NETWORK], self._network) if NETWORK in value else None
         users = self._users(value[USERS]) if USERS in value else None
         if effector is not None:
-            await self._desk.end_effectors.set_load(effector[1])
+            await self._end_effectors.set_load(effector[1])
             self._end_effector = effector[0]
         if network is not None:
             self._network = network
@@ -64,7 +68,7 @@ class Configuration:
         self.mounting = {"orientation": dict(zip(ANGLES, angles))}
 
     def _present_end_effector(self) -> Json:
-        active = self._desk.end_effectors.active()
+        active = self._end_effectors.active()
         inertial, name = active["inertial"], "Other"
         if inertial["mass"] == 0.0:
             name = "None"
@@ -93,18 +97,17 @@ class Configuration:
         role = entry.get("role")
         if role not in ROLES:
             raise bad_request(f"The field role must be one of {', '.join(ROLES)}.")
-        known = self._desk.users.get(name)
+        known = self._known_users.get(name)
         if known is not None and entry.get("password") is None:
             return User(name, known.digest, role)
         return User(name, digest_of(name, checks.text(entry.get("password"), "password")), role)
 
     def _set_users(self, users: list[User]) -> None:
         digests = {user.name: user.digest for user in users}
-        for user in self._desk.users:
+        for user in self._known_users:
             if digests.get(user.name) != user.digest:
-                for desk in self._desk.all:
-                    desk.sessions.close_of(user.name)
-        self._desk.users.replace(users)
+                self._close_sessions(user.name)
+        self._known_users.replace(users)
 
 
 def _end_effector(value: typing.Any) -> tuple[Json, Load]:

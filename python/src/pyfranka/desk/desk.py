@@ -10,15 +10,14 @@ from collections.abc import Callable, Coroutine
 
 from aiohttp import WSCloseCode, web
 
-from pyfranka.desk import status
-from pyfranka.desk.answers import unavailable
 from pyfranka.desk.configuration import Configuration
 from pyfranka.desk.end_effectors import EndEffectors
-from pyfranka.desk.fci_keeper import FciKeeper
+from pyfranka.desk.errors import Refused, RobotGone
+from pyfranka.desk.fci import FciActivation
 from pyfranka.desk.limits import Gate
 from pyfranka.desk.power import Power
 from pyfranka.desk.profiles import PROFILES, Profile, profile_of
-from pyfranka.desk.robot import Refused, Robot, RobotGone
+from pyfranka.desk.robot import Robot
 from pyfranka.desk.sessions import Sessions, User, Users
 from pyfranka.desk.settings import Settings
 from pyfranka.desk.tokens import Tokens
@@ -42,27 +41,24 @@ class Desk:
         self._tasks: set[asyncio.Task] = set()
         self._switching_off: asyncio.Task | None = None
         self._last = robot.report
-        self._on_buttons: set[Callable[[dict[str, bool]], None]] = set()
+        self._on_report: set[Callable[[Report | None, Report], None]] = set()
         self._sockets: set[web.WebSocketResponse] = set()
-        self._on_report: list[Callable[[Report | None, Report], None]] = []
-        self.power = Power(self)
-        self.end_effectors = EndEffectors(self)
-        self.configuration = Configuration(self)
-        self.fci = FciKeeper(self)
+        self.power = Power(robot, self.begin, self._clear, self._boot_time)
+        self.end_effectors = EndEffectors(robot)
+        self.configuration = Configuration(robot.address, users, self.end_effectors, self._close_sessions)
+        self.fci = FciActivation(robot, self.options, self.begin)
         self.last_task: str | None = None
         self._restarted = 0.0
         robot.listen(self._follow)
 
     @property
     def report(self) -> Report:
-        """The newest report. Raises DeskError (503) without one."""
-        if self.robot.report is None:
-            raise unavailable(self.robot.problem)
-        return self.robot.report
+        """The newest report. Raises RobotGone without one."""
+        return self.robot.current_report()
 
     @property
     def profile(self) -> Profile:
-        """The generation. Raises DeskError (503) before the robot's first report, unless it is set."""
+        """The generation. Raises RobotGone before the robot's first report, unless it is set."""
         if self._profile is None:
             self._profile = profile_of(self.report)
         return self._profile
@@ -74,6 +70,13 @@ class Desk:
             desk.sessions.add(token, user.name)
         return token
 
+    def _close_sessions(self, name: str) -> None:
+        for desk in self.all:
+            desk.sessions.close_of(name)
+
+    def _boot_time(self) -> float:
+        return self.options.boot_time or self.profile.boot
+
     @property
     def startup(self) -> str:
         """Phase of the software's start."""
@@ -84,10 +87,6 @@ class Desk:
         self._restarted = asyncio.get_running_loop().time() + RESTART
 
     # ---- changes -----------------------------------------------------------------------------------------
-
-    def on_report(self, listener: Callable[[Report | None, Report], None]) -> None:
-        """Calls the listener with the previous report and the new one."""
-        self._on_report.append(listener)
 
     def changed(self) -> None:
         """Wakes all watchers: a report has arrived, or control has changed."""
@@ -105,13 +104,13 @@ class Desk:
             self._watchers.discard(event)
 
     @contextlib.contextmanager
-    def button_changes(self, listener: Callable[[dict[str, bool]], None]):
-        """Calls the listener with the Pilot's buttons that change."""
-        self._on_buttons.add(listener)
+    def reports(self, listener: Callable[[Report | None, Report], None]):
+        """Calls the listener with the previous report and the new one."""
+        self._on_report.add(listener)
         try:
             yield
         finally:
-            self._on_buttons.discard(listener)
+            self._on_report.discard(listener)
 
     @contextlib.contextmanager
     def open_socket(self, socket: web.WebSocketResponse):
@@ -122,8 +121,11 @@ class Desk:
         finally:
             self._sockets.discard(socket)
 
-    async def close_sockets(self) -> None:
-        """Closes all of them with the code for a robot that goes down."""
+    # The robot goes down.
+    async def _clear(self) -> None:
+        self.sessions.clear()
+        self.tokens.clear()
+        self.fci.desired = False
         closing = [socket.close(code=WSCloseCode.GOING_AWAY) for socket in self._sockets]
         await asyncio.gather(*closing, return_exceptions=True)
 
@@ -136,11 +138,10 @@ class Desk:
                 self._profile = profile_of(now)
             if now.buttons.circle and not (before and before.buttons.circle):
                 self.tokens.confirm_at_robot()
-            for listener in self._on_report:
+            self.power.follow(now)
+            self.fci.follow(before, now, always_on=not self.profile.tokens)
+            for listener in list(self._on_report):
                 listener(before, now)
-            if changes := status.changed_buttons(before, now):
-                for callback in list(self._on_buttons):
-                    callback(changes)
         self.changed()
 
     # ---- work beside requests ----------------------------------------------------------------------------

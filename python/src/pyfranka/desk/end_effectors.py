@@ -9,12 +9,9 @@ import typing
 from dataclasses import dataclass, field
 
 from pyfranka.desk import checks
-from pyfranka.desk.answers import DeskError, bad_request
-from pyfranka.desk.status import end_effector
+from pyfranka.desk.errors import DeskError, bad_request
+from pyfranka.desk.robot import Robot
 from pyfranka.robot_report import EndEffector
-
-if typing.TYPE_CHECKING:
-    from pyfranka.desk.desk import Desk
 
 Json = dict[str, typing.Any]
 NONE, HAND = "ee-no-profile", "ee-franka-hand"  # built in
@@ -69,7 +66,7 @@ class Profile:
 class EndEffectors:
     """Profiles of one robot; exactly one of them is active. selection: the device of a Panda."""
 
-    desk: Desk
+    robot: Robot
     selection: str = GRIPPER
     _profiles: dict[str, Profile] = field(default_factory=dict)
     _active: str = ""
@@ -99,7 +96,7 @@ class EndEffectors:
         self._editable(id)
         profile = _profile(id, value)
         if id == self._active:
-            await self.desk.robot.send(profile.load.line())
+            await self.robot.send(profile.load.line())
         self._profiles[id] = profile
 
     def delete(self, id: str) -> None:
@@ -117,12 +114,12 @@ class EndEffectors:
     async def activate(self, id: str) -> None:
         """Sets its values in the robot."""
         profile = self._find(id)
-        await self.desk.robot.send(profile.load.line())
+        await self.robot.send(profile.load.line())
         self._active = id
 
     async def set_load(self, load: Load) -> None:
         """Sets values in the robot that belong to no profile."""
-        await self.desk.robot.send(load.line())
+        await self.robot.send(load.line())
 
     def _find(self, id: str) -> Profile:
         profile = self._known().get(id)
@@ -137,7 +134,7 @@ class EndEffectors:
     # The robot starts with its hand, or with nothing.
     def _known(self) -> dict[str, Profile]:
         if not self._profiles:
-            self._add_built_in(self.desk.report.end_effector)
+            self._add_built_in(self.robot.current_report().end_effector)
         return self._profiles
 
     def _add_built_in(self, now: EndEffector) -> None:
@@ -187,11 +184,6 @@ def load_of_objects(inertial: typing.Any, tcp: typing.Any) -> Load:
     )
     _check(load)
     return load
-
-
-def lists_of(desk: Desk) -> Json:
-    """A Panda's settings."""
-    return end_effector(desk.report)
 
 
 def pose_of(translation: typing.Sequence[float], rotation: typing.Sequence[float]) -> list[float]:

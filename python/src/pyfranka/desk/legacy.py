@@ -9,12 +9,13 @@ import hashlib
 from aiohttp import web
 
 from pyfranka.desk import actions, checks
-from pyfranka.desk.access import COOKIE, check_login, check_password, check_token
-from pyfranka.desk.answers import bad_request, empty_answer, text_answer
-from pyfranka.desk.end_effectors import GENERIC, GRIPPER, PUMP, lists_of, load_of_lists
-from pyfranka.desk.routes import Call, Login, Route, Token, on_fr3, on_panda
-from pyfranka.desk.status import JOINTS, RECOVERABLE
+from pyfranka.desk.access import COOKIE, check_login, check_password, check_token, not_in_control
+from pyfranka.desk.end_effectors import GENERIC, GRIPPER, PUMP, load_of_lists
+from pyfranka.desk.errors import DeskError, bad_request
+from pyfranka.desk.routes import Call, Login, Route, Token, on_fr3, on_panda, with_tokens
+from pyfranka.desk.status import JOINTS, RECOVERABLE, end_effector
 
+CONTROL = "/admin/api/control-token"
 PROFILES = "/admin/api/end-effector/profiles"
 ERROR_IDS = {
     **{name.lower(): name for name in RECOVERABLE},
@@ -35,7 +36,7 @@ async def login(call: Call):
         raise bad_request("The login needs the texts 'login' and 'password'.")
     desk = call.desk
     user = await check_password(call.request, desk, lambda: desk.users.by_digest(name, digest))
-    return text_answer(desk.open_session(user))
+    return web.Response(text=desk.open_session(user))
 
 
 async def logout(call: Call):
@@ -58,12 +59,79 @@ async def first_start(call: Call):
     return False
 
 
+# ---- control ---------------------------------------------------------------------------------------------
+
+
+async def request_control(call: Call):
+    """Granted at once if no user has control, else pending. With `force`, a press of the circle button at the
+    robot grants it."""
+    owner = call.object({}).get("requestedBy", call.user.name if call.user else "")
+    checks.text(owner, "requestedBy")
+    force = call.request.query.get("force", "false").lower() not in ("false", "0")
+    request = call.desk.tokens.request(owner, force)
+    return {"id": request.id, "token": request.token}
+
+
+async def cancel_request(call: Call):
+    """Withdraws a request that is still pending."""
+    token, pending = _body_token(call), call.desk.tokens.pending
+    if pending is None or not call.desk.tokens.is_pending(token) or str(pending.id) != call.words[0]:
+        raise unknown_token()
+    call.desk.tokens.withdraw(pending)
+
+
+async def release_control(call: Call):
+    """Ends control, or withdraws the pending request of this token. Switches the FCI off."""
+    if not call.desk.tokens.release(_body_token(call)):
+        raise unknown_token()
+    await call.desk.settle()
+    return web.Response(status=call.desk.options.release_status)
+
+
+async def activate_fci_by_body(call: Call):
+    """With the token in the body."""
+    _check_body_token(call)
+    await actions.activate_fci(call.desk)
+
+
+async def deactivate_fci_by_body(call: Call):
+    """With the token in the body."""
+    _check_body_token(call)
+    await actions.deactivate_fci(call.desk)
+
+
+async def safety(call: Call):
+    """Time limit for the circle button in a forced take-over [s]."""
+    time = call.desk.options.force_timeout
+    return {"tokenForceTimeout": int(time) if time.is_integer() else time}
+
+
+def unknown_token() -> DeskError:
+    """The token is unknown or expired."""
+    return DeskError(404, "ControlTokenUnknown", "This control token is not known. Request control again.")
+
+
+def _body_token(call: Call) -> str:
+    token = call.object({}).get("token", call.request.headers.get("X-Control-Token"))
+    if not isinstance(token, str):
+        raise bad_request('The body needs the Control-Token: {"token": "..."}.')
+    return token  # clients that have released control send an empty one
+
+
+def _check_body_token(call: Call) -> None:
+    token = _body_token(call)
+    if call.desk.tokens.is_pending(token):
+        raise not_in_control()
+    if not call.desk.tokens.is_active(token):
+        raise unknown_token()
+
+
 # ---- brakes, FCI, modes ----------------------------------------------------------------------------------
 
 
 async def unlock(call: Call):
     """Opens the brakes, one joint after the other."""
-    await actions.unlock(call.desk)
+    await call.desk.robot.send("joints unlock")
 
 
 async def lock(call: Call):
@@ -223,9 +291,9 @@ async def select(call: Call):
     call.desk.end_effectors.selection = name
 
 
-async def end_effector(call: Call):
+async def get_end_effector(call: Call):
     """The end effector that a Panda assumes."""
-    return lists_of(call.desk)
+    return end_effector(call.desk.report)
 
 
 async def set_end_effector(call: Call):
@@ -269,7 +337,6 @@ async def _power_without_login(call: Call, action):
     if not call.desk.options.power_without_login:
         check_login(call.user, Login.USER)
     await action(call)
-    return empty_answer(200)
 
 
 def _mode(call: Call) -> str:
@@ -293,6 +360,12 @@ ROUTES = [
     Route("POST", "/admin/api/logout", logout),
     Route("GET", "/admin/login", login_page, login=Login.NONE),
     Route("GET", "/admin/api/first-start", first_start, login=Login.NONE),
+    Route("POST", f"{CONTROL}/request", request_control, where=with_tokens),
+    Route("DELETE", f"{CONTROL}/request/<id>", cancel_request, where=with_tokens),
+    Route("DELETE", CONTROL, release_control, where=with_tokens),
+    Route("POST", f"{CONTROL}/fci", activate_fci_by_body, where=with_tokens),
+    Route("DELETE", f"{CONTROL}/fci", deactivate_fci_by_body, where=with_tokens),
+    Route("GET", "/admin/api/safety", safety, where=with_tokens),
     Route("POST", "/desk/api/robot/open-brakes", unlock, token=Token.HEADER, where=on_panda),
     Route("POST", "/desk/api/robot/close-brakes", lock, where=on_panda),
     Route("POST", "/desk/api/joints/unlock", unlock, token=Token.HEADER, where=on_fr3),
@@ -327,7 +400,7 @@ ROUTES = [
     Route("POST", "/admin/api/safety/td2-tests/execute", self_test, token=Token.HEADER, where=on_fr3),
     Route("GET", "/admin/api/end-effectors/selection", selection, where=on_panda),
     Route("PUT", "/admin/api/end-effectors/selection", select, token=Token.HEADER, where=on_panda),
-    Route("GET", "/admin/api/end-effector-configuration", end_effector, where=on_panda),
+    Route("GET", "/admin/api/end-effector-configuration", get_end_effector, where=on_panda),
     Route(
         "POST", "/admin/api/end-effector-configuration", set_end_effector, token=Token.HEADER, where=on_panda
     ),

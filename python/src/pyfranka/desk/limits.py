@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 from aiohttp import web
 
-from pyfranka.desk.answers import DeskError
+from pyfranka.desk.errors import DeskError
 from pyfranka.desk.settings import Limits
 
 LOGIN_RATE = 1.0  # [1/s] of an address that has sent too many wrong passwords (chosen here)

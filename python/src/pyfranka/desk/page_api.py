@@ -16,13 +16,11 @@ from pathlib import Path
 from aiohttp import web
 
 from pyfranka.desk import access
-from pyfranka.desk.answers import DeskError, bad_request, json_answer, unavailable
 from pyfranka.desk.desk import Desk
+from pyfranka.desk.errors import DeskError, Refused, bad_request, unavailable
 from pyfranka.desk.limits import address_of
 from pyfranka.desk.page_lines import line_of
 from pyfranka.desk.page_live import Live, Page, control_of
-from pyfranka.desk.robot import Refused
-from pyfranka.desk.server import DESKS, GATE, own_desk
 from pyfranka.desk.sessions import User
 
 FOLDER = Path(__file__).resolve().parent / "page"
@@ -40,9 +38,9 @@ IMPORT_MAP = re.compile(r'<script type="importmap">(.*?)</script>', re.DOTALL)
 MAX_NAME_LENGTH = 200
 
 
-def add_page(app: web.Application) -> None:
+def add_page(app: web.Application, desk: Desk) -> None:
     """Adds the page to the application of a robot."""
-    api = PageApi(app)
+    api = PageApi(desk)
     app.on_shutdown.append(api.close)
     add = app.router
     for path in ("/", "/desk", "/desk/", "/page", "/page/"):
@@ -61,11 +59,11 @@ def add_page(app: web.Application) -> None:
 
 
 class PageApi:
-    """The handlers of one application."""
+    """The handlers of one application. desk: of its robot."""
 
-    def __init__(self, app: web.Application):
-        self.app = app
-        self.stream = Live(app[DESKS])
+    def __init__(self, desk: Desk):
+        self.desk = desk
+        self.stream = Live(desk.all)
         self.files = files_of(FOLDER)
         self.meshes = robot_meshes(mesh_folder())
 
@@ -102,13 +100,13 @@ class PageApi:
     async def login(self, request: web.Request) -> web.Response:
         """Opens a session and sets its cookie, which scripts cannot read and other sites cannot send."""
         access.check_origin(request, True)
-        body = await body_of(request)
+        body = await self._body(request)
         name, password = body.get("user"), body.get("password")
         if not isinstance(name, str) or not isinstance(password, str):
             raise bad_request("The login needs the texts 'user' and 'password'.")
-        desk = own_desk(request)
+        desk = self.desk
         user = await access.check_password(request, desk, lambda: desk.users.by_password(name, password))
-        answer = json_answer({"user": user.name})
+        answer = web.json_response({"user": user.name})
         token = desk.open_session(user)
         answer.set_cookie(access.COOKIE, token, httponly=True, secure=True, samesite="Strict", path="/")
         return answer
@@ -117,24 +115,24 @@ class PageApi:
         """Ends the session."""
         access.check_origin(request, True)
         token = request.cookies.get(access.COOKIE, "")
-        for desk in self.app[DESKS]:
+        for desk in self.desk.all:
             desk.sessions.close(token)
-        answer = json_answer({})
+        answer = web.json_response({})
         answer.del_cookie(access.COOKIE, path="/")
         return answer
 
     async def session(self, request: web.Request) -> web.Response:
         """The user that is logged in; null without a login."""
-        user = await access.user_of(request, own_desk(request))
-        return json_answer({"user": user.name if user else None})
+        user = await access.user_of(request, self.desk)
+        return web.json_response({"user": user.name if user else None})
 
     # ---- data for the page -------------------------------------------------------------------------------
 
     async def robots(self, request: web.Request) -> web.Response:
         """The user, the robots, and the meshes that are installed for them."""
         user = await self._user(request)
-        robots = [self._listed(number, desk) for number, desk in enumerate(self.app[DESKS])]
-        return json_answer({"user": user.name, "robots": robots, "meshes": self._mesh_names()})
+        robots = [self._listed(number, desk) for number, desk in enumerate(self.desk.all)]
+        return web.json_response({"user": user.name, "robots": robots, "meshes": self._mesh_names()})
 
     def _listed(self, number: int, desk: Desk) -> dict:
         report = desk.robot.report
@@ -169,15 +167,14 @@ class PageApi:
     async def live(self, request: web.Request) -> web.StreamResponse:
         """The stream of states."""
         access.check_origin(request, True)
-        desk = own_desk(request)
         token = request.cookies.get(access.COOKIE, "")
-        if desk.sessions.name(token) is None:
+        if self.desk.sessions.name(token) is None:
             raise DeskError(401, "Unauthorized", "Log in first.")
-        with self.app[GATE].sockets.one(address_of(request)):
+        with self.desk.gate.sockets.one(address_of(request)):
             socket = web.WebSocketResponse(heartbeat=20.0, max_msg_size=1024, compress=False)
             await socket.prepare(request)
-            with desk.open_socket(socket):
-                await self.stream.serve(Page(socket, desk, token))
+            with self.desk.open_socket(socket):
+                await self.stream.serve(Page(socket, self.desk, token))
         return socket
 
     # ---- commands of the page ----------------------------------------------------------------------------
@@ -188,7 +185,7 @@ class PageApi:
         if body.get("action") == "reboot":
             _check_control(request, desk)
             desk.power.reboot()
-            return json_answer({"value": ""})
+            return web.json_response({"value": ""})
         line, text = line_of(body.get("action"), body.get("words", []))
         if line.control:
             _check_control(request, desk)
@@ -196,8 +193,8 @@ class PageApi:
             value = await desk.robot.send(text, urgent=line.urgent)
         except Refused as refused:
             # Not an HTTP error, which browsers would write to their console.
-            return json_answer({"refused": {"code": refused.code, "message": refused.sentence}})
-        return json_answer({"value": value})
+            return web.json_response({"refused": {"code": refused.code, "message": refused.sentence}})
+        return web.json_response({"value": value})
 
     async def control(self, request: web.Request) -> web.Response:
         """Requests, releases, grants or denies control of a robot."""
@@ -216,12 +213,12 @@ class PageApi:
             (desk.tokens.accept if what == "accept" else desk.tokens.deny)()
         else:
             raise bad_request("'what' must be take, force, release, withdraw, accept or deny.")
-        return json_answer({**answer, "control": control_of(desk)})
+        return web.json_response({**answer, "control": control_of(desk)})
 
     # ---- checks ------------------------------------------------------------------------------------------
 
     async def _user(self, request: web.Request) -> User:
-        user = await access.user_of(request, own_desk(request))
+        user = await access.user_of(request, self.desk)
         if user is None:
             raise DeskError(401, "Unauthorized", "Log in first.")
         return user
@@ -229,11 +226,26 @@ class PageApi:
     async def _checked(self, request: web.Request) -> tuple[dict, Desk]:
         access.check_origin(request, True)
         await self._user(request)
-        body = await body_of(request)
-        return body, self.app[DESKS][self._number(body.get("robot", 0))]
+        body = await self._body(request)
+        return body, self.desk.all[self._number(body.get("robot", 0))]
+
+    async def _body(self, request: web.Request) -> dict:
+        """A JSON object; other types are refused, because forms of other sites could send them."""
+        if request.content_type != "application/json":
+            raise DeskError(415, "UnsupportedMediaType", "The body must be of the type application/json.")
+        try:
+            text = await asyncio.wait_for(request.text(), self.desk.gate.limits.body_time)
+            body = json.loads(text)
+        except TimeoutError:
+            raise DeskError(408, "RequestTimeout", "The body has not come in time.") from None
+        except (ValueError, RecursionError):
+            raise bad_request("The body is not valid JSON.") from None
+        if not isinstance(body, dict):
+            raise bad_request("The body is not a JSON object, such as {}.")
+        return body
 
     def _number(self, word: object) -> int:
-        desks = self.app[DESKS]
+        desks = self.desk.all
         if not str(word).isascii() or not str(word).isdigit() or int(str(word)[:6]) >= len(desks):
             raise DeskError(404, "NotFound", f"There is no such robot; there are {len(desks)}, from 0.")
         return int(str(word))
@@ -247,23 +259,6 @@ def _check_control(request: web.Request, desk: Desk) -> None:
 def token_of(request: web.Request) -> str:
     """The control token of a request."""
     return request.headers.get("X-Control-Token", "")
-
-
-async def body_of(request: web.Request) -> dict:
-    """The body as a JSON object; other types are refused, because forms of other sites could send them."""
-    if request.content_type != "application/json":
-        raise DeskError(415, "UnsupportedMediaType", "The body must be of the type application/json.")
-    limits = request.app[GATE].limits
-    try:
-        text = await asyncio.wait_for(request.text(), limits.body_time)
-        body = json.loads(text)
-    except TimeoutError:
-        raise DeskError(408, "RequestTimeout", "The body has not come in time.") from None
-    except (ValueError, RecursionError):
-        raise bad_request("The body is not valid JSON.") from None
-    if not isinstance(body, dict):
-        raise bad_request("The body is not a JSON object, such as {}.")
-    return body
 
 
 def file_answer(path: Path) -> web.FileResponse:

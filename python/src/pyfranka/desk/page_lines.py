@@ -9,7 +9,7 @@ import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from pyfranka.desk.answers import bad_request
+from pyfranka.desk.errors import bad_request
 
 MAX_PUSH_TIME = 1000  # [ms] (chosen here: a push ends soon after its page has closed)
 MAX_PUSH_FORCE = 200.0  # [N] of each component (chosen here)

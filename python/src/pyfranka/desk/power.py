@@ -7,30 +7,47 @@ from __future__ import annotations
 import asyncio
 import logging
 import typing
+from collections.abc import Awaitable, Callable, Coroutine
 
-from pyfranka.desk.answers import unavailable
-from pyfranka.desk.robot import Refused, RobotGone
+from pyfranka.desk.errors import Refused, RobotGone, unavailable
+from pyfranka.desk.robot import Robot
 from pyfranka.robot_report import Report
-
-if typing.TYPE_CHECKING:
-    from pyfranka.desk.desk import Desk
-    from pyfranka.desk.server import Site
 
 LAST_ANSWERS = 0.3  # [s] for which Desk still answers (chosen here)
 PAUSE = 0.5  # [s] between two attempts to switch the robot on, or to listen (chosen here)
 log = logging.getLogger("franka_desk")
 
 
+class Site(typing.Protocol):
+    """A web server that can close and open again."""
+
+    async def open(self) -> None:
+        """Raises OSError if it cannot listen."""
+
+    async def close(self) -> None:
+        """Ends all connections."""
+
+
 class Power:
     """down: whether the robot is off or boots. site: the web server of its Desk, which is closed while the
-    robot is off."""
+    robot is off.
 
-    def __init__(self, desk: Desk):
+    begin: runs a coroutine in parallel to the requests. clear: ends logins, control and open sockets.
+    boot_time: that a reboot takes [s].
+    """
+
+    def __init__(
+        self,
+        robot: Robot,
+        begin: Callable[[Coroutine], asyncio.Task],
+        clear: Callable[[], Awaitable[None]],
+        boot_time: Callable[[], float],
+    ):
         self.down = False
         self.site: Site | None = None
-        self._desk = desk
+        self._robot, self._run, self._clear, self._boot_time = robot, begin, clear, boot_time
+        self._has_power = asyncio.Event()
         self._task: asyncio.Task | None = None
-        desk.on_report(self._follow)
 
     def check(self) -> None:
         """Raises DeskError (503) while the robot is off."""
@@ -45,9 +62,9 @@ class Power:
         """Switches the robot off; the line `power on` of the control interface switches it on."""
         self._begin(self._shut_down())
 
-    def _begin(self, work: typing.Coroutine) -> None:
+    def _begin(self, work: Coroutine) -> None:
         if self._task is None or self._task.done():
-            self._task = self._desk.begin(work)
+            self._task = self._run(work)
         else:
             work.close()
 
@@ -57,8 +74,7 @@ class Power:
         begin = loop.time()
         await self._take_down()
         await self._send("power off")
-        duration = self._desk.options.boot_time or self._desk.profile.boot
-        await asyncio.sleep(max(0.0, begin + duration - loop.time()))
+        await asyncio.sleep(max(0.0, begin + self._boot_time() - loop.time()))
         await self._send("power on")
         await self._bring_up()
 
@@ -68,9 +84,13 @@ class Power:
         await self._send("power off")
         await self._wait_and_bring_up()
 
-    # Switched off at the control interface.
-    def _follow(self, before: Report | None, now: Report) -> None:
-        if not now.power and (self._task is None or self._task.done()):
+    def follow(self, now: Report) -> None:
+        """Takes a new report: the robot may have been switched off at its control interface."""
+        if now.power:
+            self._has_power.set()
+            return
+        self._has_power.clear()
+        if self._task is None or self._task.done():
             self._begin(self._was_switched_off())
 
     async def _was_switched_off(self) -> None:
@@ -78,18 +98,12 @@ class Power:
         await self._wait_and_bring_up()
 
     async def _wait_and_bring_up(self) -> None:
-        with self._desk.watch() as event:
-            while self._desk.robot.report is None or not self._desk.robot.report.power:
-                event.clear()
-                await event.wait()
+        await self._has_power.wait()
         await self._bring_up()
 
     async def _take_down(self) -> None:
         self.down = True
-        self._desk.sessions.clear()
-        self._desk.tokens.clear()
-        self._desk.fci.desired = False
-        await self._desk.close_sockets()
+        await self._clear()
         if self.site is not None:
             await self.site.close()
 
@@ -106,7 +120,7 @@ class Power:
     async def _send(self, line: str) -> None:
         while True:
             try:
-                await self._desk.robot.send(line, urgent=True)
+                await self._robot.send(line, urgent=True)
                 return
             except Refused:
                 return  # already in that state

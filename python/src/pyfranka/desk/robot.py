@@ -10,6 +10,7 @@ import contextlib
 import logging
 from collections.abc import Callable
 
+from pyfranka.desk.errors import Refused, RobotGone
 from pyfranka.refusals import split_refusal
 from pyfranka.robot_report import Report, report_of
 
@@ -22,21 +23,7 @@ CONNECT_LIMIT = 5.0  # [s] (chosen here)
 MAX_ANSWER_LENGTH = 8 << 20  # [bytes] (chosen here: a world of many shapes)
 # Lines at a time; the control interface accepts eight clients.
 LINES, URGENT_LINES = 3, 2
-
-
 log = logging.getLogger("franka_desk")
-
-
-class Refused(Exception):
-    """The robot has refused a line. code: of pyfranka.refusals, or empty; sentence: the robot's message."""
-
-    def __init__(self, code: str, sentence: str):
-        super().__init__(sentence)
-        self.code, self.sentence = code, sentence
-
-
-class RobotGone(Exception):
-    """The robot does not answer; the text is a sentence."""
 
 
 class Robot:
@@ -69,6 +56,12 @@ class Robot:
     def place(self) -> str:
         """Its address and port, for messages."""
         return f"{self.address}, port {self.port}"
+
+    def current_report(self) -> Report:
+        """The newest report. Raises RobotGone without one."""
+        if self.report is None:
+            raise RobotGone(self.problem)
+        return self.report
 
     def listen(self, listener: Callable[[], None]) -> None:
         """Calls the listener after each report, and when the robot is lost, in the order of these calls."""
@@ -109,9 +102,7 @@ class Robot:
         """A report of the robot after this call. Raises RobotGone."""
         async with Connection(self.address, self.port) as connection:
             await self._ask_report(connection)
-        if self.report is None:
-            raise RobotGone(self.problem)
-        return self.report
+        return self.current_report()
 
     # ---- lines -------------------------------------------------------------------------------------------
 

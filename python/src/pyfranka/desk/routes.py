@@ -13,12 +13,10 @@ from dataclasses import dataclass, field
 
 from aiohttp import web
 
-from pyfranka.desk.answers import bad_request
+from pyfranka.desk.desk import Desk
+from pyfranka.desk.errors import bad_request
 from pyfranka.desk.profiles import Profile
 from pyfranka.desk.sessions import User
-
-if typing.TYPE_CHECKING:
-    from pyfranka.desk.desk import Desk
 
 
 class Login(enum.Enum):

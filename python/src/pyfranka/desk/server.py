@@ -5,8 +5,6 @@
 from __future__ import annotations
 
 import asyncio
-import contextlib
-import importlib
 import logging
 import re
 import ssl
@@ -15,24 +13,22 @@ from collections.abc import Sequence
 
 from aiohttp import web
 
-from pyfranka.desk import access, control, legacy, sockets, v1
-from pyfranka.desk.answers import DeskError, bad_request, empty_answer, json_answer, refusal, unavailable
+from pyfranka.desk import access, legacy, page_api, sockets, v1
 from pyfranka.desk.desk import Desk
+from pyfranka.desk.errors import DeskError, Refused, RobotGone, bad_request, unavailable
 from pyfranka.desk.limits import Gate
-from pyfranka.desk.robot import Refused, Robot, RobotGone
+from pyfranka.desk.robot import Robot
 from pyfranka.desk.routes import Call, Route, Routes
 from pyfranka.desk.sessions import Users
 from pyfranka.desk.settings import Settings
 
-# Newer versions of aiohttp require keys of their own type.
-_key = getattr(web, "AppKey", lambda name, kind: name)
-DESKS = _key("desks", list)  # of all robots
-DESK = _key("desk", Desk)  # of the robot at whose address the application listens
-GATE = _key("gate", Gate)
-ROUTES = Routes([*legacy.ROUTES, *control.ROUTES, *v1.ROUTES, *sockets.ROUTES])
+# Newer versions of aiohttp require a key of their own type.
+DESK = getattr(web, "AppKey", lambda name, kind: name)("desk", Desk)  # of the application's robot
+ROUTES = Routes([*legacy.ROUTES, *v1.ROUTES, *sockets.ROUTES])
 OTHER_ROBOT = re.compile(r"/robots/(\d{1,3})(/.*)")
 HANDSHAKE_TIME = 10.0  # [s] for TLS (chosen here)
 LINGER = 1.0  # [s] for the rest of a body after an early answer (chosen here)
+TEMPORARY = {"SelfTestRunning", "NotReady"}  # refusals that end after some time: clients try again
 log = logging.getLogger("franka_desk")
 
 
@@ -53,9 +49,8 @@ def make_app(robots: Sequence[Robot], settings: Settings) -> web.Application:
 def app_of(desks: list[Desk], own: int) -> web.Application:
     """The application of one of the robots."""
     app = web.Application(middlewares=[_finish], client_max_size=desks[own].settings.limits.body)
-    app[DESKS], app[DESK], app[GATE] = desks, desks[own], desks[own].gate
-    with contextlib.suppress(ModuleNotFoundError):
-        importlib.import_module("pyfranka.desk.page_api").add_page(app)
+    app[DESK] = desks[own]
+    page_api.add_page(app, desks[own])
     app.router.add_route("*", "/{path:.*}", _dispatch)
     return app
 
@@ -75,7 +70,7 @@ class Site:
             await self._runner.setup()
         assert self._runner.server is not None
         self._listening = await asyncio.get_running_loop().create_server(
-            self._app[GATE].factory(self._runner.server),
+            self._app[DESK].gate.factory(self._runner.server),
             self.address,
             self.port,
             ssl=self._context,
@@ -103,31 +98,44 @@ async def _finish(request: web.Request, handler) -> web.StreamResponse:
     """Applies the limits and converts errors, for every request, also those of pages."""
     newer = _path_of(request).startswith("/api/")
     try:
-        await request.app[GATE].enter(request)
+        await request.app[DESK].gate.enter(request)
         answer = await handler(request)
-    except DeskError as error:
-        answer = error.answer(newer)
-    except Refused as refused:
-        answer = refusal(refused).answer(newer)
-    except RobotGone as error:
-        answer = unavailable(str(error)).answer(newer)
-    except web.HTTPException as error:
-        if error.status < 400:
-            raise
-        answer = DeskError(error.status, (error.reason or "").replace(" ", ""), f"{error.text}.").answer(
-            newer
-        )
-    except (asyncio.CancelledError, ConnectionError):
+    except ConnectionError:
         raise
-    except Exception:
-        log.exception("%s %s", request.method, _path_of(request))
-        answer = DeskError(500, "InternalError", "Internal error; see the log of Desk.").answer(newer)
+    except Exception as error:
+        if isinstance(error, web.HTTPException) and error.status < 400:
+            raise
+        answer = _error_answer(_desk_error(error, request), newer)
     if not answer.prepared:
         answer.headers.setdefault("Server", "franka_desk")
         answer.headers.setdefault("Cache-Control", "no-store")
         answer.headers.setdefault("X-Content-Type-Options", "nosniff")
         answer.headers.setdefault("X-Frame-Options", "DENY")
     return answer
+
+
+def _desk_error(error: Exception, request: web.Request) -> DeskError:
+    if isinstance(error, DeskError):
+        return error
+    if isinstance(error, Refused):
+        details = [error.code] if error.code else []
+        return DeskError(
+            503 if error.code in TEMPORARY else 424, "ActionUnavailable", error.sentence, details
+        )
+    if isinstance(error, RobotGone):
+        return unavailable(str(error))
+    if isinstance(error, web.HTTPException):
+        return DeskError(error.status, (error.reason or "").replace(" ", ""), f"{error.text}.")
+    log.error("%s %s", request.method, _path_of(request), exc_info=error)
+    return DeskError(500, "InternalError", "Internal error; see the log of Desk.")
+
+
+def _error_answer(error: DeskError, newer: bool) -> web.Response:
+    """In the form of one of the interfaces; members of the older one come first."""
+    body = {"code": error.code, "message": error.message, "details": error.details}
+    if not newer:
+        body = {"error": error.code, "reason": (error.details or [error.code])[0], **body}
+    return web.json_response(body, status=error.status)
 
 
 async def _dispatch(request: web.Request) -> web.StreamResponse:
@@ -145,7 +153,7 @@ async def _dispatch(request: web.Request) -> web.StreamResponse:
     error = DeskError(
         405, "MethodNotAllowed", f"The path {path} has no {request.method[:20]}, only {allowed}."
     )
-    answer = error.answer(path.startswith("/api/"))
+    answer = _error_answer(error, path.startswith("/api/"))
     answer.headers["Allow"] = allowed
     return answer
 
@@ -168,8 +176,9 @@ async def _run(route: Route, call: Call) -> web.StreamResponse:
     if isinstance(value, web.StreamResponse):
         return value
     if value is None:
-        return empty_answer(204 if call.path.startswith("/api/") else 200)
-    return json_answer(value)
+        # Without the type of JSON, which clients would try to read.
+        return web.Response(status=204 if call.path.startswith("/api/") else 200)
+    return web.json_response(value)
 
 
 # Without its client an error has no receiver; reading it keeps asyncio from logging it.
@@ -189,7 +198,7 @@ def _desk_and_path(request: web.Request) -> tuple[Desk, str]:
     match = OTHER_ROBOT.fullmatch(path)
     if match is None:
         return request.app[DESK], path
-    desks = request.app[DESKS]
+    desks = request.app[DESK].all
     number = int(match[1])
     if number >= len(desks):
         raise DeskError(404, "NotFound", f"There is no robot {number}; there are {len(desks)}.")
@@ -197,7 +206,7 @@ def _desk_and_path(request: web.Request) -> tuple[Desk, str]:
 
 
 async def _body(request: web.Request) -> bytes:
-    limits = request.app[GATE].limits
+    limits = request.app[DESK].gate.limits
     try:
         async with asyncio.timeout(limits.body_time):
             return await request.read()
@@ -219,13 +228,5 @@ def _not_found(path: str, desk: Desk) -> web.Response:
         text = f'<!DOCTYPE html><title>404</title><p>No handler accepted "{shown}"</p>'
         return web.Response(text=text, status=404, content_type="text/html")
     if path.startswith("/api/") and desk.profile.v1:
-        return DeskError(404, "NotFound", f"There is nothing at {path[:200]}.").answer(True)
+        return _error_answer(DeskError(404, "NotFound", f"There is nothing at {path[:200]}."), True)
     return web.Response(text="File not found", status=404)
-
-
-def own_desk(request: web.Request) -> Desk:
-    """The Desk of a request of a page: by /robots/N, or that of this address."""
-    return _desk_and_path(request)[0]
-
-
-__all__ = ["DESK", "DESKS", "GATE", "Site", "app_of", "make_app", "make_desks", "own_desk"]

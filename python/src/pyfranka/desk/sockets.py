@@ -14,12 +14,10 @@ from dataclasses import dataclass
 from aiohttp import WSMsgType, web
 
 from pyfranka.desk import status
-from pyfranka.desk.answers import json_answer
+from pyfranka.desk.desk import Desk
 from pyfranka.desk.limits import address_of
 from pyfranka.desk.routes import Call, Login, Route, Where, everywhere, on_fr3, with_tokens, with_v1
-
-if typing.TYPE_CHECKING:
-    from pyfranka.desk.desk import Desk
+from pyfranka.robot_report import Report
 
 PING = 30.0  # [s] between two pings, which detect lost clients (chosen here)
 MAX_MESSAGE_LENGTH = 4096  # [bytes] from a client, which need not send anything (chosen here)
@@ -72,7 +70,7 @@ TOPICS = [
 def _handler(topic: Topic):
     async def handle(call: Call):
         if not _is_upgrade(call.request):
-            return json_answer(topic.snapshot(call.desk))
+            return topic.snapshot(call.desk)
         topic.snapshot(call.desk)  # an error is an answer, not an end of the socket
         return await _serve(call, lambda send: _send_snapshots(call.desk, topic, send))
 
@@ -82,24 +80,25 @@ def _handler(topic: Topic):
 async def navigation_events(call: Call):
     """The Pilot's buttons: all of them first, then those that change."""
     if not _is_upgrade(call.request):
-        return json_answer(status.pressed_buttons(call.desk.report))
+        return status.pressed_buttons(call.desk.report)
     queue: asyncio.Queue[dict[str, bool]] = asyncio.Queue(UNREAD_EVENTS)
     first = status.pressed_buttons(call.desk.report)
 
-    def offer(changes: dict[str, bool]) -> None:
-        if not queue.full():  # otherwise sending takes too long, which ends the socket
+    def offer(before: Report | None, now: Report) -> None:
+        changes = status.changed_buttons(before, now)
+        if changes and not queue.full():  # otherwise sending takes too long, which ends the socket
             queue.put_nowait(changes)
 
-    with call.desk.button_changes(offer):
+    with call.desk.reports(offer):
         return await _serve(call, lambda send: _send_queue(first, queue, send))
 
 
 async def server_sent_events(call: Call):
     """The state of the newer interface as an event stream."""
-    from pyfranka.desk.v1 import system  # not at the top: v1 imports this module
-
     response = web.StreamResponse(headers={"Content-Type": "text/event-stream", "Cache-Control": "no-store"})
-    topic = Topic("", lambda desk: {"system": system(desk), "controlToken": status.control_token(desk)})
+    topic = Topic(
+        "", lambda desk: {"system": status.system(desk), "controlToken": status.control_token(desk)}
+    )
     text = json.dumps(topic.snapshot(call.desk))
     with call.desk.gate.sockets.one(address_of(call.request)):
         await response.prepare(call.request)

@@ -7,10 +7,8 @@ from __future__ import annotations
 import dataclasses
 import typing
 
+from pyfranka.desk.desk import Desk
 from pyfranka.robot_report import Report
-
-if typing.TYPE_CHECKING:
-    from pyfranka.desk.desk import Desk
 
 Json = dict[str, typing.Any]
 JOINTS = 7
@@ -143,6 +141,20 @@ def control_token(desk: Desk) -> Json:
         "fciActive": desk.report.fci,
         "tokenRequest": pending and {"id": pending.id, "requestedBy": pending.owner, "force": pending.force},
     }
+
+
+def system(desk: Desk) -> Json:
+    """Of the whole robot, in the newer interface."""
+    report, options = desk.report, desk.options
+    value = {
+        "status": desk.startup,
+        "operatingMode": {"status": operating_mode(report)},
+        "controlSerialNumber": options.serial_number,
+        "cloud": {"connected": False},
+    }
+    if options.time_to_td2_in_system:
+        value["safety"] = {"timeToTd2": round(report.self_test.due, 3)}
+    return value
 
 
 def safety_status(desk: Desk) -> Json:

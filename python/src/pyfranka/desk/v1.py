@@ -5,37 +5,44 @@
 from __future__ import annotations
 
 import asyncio
+import typing
 
 from pyfranka.desk import actions, checks, status
 from pyfranka.desk.access import not_in_control
-from pyfranka.desk.answers import DeskError, bad_request, json_answer
-from pyfranka.desk.recovery import confirm, recovery
+from pyfranka.desk.errors import DeskError, bad_request
 from pyfranka.desk.routes import Call, Login, Route, Token, with_v1
 from pyfranka.desk.tokens import Request
+from pyfranka.robot_report import Report
 
 # Clients close their side after the timeout that they send; if it is long, the answer comes before that.
 LONG_TIMEOUT, EARLY_ANSWER = 5.0, 0.5  # [s]
 CHECK_PERIOD = 0.1  # [s] between two checks whether a waiting client is still connected (chosen here)
 PACK_POSE = "MoveToPackPose"
 OVERDUE = "td2Timeout"  # the error of overdue self-tests
-
-
-def system(desk) -> status.Json:
-    """Of the whole robot."""
-    report, options = desk.report, desk.options
-    value = {
-        "status": desk.startup,
-        "operatingMode": {"status": status.operating_mode(report)},
-        "controlSerialNumber": options.serial_number,
-        "cloud": {"connected": False},
-    }
-    if options.time_to_td2_in_system:
-        value["safety"] = {"timeToTd2": round(report.self_test.due, 3)}
-    return value
+SAFETY_ERRORS = ("fsoeConnectionError", "environmentDataTimeout")
+SAFE_INPUTS = {
+    "safeInputErrorX31": "x31",
+    "safeInputErrorX32": "x32",
+    "safeInputErrorX33": "x33",
+    "safeInputErrorX4": "x4",
+    "guidingEnablingDevice": "guidingEnableButton",
+}
+# These need the operator with the enabling device (X4).
+LIMITS, POSITIONS = "jointLimitViolation", "jointPositionErrorDemand"
+TYPES = (
+    "SafetyError",
+    "GenericJointError",
+    "SafeInputUnacknowledged",
+    "SelfTestsElapsed",
+    "LifetimeStatusExceeded",
+    "SafetyRuleViolation",
+    "JointPositionError",
+    "JointLimitViolation",
+)
 
 
 async def get_system(call: Call):
-    return system(call.desk)
+    return status.system(call.desk)
 
 
 async def reboot(call: Call):
@@ -143,7 +150,7 @@ async def joints(call: Call):
 
 
 async def unlock(call: Call):
-    await actions.unlock(call.desk)
+    await call.desk.robot.send("joints unlock")
 
 
 async def lock(call: Call):
@@ -161,7 +168,7 @@ async def start_motion(call: Call):
 
 
 async def stop_motion(call: Call):
-    await actions.stop_motion(call.desk)
+    await call.desk.robot.send("move stop", urgent=True)
 
 
 async def end_effector_power(call: Call):
@@ -200,8 +207,53 @@ async def get_recovery(call: Call):
     return {**top, "recovery": value}
 
 
+def recovery(report: Report) -> status.Json | None:
+    """The first recovery that is needed; None if there is none."""
+    found = report.recoverable
+    if errors := [name for name in SAFETY_ERRORS if name in found]:
+        return {"type": "SafetyError", "safetyErrors": errors}
+    if "genericJointError" in found:
+        return {"type": "GenericJointError"}
+    if inputs := [word for name, word in SAFE_INPUTS.items() if name in found]:
+        return {"type": "SafeInputUnacknowledged", "safeInputs": inputs}
+    if "td2Timeout" in found:
+        return {"type": "SelfTestsElapsed"}
+    if "jointPositionError" in found or any(report.joint_position_error):
+        return {"type": "JointPositionError"}
+    if any(report.joint_limit_violation):
+        return {"type": "JointLimitViolation"}
+    return None
+
+
 async def confirm_recovery(call: Call):
-    await confirm(call.desk, call.object({}))
+    """Acknowledges the errors of a type; without a type, those of the first needed recovery."""
+    value, first = call.object({}), recovery(call.desk.report) or {}
+    kind = value.get("type", first.get("type", ""))
+    if kind != "" and kind not in TYPES:
+        raise bad_request(f"The field type must be one of {', '.join(TYPES)}.")
+    names = [name for name in _names(kind) if name in _present(call.desk.report)]
+    if not names:
+        raise DeskError(
+            424, "ActionUnavailable", "Nothing of this type has to be confirmed.", ["NoAckRequired"]
+        )
+    for name in names:
+        await actions.acknowledge(call.desk, name)
+
+
+def _present(report: Report) -> list[str]:
+    demanded = {LIMITS: report.joint_limit_violation, POSITIONS: report.joint_position_error}
+    return [*report.recoverable, *(name for name, joints in demanded.items() if any(joints))]
+
+
+def _names(kind: str) -> typing.Sequence[str]:
+    return {
+        "SafetyError": SAFETY_ERRORS,
+        "GenericJointError": ("genericJointError",),
+        "SafeInputUnacknowledged": tuple(SAFE_INPUTS),
+        "SelfTestsElapsed": ("td2Timeout",),
+        "JointPositionError": ("jointPositionError", POSITIONS),
+        "JointLimitViolation": (LIMITS,),
+    }.get(kind, ())
 
 
 # ---- configuration, system software ----------------------------------------------------------------------
@@ -230,7 +282,7 @@ async def initial_configuration(call: Call):
 
 async def nothing(call: Call):
     """For parts that the simulated robot does not have."""
-    return json_answer({})
+    return {}
 
 
 async def software(call: Call):

@@ -6,25 +6,24 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-import typing
+from collections.abc import Callable, Coroutine
 
+from pyfranka.desk.robot import Robot
+from pyfranka.desk.settings import Options
 from pyfranka.robot_report import Report
-
-if typing.TYPE_CHECKING:
-    from pyfranka.desk.desk import Desk
 
 ATTEMPT = 0.5  # [s] between two attempts (chosen here)
 
 
-class FciKeeper:
-    """desired: the FCI becomes active as soon as the robot's rules allow it."""
+class FciActivation:
+    """desired: the FCI becomes active as soon as the robot's rules allow it. begin: runs a coroutine in
+    parallel to the requests."""
 
-    def __init__(self, desk: Desk):
+    def __init__(self, robot: Robot, options: Options, begin: Callable[[Coroutine], object]):
         self.desired = False
-        self._desk = desk
+        self._robot, self._options, self._begin = robot, options, begin
         self._next_attempt = 0.0
         self._pauses = 0
-        desk.on_report(self._follow)
 
     @contextlib.contextmanager
     def paused(self):
@@ -35,20 +34,17 @@ class FciKeeper:
         finally:
             self._pauses -= 1
 
-    def _follow(self, before: Report | None, now: Report) -> None:
-        if before is not None and _was_stopped(before, now) and self._desk.options.fci_after_stop:
+    def follow(self, before: Report | None, now: Report, always_on: bool) -> None:
+        """Takes the previous report and the new one. always_on: as on a robot without tokens."""
+        if before is not None and _was_stopped(before, now) and self._options.fci_after_stop:
             self.desired = True
-        if now.fci or not self._is_desired() or not _is_possible(now):
+        if now.fci or not (self.desired or always_on) or not _is_possible(now):
             return
         time = asyncio.get_running_loop().time()
         if not self._pauses and time >= self._next_attempt:
             self.desired = False
             self._next_attempt = time + ATTEMPT
-            self._desk.begin(self._desk.robot.send("fci on"))
-
-    # A robot without tokens has an FCI that is always on.
-    def _is_desired(self) -> bool:
-        return self.desired or not self._desk.profile.tokens
+            self._begin(self._robot.send("fci on"))
 
 
 def _was_stopped(before: Report, now: Report) -> bool:
