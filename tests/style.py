@@ -9,6 +9,7 @@ a line `file:line: what`. Exit status 1 if a check has findings or its tool is m
 """
 
 import argparse
+import ast
 import json
 import os
 import re
@@ -45,6 +46,8 @@ INCLUDE_RULES = [
         "sockets stand in libfranka/src, fci/ and serve/ only",
     ),
 ]
+# Its docstring lists the modules of Desk by layers, the lowest first.
+LAYERS = "python/src/pyfranka/desk/__init__.py"
 READS_BY_LOCALE = (
     r"\b(strto(d|f|ld)|sto(d|f|ld)|atof|sscanf|Query(Double|Float)\w*|(Double|Float)(Text|Attribute|Value))\("
 )
@@ -148,6 +151,38 @@ def include_findings(name: str, lines: list[str]) -> Iterator[str]:
                 yield f"{name}:{number}: {reason}: {line.strip()}"
 
 
+def imports_of(text: str, package: str) -> Iterator[tuple[int, str]]:
+    """Line and name of what a source of a package imports from it: also in functions, for types only, or by a
+    text with a module's name."""
+    own = re.compile(rf"{re.escape(package)}(?:\.(\w+))?\b")
+    for node in ast.walk(ast.parse(text)):
+        names: list[str] = []
+        if isinstance(node, ast.ImportFrom):
+            module = ".".join([package] * (node.level > 0) + [node.module] * (node.module is not None))
+            names = [f"{module}.{alias.name}" for alias in node.names]
+        elif isinstance(node, ast.Import):
+            names = [alias.name for alias in node.names]
+        elif isinstance(node, ast.Constant) and own.fullmatch(str(node.value)):
+            names = [str(node.value)]
+        for match in filter(None, map(own.match, names)):
+            yield node.lineno, match[1] or package
+
+
+def layer_findings(name: str, text: str, layers: str) -> Iterator[str]:
+    """Imports of a module of Desk that are not of a module listed before it in the text of the layers."""
+    listed = re.findall(r"\w+", " ".join(re.findall(r"^    (\w+(?:, \w+)*)$", layers, re.MULTILINE)))
+    own = Path(name).stem
+    if own in ("__init__", "__main__"):
+        return
+    if own not in listed:
+        yield f"{name}:1: the layers in {LAYERS} do not list this module"
+        return
+    package = ".".join(Path(LAYERS).parent.parts[2:])
+    for line, module in imports_of(text, package):
+        if module not in listed[: listed.index(own)]:
+            yield f"{name}:{line}: imports {module}, which {LAYERS} does not list before {own}"
+
+
 def note_findings(name: str, text: str) -> Iterator[str]:
     """Notes on threads and real-time safety that a search for the fixed sentences does not find."""
     fixed = [match.span() for match in FIXED_NOTE.finditer(text)]
@@ -194,6 +229,8 @@ def text_findings(path: Path) -> Iterator[str]:
         yield from note_findings(name, text)
         yield from word_findings(name, text)
         yield from wall_clock.findings(name, text)
+    if path.suffix == ".py" and path.parent == (TOP / LAYERS).parent:
+        yield from layer_findings(name, text, (TOP / LAYERS).read_text(encoding="utf-8"))
     for number, line in enumerate(lines, 1):
         if path.suffix != ".md" and name != "tests/style.py" and MARKERS.search(line):
             yield f"{name}:{number}: a left-over marker: {line.strip()}"

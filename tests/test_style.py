@@ -146,6 +146,39 @@ def test_similar_words_pass(line):
     assert list(style.word_findings("a.h", line)) == []
 
 
+LAYERS = '"""Layers:\n\n    errors\n    robot, tokens\n    desk\n"""\n'
+UPWARD = [
+    "from pyfranka.desk.desk import Desk",
+    "import pyfranka.desk.desk",
+    "from pyfranka.desk import errors, desk",
+    "from pyfranka.desk import Desk",
+    "from .desk import Desk",
+    "from . import desk",
+    "if typing.TYPE_CHECKING:\n    from pyfranka.desk.desk import Desk",
+    "def find():\n    from pyfranka.desk.desk import Desk",
+    "desk = importlib.import_module('pyfranka.desk.desk')",
+    "from pyfranka.desk.tokens import Tokens",  # right of it in its own layer
+]
+
+
+@pytest.mark.parametrize("lines", UPWARD)
+def test_upward_import_in_desk_is_refused(lines):
+    (finding,) = style.layer_findings("python/src/pyfranka/desk/robot.py", lines, LAYERS)
+    assert "desk/robot.py" in finding and "does not list before robot" in finding
+
+
+def test_downward_imports_in_desk_pass_and_an_unlisted_module_is_refused(repository, monkeypatch):
+    repository.add(style.LAYERS, f"# {style.HEADER}\n{LAYERS}")
+    lines = (
+        "from pyfranka.desk import errors\nfrom pyfranka.desk.robot import Robot\nimport pyfranka.desktop\n"
+    )
+    text = f"# {style.HEADER}\n{lines}"
+    repository.add("python/src/pyfranka/desk/desk.py", text)
+    assert run("text", monkeypatch=monkeypatch) == 0
+    repository.add("python/src/pyfranka/desk/unlisted.py", text)
+    assert run("text", monkeypatch=monkeypatch) == 1
+
+
 WALL_CLOCK = {  # tests whose verdict depends on the machine, and similar ones whose verdict does not
     ".py": (
         [

@@ -7,6 +7,18 @@
 For programs that log in to a robot before they use the FCI, and for browsers, it behaves like a real one
 (docs/desk.md). It needs aiohttp and cryptography: the extra `pyfranka[desk]`, or Debian's packages. Desk
 talks to the robot over its control interface only (docs/franka_sim.md).
+
+Layers of modules, the lowest first. A module imports only those that are listed before it, also for types
+and in functions (tests/style.py):
+
+    errors, checks, settings, profiles, certificate
+    robot, sessions, tokens, limits
+    end_effectors, configuration, fci, power
+    desk
+    status, actions, routes, access
+    legacy, v1, sockets, page_lines, page_live, page_api
+    server
+    cli
 """
 
 from __future__ import annotations
