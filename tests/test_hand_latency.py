@@ -10,12 +10,15 @@ from franka_sim_mujoco.srv import Step
 from ros_client import Action, call, launched, outcome
 from sensor_msgs.msg import JointState
 from std_srvs.srv import Empty
-from waiting import wait_for
+from waiting import holds, wait_for
 
 START, MIN_DURATION = 0.2, 1.0  # [s], franka_description's physics.yaml
 WAIT = 120.0  # [s]
 MOVED = 2e-4  # [m]
-STEP = 20  # [ticks], shorter than the time between two widths, the second of which could be lost
+STEP = 20  # [ticks], shorter than the time between two widths
+# [s] of the wall clock until a width counts as lost: a publisher drops one that comes while it still sends
+# the one before, and a world that is paused brings no further one.
+ARRIVAL = 1.0
 PUBLISHED = rospy.Duration(0.04)  # [s] between two widths, at most
 LAUNCHES = {
     "ideal": ["franka_gazebo", "fr3.launch", "headless:=true"],
@@ -57,9 +60,13 @@ class Hand:
         return self._action.send(MoveGoal(width=width, speed=0.1))
 
     def next_width(self):
-        """Steps the world. @returns the width then [m]"""
-        self._time = call("/gazebo/step", Step, STEP).time
-        wait_for(lambda: self._widths[-1][0] > self._time - PUBLISHED, "The next width", WAIT)
+        """Steps the world, again if the width was lost. @returns the width then [m]"""
+
+        def arrives():
+            self._time = call("/gazebo/step", Step, STEP).time
+            return holds(lambda: self._widths[-1][0] > self._time - PUBLISHED, ARRIVAL)
+
+        wait_for(arrives, "The next width", WAIT)
         return self._widths[-1][1]
 
 

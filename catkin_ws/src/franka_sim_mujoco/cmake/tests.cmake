@@ -26,5 +26,9 @@ target_include_directories(arm_parameters_test PRIVATE
 target_compile_definitions(arm_parameters_test PRIVATE
   FRANKA_SIM_ROBOTS="${CMAKE_CURRENT_SOURCE_DIR}/../franka_sim/robots")
 target_link_libraries(arm_parameters_test franka_sim_ros)
+add_rostest_gtest(shutdown_request_test test/shutdown_request.test test/shutdown_request_test.cpp)
+target_include_directories(shutdown_request_test PRIVATE
+  src ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
+target_link_libraries(shutdown_request_test franka_sim_ros)
 add_rostest(test/parameters.test DEPENDENCIES
   franka_sim_mujoco_node franka_hw_sim franka_gripper_sim)

@@ -29,6 +29,7 @@
 #include "picture_service.h"
 #include "resources.h"
 #include "service_handlers.h"
+#include "shutdown_request.h"
 #include "sim_services.h"
 #include "simulation.h"
 #include "window_view.h"
@@ -89,6 +90,7 @@ void run(ros::NodeHandle& node) {
   ros::NodeHandle private_node("~");
   checkSimTime();
   reportPlugins();
+  sim::ShutdownRequest shutdown;
   sim::Simulation simulation(readOptions(private_node), node);
   std::optional<sim::SimServices> services(std::in_place, private_node, simulation);
   std::optional<sim::PictureService> pictures(std::in_place, private_node, simulation);
@@ -109,9 +111,9 @@ void run(ros::NodeHandle& node) {
                      "There is no display (DISPLAY is not set): the simulation opens no window.");
     }
   }
-  ros::waitForShutdown();
+  shutdown.wait();
   window.reset();
-  // In this order: no new requests, then no more ticks, then no more callbacks.
+  // In this order: no more ticks, which refuses requests; then no more callbacks.
   simulation.stop();
   gazebo.reset();
   cameras.reset();

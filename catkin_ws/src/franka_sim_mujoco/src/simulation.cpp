@@ -6,7 +6,6 @@
 #include <franka_sim/physics/bare_steps.h>
 #include <franka_sim/physics/urdf_text.h>
 #include <ros/console.h>
-#include <ros/init.h>
 
 #include <algorithm>
 #include <cmath>
@@ -15,6 +14,7 @@
 
 #include "resources.h"
 #include "service_handlers.h"
+#include "shutdown_request.h"
 
 namespace franka_sim_mujoco {
 
@@ -102,7 +102,7 @@ void Simulation::loop() {
   } catch (...) {
     ROS_FATAL_NAMED(kLog, "The simulation ends because a tick failed: %s", exceptionText().c_str());
     failed_ = true;
-    ros::requestShutdown();
+    requestShutdown();
   }
   requests_.close();
   stepped_.reset();
@@ -283,7 +283,7 @@ OperatorAccess Simulation::operatorAccess() {
       }
     }
   };
-  return {host_, scene_, reset_within_a_tick, [] { ros::requestShutdown(); }};
+  return {host_, scene_, reset_within_a_tick, requestShutdown};
 }
 
 std::vector<franka_sim::SceneRobot> Simulation::sceneRobots() const {
