@@ -88,6 +88,7 @@ class Arm:
     TURN_TOLERANCE = 0.03  # [rad]
     SETTLED = 0.2  # [s] for which a pose must be kept
     MAX_TIME_STEP = 0.02  # [s] largest advance of the target per step
+    MAX_CORRECTION_STEP = 0.04  # [s] above the time between two states
     CORRECTION = 4.0  # [1/s] how fast the equilibrium pose follows the error of an arm that rests
     RESTS = 0.03  # [rad/s]
     MAX_LEAD, MAX_LEAD_TURN = 0.05, 0.3  # [m], [rad]: with an obstacle the force stays small
@@ -218,23 +219,31 @@ class Arm:
             raise TaskError(f"The robot left Move (mode {self.state.robot_mode}); was the user stop pressed?")
         self._lead(target)
         time.sleep(0.004)
-        now = rospy.get_time()
-        away = target[:3, 3] - self.pose[:3, 3]
-        turned = rotation_vector(target[:3, :3] @ self.pose[:3, :3].T)
+        state = self.state
+        measured = state.header.stamp.to_sec()
+        pose = np.array(state.O_T_EE).reshape(4, 4, order="F")
+        away = target[:3, 3] - pose[:3, 3]
+        turned = rotation_vector(target[:3, :3] @ pose[:3, :3].T)
         near = np.linalg.norm(away) <= tolerance and np.linalg.norm(turned) <= self.TURN_TOLERANCE
-        rests = max(abs(v) for v in self.state.dq) <= self.RESTS
+        rests = max(abs(v) for v in state.dq) <= self.RESTS
         if rests and not near:
-            self._correct(away, turned, now)
-        self._corrected = now
+            self._correct(away, turned, measured)
         if not (rests and near):
             self._arrival = None
             return False
-        self._arrival = self._arrival if self._arrival is not None else now
-        return now - self._arrival > self.SETTLED
+        self._arrival = self._arrival if self._arrival is not None else measured
+        return measured - self._arrival > self.SETTLED
 
-    def _correct(self, away: np.ndarray, turned: np.ndarray, now: float) -> None:
-        """Moves the equilibrium pose further to correct the error at rest."""
-        share = self.CORRECTION * min(now - self._corrected, self.MAX_TIME_STEP)
+    def _correct(self, away: np.ndarray, turned: np.ndarray, measured: float) -> None:
+        """Moves the equilibrium pose further to correct the error at rest.
+
+        Not by a state that the arm had before the last correction: when this script is late, the same
+        error would be corrected many times.
+        """
+        if measured <= self._corrected:
+            return
+        share = self.CORRECTION * min(measured - self._corrected, self.MAX_CORRECTION_STEP)
+        self._corrected = rospy.get_time()
         self._lead_position = shortened(self._lead_position + share * away, self.MAX_LEAD)
         self._lead_turn = shortened(self._lead_turn + share * turned, self.MAX_LEAD_TURN)
 
