@@ -174,6 +174,8 @@ def main() -> int:
             file=sys.stderr,
         )
         return 2
+    if not arguments.long and (reason := own_network.enter()):
+        print(f"\nThe tests use this machine's network, as they could not have one of their own: {reason}")
     selected = [name for name in arguments.packages if name != "tests"]
     end_to_end = not arguments.packages or "tests" in arguments.packages
     realtime = arguments.realtime and not arguments.long
@@ -212,8 +214,6 @@ def main() -> int:
 
     if realtime:
         files = [path for path in files if REALTIME.search(path.read_text(encoding="utf-8"))]
-    if not arguments.long and (reason := own_network.enter()):
-        print(f"\nThe tests use this machine's network, as they could not have one of their own: {reason}")
     if arguments.long:
         os.environ.update(decimal_comma.environment())
     cases = run_all(tests, files, 1 if realtime else WORKERS)

@@ -3,6 +3,7 @@
 """Genuine clients of Desk, from PyPI, a robot with its Desk for them, and how each of them begins."""
 
 import json
+import socket
 import ssl
 from contextlib import contextmanager, suppress
 from pathlib import Path
@@ -101,6 +102,10 @@ def desk_and_client(folder: Path, name: str, profile: str, port: int = 443):
     python = client_python(name)  # before the robot
     kind = "fr3" if profile.startswith("fr3") else "panda"
     with simulated(kind, "patient", "--start", "locked") as robot:
+        try:
+            socket.create_server((robot.address, port)).close()
+        except PermissionError:
+            pytest.skip(f"port {port} is for root only, and the tests have no network of their own")
         robot.remote.send("timing brakes 0.4")
         with DeskServer(robot.address, PORT, folder, profile, address=robot.address, port=port) as server:
             desk = RobotWithDesk(robot, server, folder)

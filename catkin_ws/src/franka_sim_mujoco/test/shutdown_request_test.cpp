@@ -10,11 +10,11 @@
 #include <ros/node_handle.h>
 #include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
+#include <ros_test/eventually.h>
 #include <std_msgs/Empty.h>
 
 #include <chrono>
 #include <csignal>
-#include <thread>
 
 namespace franka_sim_mujoco {
 namespace {
@@ -52,9 +52,7 @@ TEST(ShutdownRequestThatTheNodeDoesNotFollow, EndsRos) {
   ShutdownRequest shutdown(std::chrono::milliseconds(1));
   requestShutdown();
   shutdown.wait();
-  while (ros::ok()) {  // as a callback does; the test's time limit ends it
-    std::this_thread::sleep_for(std::chrono::milliseconds(1));
-  }
+  EXPECT_TRUE(ros_test::eventually([] { return !ros::ok(); }));
   EXPECT_FALSE(advertises());
 }
 

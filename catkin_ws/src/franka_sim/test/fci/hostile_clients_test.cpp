@@ -6,6 +6,7 @@
 #include <franka_sim/fci/hand_server.h>
 #include <franka_sim/serve/host.h>
 #include <franka_sim/serve/line_server.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <atomic>
@@ -274,7 +275,16 @@ TEST_F(HostileClientsOnWallClock, DelayNoStateOfAnotherRobot) {
   EXPECT_LT(other_.worst, kWorstDelay);
 }
 
+/// An ordinary user's processes begin with 1024 files, of which they may allow themselves more.
+void allowFiles(rlim_t count) {
+  rlimit files{};
+  ASSERT_EQ(0, getrlimit(RLIMIT_NOFILE, &files));
+  files.rlim_cur = std::max(files.rlim_cur, std::min(files.rlim_max, count));
+  ASSERT_EQ(0, setrlimit(RLIMIT_NOFILE, &files));
+}
+
 TEST_F(HostileClients, StayHalfOpenOrSendOneByte) {
+  allowFiles(4096);
   std::vector<std::unique_ptr<Raw>> connections;
   for (int i = 0; i < 200; i++) {
     for (const std::uint16_t port : ports()) {
