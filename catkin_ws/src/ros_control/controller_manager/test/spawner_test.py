@@ -278,6 +278,27 @@ class SpawnerTest(unittest.TestCase):
             self.assertIn("has ended already", output)
             self.assertNotIn("WARN", output)
 
+    def test_asks_again_when_a_connection_breaks(self):
+        """Before the manager has the request, or with the manager's answer."""
+        for broken in ("request", "answer"):
+            faults = [broken, "", broken, ""]  # of the load and of the switch, and of their repetitions
+
+            def call(service, request, faults=faults):
+                fault = faults.pop(0)
+                answer = service(request) if fault != "request" else None
+                if fault:
+                    raise rospy.ServiceException("transport error")
+                return answer
+
+            one = spawner.Spawner("", mock.Mock(call=call))
+            one.load(["a"])
+            with mock.patch.object(spawner.rospy, "loginfo") as told:
+                one.start()
+            self.assertIn(mock.call("Started controllers: %s", "a"), told.call_args_list)
+            self.assertEqual({"a": "running"}, self.manager.states())
+            one.take_away()
+            self.assertEqual({}, self.manager.states())
+
     def test_does_not_wait_for_a_loop_that_stands_still(self):
         one = spawner.Spawner("", mock.Mock(call=lambda service, request: service(request)))
         one.load(["a"])

@@ -269,24 +269,48 @@ class Spawner:
                 return False
         return True
 
+    def _controllers(self):
+        """States of the manager's controllers, by their names."""
+        listing = self._service("list_controllers", ListControllers)().controller
+        return {controller.name: controller.state for controller in listing}
+
+    def _ask(self, name, kind, request, is_done):
+        """Calls a service of the manager, and once more if the connection breaks while the manager goes on.
+        Returns whether it was done, by either request."""
+        service = self._service(name, kind)
+        try:
+            return self._ending.call(service, request).ok
+        except rospy.ServiceException as error:
+            if not is_offered(self._prefix + name):
+                raise
+            rospy.logwarn("Controller Spawner: %s is asked again: %s", self._prefix + name, error)
+        return self._ending.call(service, request).ok or is_done()
+
     def load(self, names):
-        load_controller = self._service("load_controller", LoadController)
         for name in names:
             rospy.loginfo("Loading controller: %s", name)
             # Added before the answer, so that it is unloaded even after an exit in between.
             self.loaded.append(name)
-            if not self._ending.call(load_controller, LoadControllerRequest(name)).ok:
+            request = LoadControllerRequest(name)
+            if not self._ask(
+                "load_controller", LoadController, request, lambda name=name: name in self._controllers()
+            ):
                 self.loaded.remove(name)
                 self._ending.sleep(PAUSE_AFTER_FAILED_LOAD)
                 rospy.logerr("Failed to load %s", name)
 
     def start(self):
-        response = self._ending.call(
-            self._service("switch_controller", SwitchController),
-            SwitchControllerRequest(start_controllers=self.loaded, strictness=SwitchControllerRequest.STRICT),
+        request = SwitchControllerRequest(
+            start_controllers=self.loaded, strictness=SwitchControllerRequest.STRICT
         )
+
+        def all_run():
+            states = self._controllers()
+            return all(states.get(name) == "running" for name in self.loaded)
+
+        started = self._ask("switch_controller", SwitchController, request, all_run)
         names = ", ".join(self.loaded)
-        if response.ok:
+        if started:
             rospy.loginfo("Started controllers: %s", names)
         else:
             rospy.logerr("Failed to start controllers: %s", names)
@@ -300,8 +324,7 @@ class Spawner:
             if not is_offered(self._prefix + "list_controllers"):
                 rospy.loginfo("The controller manager has ended already: nothing to stop")
                 return
-            listing = self._service("list_controllers", ListControllers)().controller
-            states = {controller.name: controller.state for controller in listing}
+            states = self._controllers()
             self._stop([name for name in self.loaded if states.get(name) == "running"])
             self._unload([name for name in reversed(self.loaded) if name in states])
         except (rospy.ServiceException, rospy.ROSException) as error:
