@@ -4,8 +4,8 @@
 
 #include <franka/robot_state.h>
 #include <franka_hw/arm_connection.h>
-#include <franka_hw/latest.h>
 #include <franka_hw/response_times.h>
+#include <realtime_tools/latest_value.h>
 #include <ros/node_handle.h>
 
 #include <string>
@@ -30,7 +30,7 @@ class RobotHealth {
  private:
   void describe(diagnostic_updater::DiagnosticStatusWrapper& status);
 
-  franka_hw::Latest<franka::RobotState> states_;
+  realtime_tools::LatestValue<franka::RobotState> states_;
   const franka_hw::ArmConnection& connection_;
   franka_hw::ResponseTimes& response_times_;
   Status status_;

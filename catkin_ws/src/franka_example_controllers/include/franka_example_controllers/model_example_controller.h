@@ -5,9 +5,9 @@
 #include <controller_interface/multi_interface_controller.h>
 #include <franka_hw/franka_model_interface.h>
 #include <franka_hw/franka_state_interface.h>
-#include <franka_hw/latest.h>
 #include <franka_hw/trigger_rate.h>
 #include <hardware_interface/robot_hw.h>
+#include <realtime_tools/latest_value.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
 #include <ros/wall_timer.h>
@@ -51,7 +51,7 @@ class ModelExampleController
   franka_hw::TriggerRate rate_{1.0, ros::Time(0.0)};
   Answers computed_;
   std::uint64_t printed_{0};
-  franka_hw::Latest<Answers> answers_;
+  realtime_tools::LatestValue<Answers> answers_;
   ros::WallTimer timer_;  // last, so that it ends before the data that it prints
 };
 

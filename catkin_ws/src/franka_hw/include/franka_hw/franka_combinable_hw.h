@@ -3,7 +3,7 @@
 #pragma once
 
 #include <franka_hw/franka_hw.h>
-#include <franka_hw/latest.h>
+#include <realtime_tools/latest_value.h>
 
 #include <atomic>
 #include <functional>
@@ -88,8 +88,8 @@ class FrankaCombinableHW : public FrankaHW {
   bool lossIsError() const override { return true; }
   void errorEnds() override { error_recovered_ = true; }
 
-  Latest<ArrivedState> states_;
-  Latest<Answer> answers_;
+  realtime_tools::LatestValue<ArrivedState> states_;
+  realtime_tools::LatestValue<Answer> answers_;
   ResponseTimes::Clock::time_point read_arrival_{};  // of the state that the controllers read
   ResponseTimes::Clock::time_point motion_ended_{};  // written by the arm's thread
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <franka/duration.h>
-#include <franka_hw/latest.h>
+#include <realtime_tools/latest_value.h>
 
 #include <atomic>
 #include <chrono>
@@ -63,7 +63,7 @@ class ResponseTimes {
   Clock::duration least_delay_{0}, largest_delay_{0};  // of this motion, since the last report
   Window window_;
 
-  Latest<Window> published_;
+  realtime_tools::LatestValue<Window> published_;
   std::atomic_bool restarts_{true};  // the next cycle begins another report
 };
 

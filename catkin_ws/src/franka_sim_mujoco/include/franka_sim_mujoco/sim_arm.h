@@ -4,11 +4,11 @@
 
 #include <franka/robot_state.h>
 #include <franka_hw/control_mode.h>
-#include <franka_hw/latest.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/plant.h>
 #include <franka_sim_mujoco/arm_commands.h>
 #include <franka_sim_mujoco/command_shaper.h>
+#include <realtime_tools/latest_value.h>
 #include <ros/time.h>
 
 #include <array>
@@ -144,7 +144,7 @@ class SimArm {
   std::atomic<Refusal> refusal_{Refusal::kNone};
   std::atomic<std::uint64_t> refused_commands_{0};
   Abort last_abort_;
-  franka_hw::Latest<Abort> abort_;
+  realtime_tools::LatestValue<Abort> abort_;
 };
 
 }  // namespace franka_sim_mujoco

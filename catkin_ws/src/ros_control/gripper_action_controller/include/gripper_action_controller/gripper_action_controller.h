@@ -7,8 +7,8 @@
 #include <controller_interface/controller.h>
 #include <gripper_action_controller/hardware_interface_adapter.h>
 #include <joint_trajectory_controller/internal/command_exchange.h>
-#include <joint_trajectory_controller/internal/latest_value.h>
 #include <joint_trajectory_controller/internal/realtime_goal.h>
+#include <realtime_tools/latest_value.h>
 #include <realtime_tools/realtime_server_goal_handle.h>
 #include <ros/node_handle.h>
 
@@ -119,7 +119,7 @@ class GripperActionController : public controller_interface::Controller<Hardware
 
   // Shared.
   joint_trajectory_controller::internal::CommandExchange<Order> exchange_;
-  joint_trajectory_controller::internal::LatestValue<Snapshot> snapshot_;
+  realtime_tools::LatestValue<Snapshot> snapshot_;
   std::atomic<bool> running_{false};
   std::atomic<std::uint64_t> session_{0};  ///< changes with every start and stop
 

@@ -13,10 +13,10 @@
 #include <joint_trajectory_controller/hold_trajectory_builder.h>
 #include <joint_trajectory_controller/init_joint_trajectory.h>
 #include <joint_trajectory_controller/internal/command_exchange.h>
-#include <joint_trajectory_controller/internal/latest_value.h>
 #include <joint_trajectory_controller/internal/realtime_goal.h>
 #include <joint_trajectory_controller/joint_trajectory_segment.h>
 #include <joint_trajectory_controller/stop_trajectory_builder.h>
+#include <realtime_tools/latest_value.h>
 #include <realtime_tools/realtime_box.h>
 #include <realtime_tools/realtime_buffer.h>
 #include <realtime_tools/realtime_publisher.h>
@@ -224,7 +224,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
 
   // Shared.
   internal::CommandExchange<Command> exchange_;
-  internal::LatestValue<Snapshot> snapshot_;
+  realtime_tools::LatestValue<Snapshot> snapshot_;
   std::atomic<bool> running_{false};
   std::atomic<std::uint64_t> session_{0};  ///< changes with every start and stop
 

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <boost_bind_compat/global_placeholders.h>
+#include <realtime_tools/latest_value.h>
 
-#include <array>
 #include <atomic>
 #include <mutex>
 #include <thread>
@@ -13,9 +13,7 @@ namespace realtime_tools {
 
 /// Passes the newest value of other threads to one real-time thread.
 ///
-/// Three copies of the value circulate: one belongs to the real-time thread, one to the writers,
-/// and one is in between; each side exchanges its copy with that one in a single atomic step. So
-/// readFromRT() always succeeds at once and never sees a half-written value.
+/// readFromRT() always succeeds at once and never sees a half-written value: see LatestValue.
 ///
 /// One real-time thread calls readFromRT() and initRT(); any other thread calls the rest, which
 /// takes a mutex that the real-time thread never uses. Assigning a T must neither allocate nor
@@ -26,7 +24,7 @@ template <class T>
 class RealtimeBuffer {
  public:
   RealtimeBuffer() = default;
-  RealtimeBuffer(const T& data) : slots_{{data, data, data}}, latest_(data) {}
+  RealtimeBuffer(const T& data) : values_(data), latest_(data) {}
   /// Copies the last value of `source`.
   RealtimeBuffer(const RealtimeBuffer& source) : RealtimeBuffer(source.copyOfLatest()) {}
   /// The same; no other thread may use this buffer meanwhile.
@@ -41,10 +39,7 @@ class RealtimeBuffer {
   /// The newest value, without waiting. Real-time safe. It belongs to the real-time thread, which
   /// may also write through the pointer, until its next call; without a new value it returns the
   /// same pointer.
-  T* readFromRT() noexcept {
-    takeFresh();
-    return &slots_[real_time_];
-  }
+  T* readFromRT() noexcept { return &values_.read(); }
 
   /// The last value of writeFromNonRT(), initRT() or the constructor; valid until the next of these
   /// calls. Excludes changes by the real-time thread through its pointer. Not real-time safe.
@@ -58,27 +53,22 @@ class RealtimeBuffer {
     std::lock_guard<std::mutex> lock(mutex_);
     const LatestGuard guard(latest_busy_);
     latest_ = data;
-    slots_[writer_] = data;
-    writer_ = waiting_.exchange(writer_ | kFresh, std::memory_order_acq_rel) & kIndex;
+    values_.write(data);
   }
 
   /// Sets the value from the real-time thread, as controllers do in starting(), or from any thread
   /// before others use the buffer. A simultaneous write counts as the later one. Real-time safe.
   void initRT(const T& data) {
     if (latest_busy_.test_and_set(std::memory_order_acquire)) {
-      slots_[real_time_] = data;
+      values_.held() = data;
       return;
     }
-    takeFresh();
-    slots_[real_time_] = data;
+    values_.read() = data;
     latest_ = data;
     latest_busy_.clear(std::memory_order_release);
   }
 
  private:
-  static constexpr unsigned kIndex = 3;
-  static constexpr unsigned kFresh = 4;
-
   /// Excludes initRT() from `latest_`. Only initRT() can hold the flag, for the time of two copies,
   /// so yielding is sufficient.
   class LatestGuard {
@@ -96,25 +86,16 @@ class RealtimeBuffer {
     std::atomic_flag& flag_;
   };
 
-  void takeFresh() noexcept {
-    if ((waiting_.load(std::memory_order_relaxed) & kFresh) != 0) {
-      real_time_ = waiting_.exchange(real_time_, std::memory_order_acq_rel) & kIndex;
-    }
-  }
-
   T copyOfLatest() const {
     std::lock_guard<std::mutex> lock(mutex_);
     const LatestGuard guard(latest_busy_);
     return latest_;
   }
 
-  std::array<T, 3> slots_{};
+  LatestValue<T> values_;
   mutable T latest_{};
   mutable std::mutex mutex_;  ///< for the threads that are not real-time
   mutable std::atomic_flag latest_busy_ = ATOMIC_FLAG_INIT;
-  unsigned real_time_{0};             ///< index of the slot the real-time thread owns
-  std::atomic<unsigned> waiting_{1};  ///< index of the slot in between, and whether it is fresh
-  unsigned writer_{2};                ///< index of the slot the writers own
 };
 
 }  // namespace realtime_tools
