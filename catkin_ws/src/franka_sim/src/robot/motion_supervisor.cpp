@@ -20,7 +20,7 @@ using franka_core::RobotMode;
 namespace {
 
 constexpr double kStandstill = 0.01;  // [rad/s] slower joints stand still (decision 16)
-constexpr int kStillTicks = 20;       // so long it has stood still when a stop or a recovery ends
+constexpr int kStillTicks = 20;       // of standstill until a stop or a recovery ends
 // Chosen here: braking and yielding take less than 1 s, so a longer recovery has failed.
 constexpr int kRecoveryTicks = 5000;
 // Chosen here: the time for the arm to come to rest after its desired motion. The brakes also close

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <stdexcept>
-#include <string>
+
+#include "robot/hands/parameter_check.h"
 
 namespace franka_sim {
 
@@ -130,40 +130,33 @@ bool isFinite(const HandMeasurement& m) noexcept {
          std::isfinite(m.dq[1]);
 }
 
-void requireOfGripper(bool condition, const std::string& name, const std::string& what) {
-  if (!condition) {
-    throw std::invalid_argument("The gripper cannot start: parameter " + name + " must be " + what +
-                                ".");
-  }
-}
-
 const GripperParameters& checked(const GripperParameters& parameters) {
+  const auto require = [](bool condition, const char* name, const char* must) {
+    requireOf("gripper", condition, name, must);
+  };
   for (std::size_t i = 0; i < 2; i++) {
     const FingerGains& gains = parameters.gains[i];
-    requireOfGripper(isNotNegative(gains.p) && isNotNegative(gains.i) && isNotNegative(gains.d),
-                     "finger" + std::to_string(i + 1) + "/gains",
-                     "finite numbers that are not negative");
+    require(isNotNegative(gains.p) && isNotNegative(gains.i) && isNotNegative(gains.d),
+            i == 0 ? "finger1/gains" : "finger2/gains", "finite numbers that are not negative");
   }
-  requireOfGripper(isPositive(parameters.max_width), "max_width", "a positive width in metres");
-  requireOfGripper(isNotNegative(parameters.move_tolerance), "move/width_tolerance",
-                   "a width in metres that is not negative");
-  requireOfGripper(isNotNegative(parameters.resting_threshold), "grasp/resting_threshold",
-                   "a speed in metres per second that is not negative");
-  requireOfGripper(parameters.consecutive_samples >= 1, "grasp/consecutive_samples", "1 or more");
-  requireOfGripper(isPositive(parameters.homing_speed), "homing_speed",
-                   "a positive speed in metres per second");
-  requireOfGripper(isPositive(parameters.max_speed), "max_speed",
-                   "a positive speed in metres per second");
-  requireOfGripper(isPositive(parameters.max_force), "max_force", "a positive force in newtons");
-  requireOfGripper(std::isfinite(parameters.room_temperature), "room_temperature",
-                   "a finite temperature in degrees Celsius");
-  requireOfGripper(isNotNegative(parameters.temperature_rise), "temperature_rise",
-                   "a number of kelvins that is not negative");
-  requireOfGripper(
-      isNotNegative(parameters.latency.start) && isNotNegative(parameters.latency.shortest),
-      "latency", "two times in seconds that are not negative");
-  requireOfGripper(isPositive(parameters.temperature_time), "temperature_time",
-                   "a positive time in seconds");
+  require(isPositive(parameters.max_width), "max_width", "a positive width in metres");
+  require(isNotNegative(parameters.move_tolerance), "move/width_tolerance",
+          "a width in metres that is not negative");
+  require(isNotNegative(parameters.resting_threshold), "grasp/resting_threshold",
+          "a speed in metres per second that is not negative");
+  require(parameters.consecutive_samples >= 1, "grasp/consecutive_samples", "1 or more");
+  require(isPositive(parameters.homing_speed), "homing_speed",
+          "a positive speed in metres per second");
+  require(isPositive(parameters.max_speed), "max_speed", "a positive speed in metres per second");
+  require(isPositive(parameters.max_force), "max_force", "a positive force in newtons");
+  require(std::isfinite(parameters.room_temperature), "room_temperature",
+          "a finite temperature in degrees Celsius");
+  require(isNotNegative(parameters.temperature_rise), "temperature_rise",
+          "a number of kelvins that is not negative");
+  require(isNotNegative(parameters.latency.start) && isNotNegative(parameters.latency.shortest),
+          "latency", "two times in seconds that are not negative");
+  require(isPositive(parameters.temperature_time), "temperature_time",
+          "a positive time in seconds");
   return parameters;
 }
 

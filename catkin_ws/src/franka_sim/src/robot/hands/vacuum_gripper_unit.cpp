@@ -3,8 +3,8 @@
 #include <franka_sim/robot/hands/vacuum_gripper_unit.h>
 
 #include <cmath>
-#include <stdexcept>
-#include <string>
+
+#include "robot/hands/parameter_check.h"
 
 namespace franka_sim {
 
@@ -12,30 +12,24 @@ namespace {
 
 constexpr double kMillisecond = 1e-3;  // [s]
 
-void requireOfVacuum(bool condition, const std::string& name, const std::string& what) {
-  if (!condition) {
-    throw std::invalid_argument("The vacuum gripper cannot start: parameter " + name + " must be " +
-                                what + ".");
-  }
-}
-
-void requirePositive(double value, const std::string& name) {
-  requireOfVacuum(std::isfinite(value) && value > 0.0, name, "a positive number");
-}
-
 const VacuumGripperParameters& checked(const VacuumGripperParameters& p) {
-  requirePositive(p.sealed_vacuum, "sealed_vacuum");
-  requirePositive(p.pump_time, "pump_time");
-  requirePositive(p.leak_time, "leak_time");
-  requirePositive(p.blow_time, "blow_time");
-  requirePositive(p.detached_vacuum, "detached_vacuum");
-  requireOfVacuum(p.open_vacuum >= 0.0 && p.open_vacuum < p.part_vacuum, "open_vacuum",
-                  "from 0 to below part_vacuum");
-  requireOfVacuum(p.part_vacuum < p.sealed_vacuum, "part_vacuum", "below sealed_vacuum");
-  requireOfVacuum(std::isfinite(p.hysteresis) && p.hysteresis >= 0.0, "hysteresis",
-                  "a number that is not negative");
-  requireOfVacuum(p.idle_power >= 0.0 && p.idle_power <= 100.0, "idle_power",
-                  "from 0 to 100 percent");
+  const auto require = [](bool condition, const char* name, const char* must) {
+    requireOf("vacuum gripper", condition, name, must);
+  };
+  const auto require_positive = [&](double value, const char* name) {
+    require(std::isfinite(value) && value > 0.0, name, "a positive number");
+  };
+  require_positive(p.sealed_vacuum, "sealed_vacuum");
+  require_positive(p.pump_time, "pump_time");
+  require_positive(p.leak_time, "leak_time");
+  require_positive(p.blow_time, "blow_time");
+  require_positive(p.detached_vacuum, "detached_vacuum");
+  require(p.open_vacuum >= 0.0 && p.open_vacuum < p.part_vacuum, "open_vacuum",
+          "from 0 to below part_vacuum");
+  require(p.part_vacuum < p.sealed_vacuum, "part_vacuum", "below sealed_vacuum");
+  require(std::isfinite(p.hysteresis) && p.hysteresis >= 0.0, "hysteresis",
+          "a number that is not negative");
+  require(p.idle_power >= 0.0 && p.idle_power <= 100.0, "idle_power", "from 0 to 100 percent");
   return p;
 }
 
