@@ -465,7 +465,8 @@ def test_a_process_that_was_forked_after_a_picture_ends_by_itself():
         "    sys.exit(3)\n"
         "sys.exit(os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]))\n"
     )
-    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    command = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", code]  # Python's own, from 3.12 on
+    ended = subprocess.run(command, capture_output=True, text=True, timeout=120)
     assert (ended.returncode, ended.stderr) == (3, "")
 
 
