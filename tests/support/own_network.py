@@ -22,7 +22,6 @@ from pathlib import Path
 CLONE_NEWUSER, CLONE_NEWNET = 0x10000000, 0x40000000
 SIOCSIFFLAGS, IFF_UP = 0x8914, 0x1
 
-
 ENTERED = "FRANKA_TEST_NETWORK"  # set when the program is started in its own network
 
 
@@ -36,15 +35,11 @@ def enter() -> str:
     libc = ctypes.CDLL(None, use_errno=True)
     if libc.unshare(CLONE_NEWNET | (CLONE_NEWUSER if user else 0)):
         reason = os.strerror(ctypes.get_errno())
-        if (
-            user
-            and shutil.which("sudo")
-            and not subprocess.call(["sudo", "-n", "true"], stderr=subprocess.DEVNULL)
-        ):
+        root = ["sudo", "-n", "unshare", "--net"]
+        if user and shutil.which("sudo") and not subprocess.call([*root, "true"], stderr=subprocess.DEVNULL):
             environment = [f"{name}={value}" for name, value in os.environ.items()]
-            of_root = ["sudo", "-n", "unshare", "--net", "env", "-i", *environment, f"{ENTERED}=1"]
-            again = [sys.executable, *sys.orig_argv[1:]]
-            os.execvp("sudo", [*of_root, sys.executable, __file__, str(user), str(group), *again])
+            begins = [sys.executable, __file__, str(user), str(group), sys.executable, *sys.orig_argv[1:]]
+            os.execvp("sudo", [*root, "env", "-i", *environment, f"{ENTERED}=1", *begins])
         return reason
     if user:  # the same user as outside; until the next exec with every right over the new network
         Path("/proc/self/setgroups").write_text("deny", encoding="ascii")

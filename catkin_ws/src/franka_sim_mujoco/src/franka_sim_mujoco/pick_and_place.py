@@ -194,6 +194,7 @@ class Arm:
             time.sleep(0.004)
         self._target = target
         self._arrival = None
+        self._corrected = rospy.get_time()  # not by states from before the target's arrival
         try:
             wait_until(lambda: self._arrived(target, tolerance), what)
         except TaskError as error:
