@@ -61,6 +61,9 @@ void ShutdownRequest::wait() {
   while (!requested && ros::ok()) {
     std::this_thread::sleep_for(kPeriod);
   }
+  if (!ros::ok()) {
+    return;
+  }
   limit_ = std::thread([this] {
     std::unique_lock<std::mutex> lock(mutex_);
     if (!changed_.wait_for(lock, patience_, [this] { return ended_; })) {

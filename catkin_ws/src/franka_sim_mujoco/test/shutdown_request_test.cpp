@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 #include <ros/init.h>
 #include <ros/node_handle.h>
-#include <ros/this_node.h>
 #include <ros/xmlrpc_manager.h>
 #include <ros_test/eventually.h>
 #include <std_msgs/Empty.h>

@@ -8,19 +8,24 @@
 #include <control_msgs/QueryTrajectoryState.h>
 #include <controller_manager/controller_manager.h>
 #include <gtest/gtest.h>
+#include <joint_trajectory_controller/joint_trajectory_controller.h>
 #include <ros/ros.h>
 #include <ros_test/eventually.h>
 #include <rt_guard/rt_guard.h>
+#include <trajectory_interface/quintic_spline_segment.h>
 
 #include <atomic>
 #include <boost/make_shared.hpp>
 #include <chrono>
 #include <cmath>
+#include <functional>
 #include <future>
 #include <limits>
 #include <memory>
 #include <string>
 #include <thread>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include "test_robot.h"
@@ -401,12 +406,10 @@ TEST_F(ClosedLoop, AGoalRightAfterASwitchIsFollowed) {
   }
 }
 
-// Goals arrive faster than they finish, while the loop runs: each ends, none is lost, and no joint
-// jumps.
+// Goals arrive faster than they finish, while the loop runs: each ends, and none is lost.
 TEST_F(ClosedLoop, ManyGoalsInSequence) {
   start();
   std::vector<Client::GoalHandle> handles;
-  robot_.largest_step_ = 0.0;
   for (int run = 0; run < 60; ++run) {
     handles.push_back(send(goalTo({0.1 + 0.001 * run, -0.2, 0.3}, 0.3, 3)));
     const int count = (run * 37) % 60;
@@ -422,7 +425,135 @@ TEST_F(ClosedLoop, ManyGoalsInSequence) {
     end(handle);
   }
   EXPECT_EQ(Terminal::SUCCEEDED, handles.back().getTerminalState().state_);
-  EXPECT_LT(robot_.largest_step_, 0.005);
+}
+
+/// Spline whose computation in callbacks can take ticks of the loop.
+struct SlowSegment : trajectory_interface::QuinticSplineSegment<double> {
+  SlowSegment() = default;
+  SlowSegment(double start, const State& from, double end, const State& to)
+      : QuinticSplineSegment(start, from, end, to) {
+    if (meanwhile) {
+      std::exchange(meanwhile, nullptr)();
+    }
+  }
+  static std::function<void()> meanwhile;  ///< called once, by the next computation
+};
+std::function<void()> SlowSegment::meanwhile;
+
+/// A controller without a manager, whose loop and callbacks share one thread.
+class SlowController : public joint_trajectory_controller::JointTrajectoryController<
+                           SlowSegment, hardware_interface::PositionJointInterface> {
+ public:
+  explicit SlowController(const ros::NodeHandle& nh) : nh_(nh) {
+    EXPECT_TRUE(init(robot_.get<hardware_interface::PositionJointInterface>(), nh_, nh_));
+    starting(time_);
+  }
+
+  void steps(int count) {
+    for (int i = 0; i < count; ++i) {
+      time_ += ros::Duration(kPeriod);
+      update(time_, ros::Duration(kPeriod));
+      robot_.move(kPeriod);
+    }
+  }
+
+  /// Passes a message to the loop, which makes `ticks` while the trajectory is computed.
+  void command(const trajectory_msgs::JointTrajectory& message, int ticks) {
+    SlowSegment::meanwhile = [this, ticks] { steps(ticks); };
+    EXPECT_TRUE(updateTrajectoryCommand(
+        boost::make_shared<trajectory_msgs::JointTrajectory>(message), RealtimeGoalHandlePtr()));
+  }
+
+  closed_loop::TestRobot robot_;
+  ros::Time time_{100.0};
+
+ private:
+  ros::NodeHandle nh_;
+};
+
+/// A message to `target` that begins at a time, in points after 0.1, 0.2 and 0.3 s.
+/// @param derivatives how many the points have: 0 to 2
+trajectory_msgs::JointTrajectory threePoints(const ros::Time& begin, double target,
+                                             int derivatives) {
+  trajectory_msgs::JointTrajectory message;
+  message.header.stamp = begin;
+  message.joint_names = kNames;
+  for (int k = 1; k <= 3; ++k) {
+    trajectory_msgs::JointTrajectoryPoint point;
+    point.time_from_start = ros::Duration(0.1 * k);
+    point.positions.assign(kJoints, target * k / 3);
+    point.velocities.assign(derivatives > 0 ? kJoints : 0, k < 3 ? target / 0.3 : 0.0);
+    point.accelerations.assign(derivatives > 1 ? kJoints : 0, 0.0);
+    message.points.push_back(point);
+  }
+  return message;
+}
+
+class SlowCallbacks : public ClosedLoop, public testing::WithParamInterface<std::tuple<int, int>> {
+ protected:
+  /// Positions in 41 ticks, from the one in which the loop gets the second of two messages.
+  /// @param wait ticks before the message comes
+  /// @param ticks that its computation takes
+  /// @param third whether another message comes before the last tick
+  std::vector<closed_loop::TestRobot::Values> path(int wait, int ticks, bool third) {
+    const int derivatives = std::get<1>(GetParam());
+    SlowController controller(ros::NodeHandle(nh_, name_));
+    controller.command(threePoints(controller.time_, 0.3, derivatives), 0);
+    controller.steps(47);
+    const trajectory_msgs::JointTrajectory second =
+        threePoints(controller.time_, -0.2, derivatives);
+    controller.steps(wait);
+    controller.command(second, ticks);
+    std::vector<closed_loop::TestRobot::Values> result;
+    while (result.size() < 41) {
+      if (third && result.size() == 40) {
+        controller.command(threePoints(controller.time_, 0.0, derivatives), 0);
+      }
+      controller.steps(1);
+      result.push_back(controller.robot_.position_);
+    }
+    return result;
+  }
+
+  static void expectEqual(const std::vector<closed_loop::TestRobot::Values>& expected,
+                          const std::vector<closed_loop::TestRobot::Values>& actual) {
+    for (std::size_t i = 0; i < expected.size(); ++i) {
+      for (std::size_t joint = 0; joint < kJoints; ++joint) {
+        ASSERT_NEAR(expected[i][joint], actual[i][joint], 1e-12) << "tick " << i;
+      }
+    }
+  }
+};
+
+// However many ticks a computation takes: once the loop has the trajectory, it moves as if the
+// callbacks had got the message then and taken no time.
+TEST_P(SlowCallbacks, JoinWithoutAJump) {
+  const int ticks = std::get<0>(GetParam());
+  describe("position");
+  const auto slow = path(0, ticks, false);
+  expectEqual(path(ticks, 0, false), slow);
+  // A third trajectory begins on the present motion, passage included.
+  expectEqual(path(0, ticks, true), slow);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, SlowCallbacks,
+                         testing::Combine(testing::Values(0, 1, 13, 60), testing::Values(0, 1, 2)));
+
+// A trajectory that is over before the loop gets it is not jumped to. One for a certain time is
+// given up, the other one begins again.
+TEST_F(ClosedLoop, ATrajectoryThatIsOverIsNotJumpedTo) {
+  describe("position");
+  SlowController slow(ros::NodeHandle(nh_, name_));
+  for (const ros::Time& begin : {slow.time_, ros::Time()}) {
+    slow.command(threePoints(begin, 0.3, 2), 400);
+    slow.steps(1);
+    EXPECT_LT(slow.robot_.largest_step_, 1e-9);
+  }
+  const auto arrived = [&] {
+    slow.steps(1);
+    return std::abs(slow.robot_.position_[0] - 0.3) < 1e-9;
+  };
+  ASSERT_TRUE(ros_test::eventually(arrived, std::chrono::microseconds(20)));
 }
 
 TEST_F(ClosedLoop, PartialGoalsMoveTheirJoints) {

@@ -45,7 +45,8 @@ constexpr std::size_t kReasonCapacity = 512;
 /// are passed to the loop through a CommandExchange and the loop's state comes back as a Snapshot.
 /// When the loop overrides a command (it starts, or holds after a violated tolerance) it increments
 /// an *epoch*; a command computed for an earlier epoch is not followed but computed again, so that
-/// motions always start at the robot's position.
+/// motions always start at the robot's position. A trajectory that the loop gets some ticks after
+/// the one that it was computed for is joined without a jump: see join().
 ///
 /// @tparam SegmentImpl such as trajectory_interface::QuinticSplineSegment<double>
 /// @tparam HardwareInterface one with a HardwareInterfaceAdapter
@@ -176,6 +177,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
                                         const TimeData& /*time_data*/) {}
   void readMeasuredState();
   void takeCommand();
+  bool join(const Command& command);
   void follow(Command* command);
   void beginHold();
   const Trajectory& trajectory() const {
@@ -183,6 +185,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   }
   double uptime() const { return time_data_.uptime.toSec(); }
   double timeFromStart() const { return uptime() - (holding_ ? hold_start_ : command_->start); }
+  const Segment& sampleJoint(std::size_t joint);
   void sampleDesiredState();
   /// @returns false if a violated tolerance ended the goal, and the joints hold from now on.
   bool judgeGoal();
@@ -218,6 +221,9 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   Trajectory hold_trajectory_;
   std::uint64_t epoch_{0};
   State joint_state_;
+  std::vector<SegmentImpl> deviations_;   ///< of each joint from its trajectory, until their ends
+  State deviation_;                       ///< of one joint
+  State zero_;                            ///< of one joint
   std::vector<const Segment*> segments_;  ///< present segment of each joint
   std::vector<char> joint_succeeded_;
   ros::Time last_state_publish_time_;

@@ -71,12 +71,48 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::takeCommand() {
   if (command == nullptr) {
     return;
   }
-  if (command->trajectory && command->epoch != epoch_) {
+  if (command->trajectory && (command->epoch != epoch_ || !join(*command))) {
     command->outdated = true;
     exchange_.giveBack(command);
     return;
   }
   follow(command);
+}
+
+/// Prepares the passage from the present motion to a trajectory. It was computed for a tick that
+/// may be over by now, or to continue one that the loop never got: the difference then fades out
+/// until the end of each joint's segment. As splines add up, the joints move as if the trajectory
+/// had been computed in this tick.
+/// @returns false if a joint would have to jump, because the trajectory is already over.
+template <class SegmentImpl, class HardwareInterface>
+bool JointTrajectoryController<SegmentImpl, HardwareInterface>::join(const Command& command) {
+  sampleDesiredState();
+  const auto differenceOf = [&](std::size_t joint) {
+    const TrajectoryPerJoint& segments = (*command.trajectory)[joint];
+    const auto found = trajectory_interface::sample(segments, uptime(), joint_state_);
+    deviation_.position[0] = desired_state_.position[joint] - joint_state_.position[0];
+    return found == segments.end() ? segments.front().endTime() : found->endTime();
+  };
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    if (differenceOf(i) <= uptime() && deviation_.position[0] != Scalar(0)) {
+      return false;
+    }
+  }
+  // A motion without velocities is linear, one without accelerations cubic: so is the passage.
+  const trajectory_msgs::JointTrajectoryPoint& point = command.message->points.front();
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const Scalar end = differenceOf(i);
+    deviation_.velocity.resize(point.velocities.empty() ? 0 : 1);
+    deviation_.acceleration.resize(point.accelerations.empty() ? 0 : 1);
+    if (!point.velocities.empty()) {
+      deviation_.velocity[0] = desired_state_.velocity[i] - joint_state_.velocity[0];
+    }
+    if (!point.accelerations.empty()) {
+      deviation_.acceleration[0] = desired_state_.acceleration[i] - joint_state_.acceleration[0];
+    }
+    deviations_[i].init(uptime(), deviation_, std::max(end, Scalar(uptime())), zero_);
+  }
+  return true;
 }
 
 template <class SegmentImpl, class HardwareInterface>
@@ -98,16 +134,31 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::beginHold() {
   hold_origin_.velocity = desired_state_.velocity;
   hold_start_ = uptime();
   hold_builder_->setStartTime(hold_start_)->buildTrajectory(&hold_trajectory_);
+  std::for_each(deviations_.begin(), deviations_.end(),
+                [this](SegmentImpl& deviation) { deviation.init(0, zero_, 0, zero_); });
   holding_ = true;
   ++epoch_;
 }
 
+/// The state of a joint by the present motion, in joint_state_. @returns its segment
+template <class SegmentImpl, class HardwareInterface>
+const typename JointTrajectoryController<SegmentImpl, HardwareInterface>::Segment&
+JointTrajectoryController<SegmentImpl, HardwareInterface>::sampleJoint(std::size_t joint) {
+  const TrajectoryPerJoint& segments = trajectory()[joint];
+  const auto found = trajectory_interface::sample(segments, uptime(), joint_state_);
+  if (uptime() < deviations_[joint].endTime()) {
+    deviations_[joint].sample(uptime(), deviation_);
+    joint_state_.position[0] += deviation_.position[0];
+    joint_state_.velocity[0] += deviation_.velocity[0];
+    joint_state_.acceleration[0] += deviation_.acceleration[0];
+  }
+  return found == segments.end() ? segments.front() : *found;
+}
+
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::sampleDesiredState() {
-  const Trajectory& joints = trajectory();
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    const auto found = trajectory_interface::sample(joints[i], uptime(), joint_state_);
-    segments_[i] = found == joints[i].end() ? &joints[i].front() : &*found;
+    segments_[i] = &sampleJoint(i);
     desired_state_.position[i] = joint_state_.position[0];
     desired_state_.velocity[i] = joint_state_.velocity[0];
     desired_state_.acceleration[i] = joint_state_.acceleration[0];

@@ -181,7 +181,8 @@ template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::sizeStates() {
   const State zero(static_cast<unsigned int>(joints_.size()));
   current_state_ = desired_state_ = state_error_ = hold_origin_ = zero;
-  joint_state_ = State(1);
+  joint_state_ = deviation_ = zero_ = State(1);
+  deviations_.assign(joints_.size(), SegmentImpl(0, zero_, 0, zero_));
   segments_.assign(joints_.size(), nullptr);
   joint_succeeded_.assign(joints_.size(), 0);
   // The loop may already move the joints: the builder reads them from starting() on.
