@@ -13,6 +13,7 @@ import pyfranka
 import pytest
 from fci_session import simulated
 from overlay import Overlay
+from waiting import wait_for
 
 TOP = Path(__file__).resolve().parent.parent
 TUTORIALS = TOP / "docs/tutorials"
@@ -66,7 +67,7 @@ def test_commands_of_the_rehearsal_are_accepted():
         assert not pending
         for line in (line for line in sent if line.startswith(("user_stop", "load"))):
             robot.remote.send(line)
-        assert robot.remote.state().mode == "Idle"
+        wait_for(lambda: robot.remote.state().mode == "Idle", "The end of the user stop")
 
 
 def test_franka_info_prints_the_documented_output():
