@@ -26,8 +26,8 @@ double threadMicroseconds() noexcept {
 }  // namespace
 
 double bareTickMicroseconds(World& world, std::uint32_t ticks) {
-  const mjModel* model = world.impl().model.get();
-  const mjData* present = world.impl().data.get();
+  const mjModel* model = implOf(world).model.get();
+  const mjData* present = implOf(world).data.get();
   const physics::DataPtr copy = physics::copyData(*model, *present);
   const auto substeps = static_cast<std::uint32_t>(std::lround(World::kTick / model->opt.timestep));
   double spent = 0.0;

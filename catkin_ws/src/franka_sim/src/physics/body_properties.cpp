@@ -13,8 +13,8 @@
 namespace franka_sim {
 
 BodyInertia bodyInertia(World& world, const std::string& body) {
-  const Frame frame = world.impl().frame(body);
-  const mjModel& model = *world.impl().model;
+  const Frame frame = implOf(world).frame(body);
+  const mjModel& model = *implOf(world).model;
   if (!frame.pose.isApprox(Eigen::Isometry3d::Identity(), 1e-12)) {
     throw std::runtime_error("Body '" + body + "' is fixed to '" +
                              mj_id2name(&model, mjOBJ_BODY, frame.body) +
@@ -32,7 +32,7 @@ BodyInertia bodyInertia(World& world, const std::string& body) {
 }
 
 void endPushes(World& world, const std::string& body) {
-  World::Impl& impl = world.impl();
+  World::Impl& impl = implOf(world);
   impl.frame(body);  // throws for an unknown one
   impl.pushes.erase(std::remove_if(impl.pushes.begin(), impl.pushes.end(),
                                    [&](const Push& push) { return push.body_name == body; }),

@@ -37,7 +37,7 @@ void checkShares(const std::array<double, 3>& values, const std::string& what) {
 }  // namespace
 
 WorldLight light(World& world, const std::string& name) {
-  const World::Impl& impl = world.impl();
+  const World::Impl& impl = implOf(world);
   WorldLight light = physics::readLight(*impl.model, lightId(impl, name));
   const Eigen::Isometry3d frame = linkFrame(impl, name);
   light.position = array(frame.inverse() * vector(light.position));
@@ -46,7 +46,7 @@ WorldLight light(World& world, const std::string& name) {
 }
 
 void setLight(World& world, const std::string& name, const WorldLight& light) {
-  World::Impl& impl = world.impl();
+  World::Impl& impl = implOf(world);
   const int id = lightId(impl, name);
   const std::string of = " of light '" + name + "'";
   checkShares(light.diffuse, "The diffuse color" + of);

@@ -192,7 +192,7 @@ Picture Renderer::render(const Scene& scene, const std::string& camera, int widt
 }
 
 Scene captureScene(World& world) {
-  World::Impl& impl = world.impl();
+  World::Impl& impl = implOf(world);
   if (impl.visual_mjcf.empty()) {
     impl.visual_mjcf = world.mjcf(true);
   }

@@ -128,7 +128,7 @@ class ShapeReader {
 }  // namespace
 
 std::function<WorldShapes()> shapesOf(World& world) {
-  return [text = captureScene(world).mjcf, frames = world.impl().ordered_frames] {
+  return [text = captureScene(world).mjcf, frames = implOf(world).ordered_frames] {
     const physics::ModelPtr model = physics::compile(text, "The model to draw");
     return ShapeReader(*model, frames).read();
   };

@@ -177,4 +177,7 @@ struct World::Impl {
   void retirePushes() noexcept;
 };
 
+/// For other sources of physics/, and tests.
+inline World::Impl& implOf(World& world) noexcept { return *world.impl_; }
+
 }  // namespace franka_sim

@@ -16,26 +16,55 @@ namespace franka_sim::fci {
 
 using franka_core::RobotError;
 
-RobotFront::RobotFront(WholeRobot& robot, RobotServerParameters server, const ToolPorts& tools)
-    : robot_(robot), handler_(robot.unit()), server_(server, handler_) {
+namespace {
+
+std::optional<WholeRobot::Hand> unitOf(const std::optional<SimRobot::Hand>& hand) {
+  return hand ? std::optional<WholeRobot::Hand>({hand->plant, hand->parameters}) : std::nullopt;
+}
+
+std::optional<VacuumGripperParameters> unitOf(const std::optional<SimRobot::Vacuum>& vacuum) {
+  return vacuum ? std::optional(vacuum->parameters) : std::nullopt;
+}
+
+template <typename Tool>
+std::optional<std::uint16_t> portOf(const std::optional<Tool>& tool) {
+  return tool ? std::optional(tool->port) : std::nullopt;
+}
+
+}  // namespace
+
+SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
+                   const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum,
+                   unsigned command_delay)
+    : SimRobot(std::make_unique<WholeRobot>(unit, arm, unitOf(hand), unitOf(vacuum), command_delay),
+               std::move(server), {portOf(hand), portOf(vacuum)}) {}
+
+SimRobot::SimRobot(std::unique_ptr<WholeRobot> units, RobotServerParameters server,
+                   const ToolPorts& tools)
+    : SimRobot(*units, std::move(server), tools) {
+  owned_ = std::move(units);
+}
+
+SimRobot::SimRobot(WholeRobot& units, RobotServerParameters server, const ToolPorts& tools)
+    : units_(units), handler_(units.unit()), server_(server, handler_) {
   if (tools.hand) {
-    hand_ = std::make_unique<GripperServer>(server.address, *tools.hand, *robot_.hand());
+    hand_ = std::make_unique<GripperServer>(server.address, *tools.hand, *units_.hand());
   }
   if (tools.vacuum) {
-    vacuum_ = std::make_unique<VacuumServer>(server.address, *tools.vacuum, *robot_.vacuum());
+    vacuum_ = std::make_unique<VacuumServer>(server.address, *tools.vacuum, *units_.vacuum());
   }
 }
 
-void RobotFront::observe() {
+void SimRobot::observe() {
   constexpr std::array<RobotError, 3> kCollisions{RobotError::kSelfCollisionAvoidanceViolation,
                                                   RobotError::kJointReflex,
                                                   RobotError::kCartesianReflex};
-  const ControlUnit& unit = robot_.unit();
+  const ControlUnit& unit = units_.unit();
   std::array<bool, kCollisions.size()> before{};
   for (std::size_t i = 0; i < before.size(); i++) {
     before[i] = unit.state().errors[indexOf(kCollisions[i])];
   }
-  robot_.observe();
+  units_.observe();
   for (std::size_t i = 0; report_ && i < before.size(); i++) {
     if (!before[i] && unit.state().errors[indexOf(kCollisions[i])]) {
       report_(collisionOf(unit, kCollisions[i]) + " (" +
@@ -44,18 +73,18 @@ void RobotFront::observe() {
   }
 }
 
-const franka_core::RobotCommand* RobotFront::takeCommand() noexcept {
+const franka_core::RobotCommand* SimRobot::takeCommand() noexcept {
   if (!server_.motionHasBegun()) {
-    robot_.link().clear();
+    units_.link().clear();
   }
   return server_.takeCommand();
 }
 
-void RobotFront::actuate() { robot_.actuate(takeCommand()); }
+void SimRobot::actuate() { units_.actuate(takeCommand()); }
 
-void RobotFront::serve(bool stops_only) {
+void SimRobot::serve(bool stops_only) {
   server_.serve(stops_only);
-  const bool tools = robot_.safety().handServed();
+  const bool tools = units_.safety().handServed();
   if (hand_) {
     hand_->setOpen(tools);
     hand_->serve(stops_only);
@@ -66,12 +95,12 @@ void RobotFront::serve(bool stops_only) {
   }
 }
 
-void RobotFront::publish(std::uint64_t ticks, bool same_moment, bool keep_end) {
+void SimRobot::publish(std::uint64_t ticks, bool same_moment, bool keep_end) {
   server_.publish(ticks, same_moment, keep_end);
   publishTools(ticks);
 }
 
-void RobotFront::publishTools(std::uint64_t ticks) {
+void SimRobot::publishTools(std::uint64_t ticks) {
   if (hand_) {
     hand_->publish(ticks);
   }
@@ -80,14 +109,14 @@ void RobotFront::publishTools(std::uint64_t ticks) {
   }
 }
 
-void RobotFront::repeat() {
+void SimRobot::repeat() {
   if (server_.asynchronous() || server_.receiveCommand()) {
     server_.repeat();
   }
   publishTools(0);
 }
 
-void RobotFront::onRefusal(const ClientSlot::Report& report) {
+void SimRobot::onRefusal(const ClientSlot::Report& report) {
   server_.onRefusal(report);
   if (hand_) {
     hand_->onRefusal(report);
@@ -97,30 +126,28 @@ void RobotFront::onRefusal(const ClientSlot::Report& report) {
   }
 }
 
-bool RobotFront::hasClients() const {
+bool SimRobot::hasClients() const {
   return server_.hasClient() || (hand_ && hand_->hasClient()) || (vacuum_ && vacuum_->hasClient());
 }
 
-bool RobotFront::idle() const {
+bool SimRobot::idle() const {
   return server_.idle() && (!hand_ || hand_->idle()) && (!vacuum_ || vacuum_->idle());
 }
 
-bool RobotFront::settling() const {
-  const franka_core::RobotState& state = robot_.unit().state();
+bool SimRobot::settling() const {
+  const franka_core::RobotState& state = units_.unit().state();
   if (state.robot_mode == franka_core::RobotMode::kGuiding) {
     return false;  // nothing brakes an arm in Guiding: it may never come to rest
   }
   const bool abandoned =
       state.robot_mode == franka_core::RobotMode::kMove && !server_.expectsCommands();
-  const UnitStatus status = robot_.unit().status();
-  return status.settling || abandoned || !status.resting || robot_.safety().busy();
+  const UnitStatus status = units_.unit().status();
+  return status.settling || abandoned || !status.resting || units_.safety().busy();
 }
 
-bool RobotFront::handBusy() const {
-  return (hand_ && hand_->busy()) || (vacuum_ && vacuum_->busy());
-}
+bool SimRobot::handBusy() const { return (hand_ && hand_->busy()) || (vacuum_ && vacuum_->busy()); }
 
-void RobotFront::addDescriptors(std::vector<pollfd>& fds) const {
+void SimRobot::addDescriptors(std::vector<pollfd>& fds) const {
   server_.addDescriptors(fds);
   if (hand_) {
     hand_->addDescriptors(fds);
@@ -129,10 +156,6 @@ void RobotFront::addDescriptors(std::vector<pollfd>& fds) const {
     vacuum_->addDescriptors(fds);
   }
 }
-
-}  // namespace franka_sim::fci
-
-namespace franka_sim::fci {
 
 namespace {
 
@@ -225,32 +248,5 @@ std::string describe(SimRobot& robot) {
          std::to_string(robot.server().version()) + ", errors" + errorNames(robot.unit()) + ", q" +
          toText(state.q);
 }
-
-}  // namespace franka_sim::fci
-
-namespace franka_sim::fci {
-
-namespace {
-
-std::optional<WholeRobot::Hand> unitOf(const std::optional<SimRobot::Hand>& hand) {
-  return hand ? std::optional<WholeRobot::Hand>({hand->plant, hand->parameters}) : std::nullopt;
-}
-
-std::optional<VacuumGripperParameters> unitOf(const std::optional<SimRobot::Vacuum>& vacuum) {
-  return vacuum ? std::optional(vacuum->parameters) : std::nullopt;
-}
-
-template <typename Tool>
-std::optional<std::uint16_t> portOf(const std::optional<Tool>& tool) {
-  return tool ? std::optional(tool->port) : std::nullopt;
-}
-
-}  // namespace
-
-SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
-                   const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum,
-                   unsigned command_delay)
-    : OwnedUnits(unit, arm, unitOf(hand), unitOf(vacuum), command_delay),
-      RobotFront(units, std::move(server), {portOf(hand), portOf(vacuum)}) {}
 
 }  // namespace franka_sim::fci

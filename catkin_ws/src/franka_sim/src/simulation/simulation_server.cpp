@@ -18,13 +18,13 @@ constexpr std::chrono::milliseconds kIdle{50};
 }  // namespace
 
 /// The network side of a robot that also this process may move.
-class SimulationServer::Front final : public fci::RobotFront {
+class SimulationServer::Front final : public fci::SimRobot {
  public:
   Front(SimulatedRobot& robot, const std::string& address)
-      : RobotFront(robot.units(),
-                   fci::servedAt(address, protocolsOf(robot.setup().robot),
-                                 robot.units().unit().configuration().model),
-                   toolsOf(robot)),
+      : SimRobot(robot.units(),
+                 fci::servedAt(address, protocolsOf(robot.setup().robot),
+                               robot.units().unit().configuration().model),
+                 toolsOf(robot)),
         robot_(robot),
         address_(address) {
     robot_.setServed(true);

@@ -147,7 +147,7 @@ TEST_P(AdaptiveStepsTest, SnapshotsInFreeMotionContinueBitForBit) {
     }
     return world_.stateHash();
   };
-  const auto held = [this] { return world_.impl().object_rest.held(); };
+  const auto held = [this] { return implOf(world_).object_rest.held(); };
   int held_changes = 0;
   for (int k = 0; k < 3000; k += 60) {
     const bool before = held();
@@ -183,7 +183,7 @@ class ScenarioTest : public AdaptiveStepsTest {
   /// Free motion, a grasp carried about, free motion again, and a push against a wall.
   Outcome play(Substeps substeps) {
     world_.setSubsteps(substeps);
-    world_.impl().object_rest.use(substeps == Substeps::kAdaptive);
+    implOf(world_).object_rest.use(substeps == Substeps::kAdaptive);
     addWall();
     Outcome outcome{};
     changes_ = 0;

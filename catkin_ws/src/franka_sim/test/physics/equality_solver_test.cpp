@@ -16,7 +16,7 @@ class EqualitySolverTest : public StoneInHandTest {
  protected:
   /// The constraints of the present state, solved by both.
   void compare() {
-    World::Impl& impl = world_.impl();
+    World::Impl& impl = implOf(world_);
     const mjModel& model = *impl.model;
     const physics::DataPtr ours(mj_copyData(nullptr, &model, impl.data.get()));
     impl.model->opt.disableflags |= mjDSBL_CONTACT;

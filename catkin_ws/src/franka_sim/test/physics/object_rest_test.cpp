@@ -29,7 +29,7 @@ class ObjectRestTest : public StoneInHandTest {
     return held();
   }
 
-  bool held() { return world_.impl().object_rest.held(); }
+  bool held() { return implOf(world_).object_rest.held(); }
 
   double forceUp(const std::string& body) { return forceOn(body).z(); }
 
@@ -81,7 +81,7 @@ TEST_P(ObjectRestTest, WithoutItAStoneGoesOnResting) {
   ASSERT_TRUE(settles());
   run(500);
   const double height = heightOf("stone");
-  world_.impl().object_rest.use(false);
+  implOf(world_).object_rest.use(false);
   for (int k = 0; k < 500; ++k) {
     tick(0.0, kHome);
     ASSERT_LT(speedOf("stone"), 1e-7) << k;
@@ -104,7 +104,7 @@ TEST_P(ObjectRestTest, ArmsMoveAsBesideAStoneThatIsNotHeld) {
   const ArmMeasurement with = swing();
   EXPECT_TRUE(held());
   world_.restore(snapshot);
-  world_.impl().object_rest.use(false);
+  implOf(world_).object_rest.use(false);
   const ArmMeasurement without = swing();
   EXPECT_FALSE(held());
   for (std::size_t i = 0; i < 7; ++i) {

@@ -28,9 +28,9 @@ class RobotClearanceTest : public ::testing::TestWithParam<const char*> {
       : quick_(test::world(world_file)), plain_(test::world(world_file)) {
     for (Side* side : {&quick_, &plain_}) {
       side->world.setSubsteps(Substeps::kSmall);
-      side->world.impl().object_rest.use(false);  // it changes the last digits
+      implOf(side->world).object_rest.use(false);  // it changes the last digits
     }
-    plain_.world.impl().clearance.use(false);
+    implOf(plain_.world).clearance.use(false);
   }
 
   std::string kind() const { return GetParam(); }
@@ -66,7 +66,7 @@ class RobotClearanceTest : public ::testing::TestWithParam<const char*> {
     }
     ASSERT_EQ(plain_.world.stateHash(), quick_.world.stateHash())
         << "tick " << quick_.world.ticks();
-    clear_ += quick_.world.impl().clearance.isClear() ? 1 : 0;
+    clear_ += implOf(quick_.world).clearance.isClear() ? 1 : 0;
     touches_ += plain_.world.contacts().size() > 4 ? 1 : 0;  // four carry the stone
   }
 
@@ -142,12 +142,12 @@ TEST_P(RobotClearanceTest, ChangesFromOutsideAreSeen) {
   for (int k = 0; k < 500; ++k) {
     tick({kHome});
   }
-  ASSERT_TRUE(quick_.world.impl().clearance.isClear());
+  ASSERT_TRUE(implOf(quick_.world).clearance.isClear());
   for (Side* side : {&quick_, &plain_}) {
     side->world.setBodyPose("stone", side->world.bodyPose(kind() + "_hand_tcp"));
   }
   tick({kHome}, -2.0);
-  EXPECT_FALSE(quick_.world.impl().clearance.isClear());
+  EXPECT_FALSE(implOf(quick_.world).clearance.isClear());
   for (int k = 0; k < 1000; ++k) {
     tick({kHome}, -2.0);
   }
@@ -164,7 +164,7 @@ TEST_P(RobotClearanceTest, ChangesFromOutsideAreSeen) {
 /// The bound on the way of a robot's points, against MuJoCo's kinematics.
 TEST_P(RobotClearanceTest, NoPointMovesFartherThanTheBound) {
   add(kind(), 0, 0, 0.3);
-  World::Impl& impl = quick_.world.impl();
+  World::Impl& impl = implOf(quick_.world);
   const mjModel& model = *impl.model;
   std::mt19937 random(3);
   std::uniform_real_distribution<double> anywhere(-2.8, 2.8);

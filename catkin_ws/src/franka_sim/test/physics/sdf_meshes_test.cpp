@@ -102,7 +102,7 @@ struct Reach {
 };
 
 Reach reachOf(World& world, const std::string& body) {
-  const mjModel& m = *world.impl().model;
+  const mjModel& m = *implOf(world).model;
   const int id = bodyId(world, body);
   Reach reach;
   for (int g = 0; g < m.ngeom; ++g) {
@@ -189,7 +189,7 @@ TEST_F(SdfMeshTest, MaterialColoursOverrideMeshColours) {
         "vertex 0 1 0\nendloop\nendfacet\nendsolid b\n");
   const auto colours = [&](const std::string& text) {
     World world(file(model(text)));
-    const mjModel& m = *world.impl().model;
+    const mjModel& m = *implOf(world).model;
     std::vector<std::array<float, 4>> result;
     for (int g = 0; g < m.ngeom; ++g) {
       const float* c = m.geom_rgba + 4 * g;

@@ -29,7 +29,7 @@ class SdfTest : public ::testing::Test {
 };
 
 inline int bodyId(World& world, const std::string& name) {
-  return mj_name2id(world.impl().model.get(), mjOBJ_BODY, name.c_str());
+  return mj_name2id(implOf(world).model.get(), mjOBJ_BODY, name.c_str());
 }
 
 inline void run(World& world, int ticks) {

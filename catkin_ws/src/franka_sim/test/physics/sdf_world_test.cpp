@@ -42,7 +42,7 @@ TEST_F(SdfWorldTest, MjcfAndSdfStoneWorldsAgree) {
   World mjcf(std::string(FRANKA_SIM_WORLDS) + "/stone.xml");
   EXPECT_EQ(sdf.unsupported(), "");
   for (const char* name : {"table", "pick_tray", "place_tray", "stone"}) {
-    const mjModel &a = *sdf.impl().model, &b = *mjcf.impl().model;
+    const mjModel &a = *implOf(sdf).model, &b = *implOf(mjcf).model;
     const int i = bodyId(sdf, name), j = bodyId(mjcf, name);
     ASSERT_GT(i, 0) << name;
     for (int k = 0; k < 3; ++k) {
@@ -73,7 +73,7 @@ TEST_F(SdfWorldTest, InertiasAndPosesMatchTheText) {
            "0.6</pose><mass>3.5</mass>"
            "<inertia><ixx>0.05</ixx><iyy>0.04</iyy><izz>0.03</izz><ixy>0.001</ixy><ixz>-0.002</ixz>"
            "<iyz>0.0015</iyz></inertia></inertial></link></model>"));
-  const mjModel& model = *world.impl().model;
+  const mjModel& model = *implOf(world).model;
   const int body = bodyId(world, "m");
   ASSERT_GT(body, 0);
   EXPECT_DOUBLE_EQ(model.body_mass[body], 3.5);
@@ -245,7 +245,7 @@ TEST_F(SdfWorldTest, ReportsUnsupportedElementsInOneSentence) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_DOUBLE_EQ(
-      world.impl().model->geom_friction[3 * world.impl().model->body_geomadr[bodyId(world, "b")]],
+      implOf(world).model->geom_friction[3 * implOf(world).model->body_geomadr[bodyId(world, "b")]],
       0.2);
 }
 
@@ -328,7 +328,7 @@ TEST_F(SdfWorldTest, CamerasKeepTheirViewAndSize) {
   EXPECT_NEAR(cameras[0].field_of_view, 2 * std::atan(std::tan(0.6) * 200 / 320) * 180 / M_PI,
               1e-9);
   // The camera looks along the link's x; MuJoCo's cameras look along their -z.
-  const double* q = world.impl().model->cam_quat;
+  const double* q = implOf(world).model->cam_quat;
   const Eigen::Matrix3d turn = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
   EXPECT_LT((turn * -Eigen::Vector3d::UnitZ() - Eigen::Vector3d::UnitX()).norm(), 1e-12);
   EXPECT_LT((turn * Eigen::Vector3d::UnitY() - Eigen::Vector3d::UnitZ()).norm(), 1e-12);

@@ -76,7 +76,7 @@ TEST(WorldObjects, LightsAreReadSetAndRemoved) {
   setLight(world, name, bulb);
   expectNear(bulb.position, light(world, name).position);
   // In the object's body: the link is turned by a quarter about z, 1 m above its origin.
-  const mjModel& model = *world.impl().model;
+  const mjModel& model = *implOf(world).model;
   const double* place = model.light_pos + 3 * mj_name2id(&model, mjOBJ_LIGHT, name.c_str());
   expectNear({-0.25, 0, 1}, {place[0], place[1], place[2]});
   bulb.on = false;
@@ -205,7 +205,7 @@ TEST(WorldObjects, AnglesOfAnyUnitAreConverted) {
     World world;
     world.addObject("b", text, at(0, 0, 1));
     EXPECT_NEAR(world.bodyPose("b").orientation[3], std::sqrt(0.5), 1e-12);
-    const mjModel& model = *world.impl().model;
+    const mjModel& model = *implOf(world).model;
     const int joint = mj_name2id(&model, mjOBJ_JOINT, "j");
     EXPECT_NEAR(model.jnt_range[2 * joint + 1], M_PI / 2, 1e-12);
     EXPECT_EQ(1, model.jnt_limited[joint]);

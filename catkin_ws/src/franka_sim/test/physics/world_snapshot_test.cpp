@@ -76,17 +76,17 @@ TEST_P(WorldSnapshotTest, AnEqualWorldHoldsTheObjectsThatTheFirstOneHolds) {
   const auto first = worldOf(description());
   const auto second = worldOf(description());
   arm(*first).setBrakes(true);
-  for (int i = 0; i < 3000 && !first->impl().object_rest.held(); i++) {
+  for (int i = 0; i < 3000 && !implOf(*first).object_rest.held(); i++) {
     push(*first, 0.0, 1);
   }
-  ASSERT_TRUE(first->impl().object_rest.held());
+  ASSERT_TRUE(implOf(*first).object_rest.held());
   push(*second, 2.0, 300);
-  ASSERT_FALSE(second->impl().object_rest.held());
+  ASSERT_FALSE(implOf(*second).object_rest.held());
   const auto expectSame = [&] {
     EXPECT_EQ(second->stateHash(), first->stateHash());
     EXPECT_EQ(second->contacts().size(), first->contacts().size());
-    EXPECT_EQ(second->impl().object_rest.held(), first->impl().object_rest.held());
-    EXPECT_EQ(second->impl().clearance.isClear(), first->impl().clearance.isClear());
+    EXPECT_EQ(implOf(*second).object_rest.held(), implOf(*first).object_rest.held());
+    EXPECT_EQ(implOf(*second).clearance.isClear(), implOf(*first).clearance.isClear());
   };
   for (const bool prepared : {false, true}) {
     if (prepared) {
@@ -98,7 +98,7 @@ TEST_P(WorldSnapshotTest, AnEqualWorldHoldsTheObjectsThatTheFirstOneHolds) {
     push(*first, 0.0, 20);
     push(*second, 0.0, 20);
     expectSame();
-    EXPECT_TRUE(second->impl().object_rest.held());
+    EXPECT_TRUE(implOf(*second).object_rest.held());
   }
   for (World* world : {first.get(), second.get()}) {
     world->push("stone", {0, 0, 2.0}, {}, 20);

@@ -304,9 +304,10 @@ class World {
   std::string mjcf(bool visuals) const;
 
   struct Impl;
-  Impl& impl() noexcept { return *impl_; }  ///< for the simulator itself
 
  private:
+  friend Impl& implOf(World& world) noexcept;
+
   /// Access to the implementation, which waits for what is being prepared.
   class Access {
    public:

@@ -18,18 +18,46 @@
 
 namespace franka_sim::fci {
 
-/// The network side of one robot: the servers of its units. Called by one thread.
-class RobotFront : public HostedRobot {
+/// One robot on the network: its units, or those of a robot that also this process moves, with
+/// their servers. Called by one thread.
+class SimRobot : public HostedRobot {
  public:
+  struct Hand {
+    HandPlant* plant;
+    GripperParameters parameters;
+    std::uint16_t port{franka_core::fci::kGripperPort};  ///< 0: the system chooses
+  };
+  struct Vacuum {
+    VacuumGripperParameters parameters;
+    std::uint16_t port{franka_core::fci::kVacuumGripperPort};  ///< 0: the system chooses
+  };
   /// Ports of the tools that are served; 0: the system chooses.
   struct ToolPorts {
     std::optional<std::uint16_t> hand;
     std::optional<std::uint16_t> vacuum;
   };
 
-  /// @param robot outlives this; it has the tools whose ports are given
+  /// A robot with units of its own.
+  /// @param arm outlives the robot, as the hand's plant does. @param command_delay [ticks]
+  /// @throws std::runtime_error if a port cannot be opened, std::invalid_argument if a parameter is
+  /// invalid.
+  SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
+           const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum = {},
+           unsigned command_delay = 0);
+  /// @param units outlive this; they have the tools whose ports are given
   /// @throws std::runtime_error if a port cannot be opened
-  RobotFront(WholeRobot& robot, RobotServerParameters server, const ToolPorts& tools);
+  SimRobot(WholeRobot& units, RobotServerParameters server, const ToolPorts& tools);
+
+  WholeRobot& whole() noexcept { return units_; }
+  ControlUnit& unit() noexcept { return units_.unit(); }
+  CommandLink& link() noexcept { return units_.link(); }
+  /// Null if the robot has none.
+  VacuumGripperUnit* vacuum() noexcept { return units_.vacuum(); }
+
+  /// As those of WholeRobot.
+  std::uint64_t hash() const noexcept { return units_.hash(); }
+  void restart() noexcept { units_.restart(); }
+  void halt() noexcept { units_.halt(); }
 
   const RobotServer& server() const noexcept { return server_; }
   std::uint16_t gripperPort() const noexcept { return hand_ ? hand_->port() : 0; }
@@ -56,7 +84,7 @@ class RobotFront : public HostedRobot {
   bool asynchronous() const override { return server_.asynchronous(); }
   bool motionHasBegun() const override { return server_.motionHasBegun(); }
   bool settling() const override;
-  bool settlesInKnownTime() const override { return robot_.safety().busy(); }
+  bool settlesInKnownTime() const override { return units_.safety().busy(); }
   bool handBusy() const override;
   /// Whether a client is connected to the arm or to the hand.
   bool hasClients() const;
@@ -71,64 +99,18 @@ class RobotFront : public HostedRobot {
   const franka_core::RobotCommand* takeCommand() noexcept;
 
  private:
+  SimRobot(std::unique_ptr<WholeRobot> units, RobotServerParameters server, const ToolPorts& tools);
+
   void publishTools(std::uint64_t ticks);
 
-  WholeRobot& robot_;
+  std::unique_ptr<WholeRobot> owned_;  ///< null if the units are another one's
+  WholeRobot& units_;
   UnitRequestHandler handler_;
   RobotServer server_;
   std::unique_ptr<GripperServer> hand_;
   std::unique_ptr<VacuumServer> vacuum_;
   std::function<void(const std::string&)> report_;
 };
-
-}  // namespace franka_sim::fci
-
-namespace franka_sim::fci {
-
-/// Holds the units, which must exist before their servers.
-struct OwnedUnits {
-  OwnedUnits(const ControlUnitParameters& unit, ArmPlant& arm,
-             const std::optional<WholeRobot::Hand>& hand,
-             const std::optional<VacuumGripperParameters>& vacuum, unsigned command_delay)
-      : units(unit, arm, hand, vacuum, command_delay) {}
-
-  WholeRobot units;
-};
-
-/// One robot on the network: its units with their servers.
-/// Called by one thread.
-class SimRobot final : private OwnedUnits, public RobotFront {
- public:
-  struct Hand {
-    HandPlant* plant;
-    GripperParameters parameters;
-    std::uint16_t port{franka_core::fci::kGripperPort};  ///< 0: the system chooses
-  };
-  struct Vacuum {
-    VacuumGripperParameters parameters;
-    std::uint16_t port{franka_core::fci::kVacuumGripperPort};  ///< 0: the system chooses
-  };
-
-  /// @param arm outlives the robot, as the hand's plant does. @param command_delay [ticks]
-  /// @throws std::runtime_error if a port cannot be opened, std::invalid_argument if a parameter is
-  /// invalid.
-  SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
-           const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum = {},
-           unsigned command_delay = 0);
-
-  WholeRobot& whole() noexcept { return units; }
-  ControlUnit& unit() noexcept { return units.unit(); }
-  CommandLink& link() noexcept { return units.link(); }
-  /// Null if the robot has none.
-  VacuumGripperUnit* vacuum() noexcept { return units.vacuum(); }
-
-  /// As those of WholeRobot.
-  std::uint64_t hash() const noexcept { return units.hash(); }
-  void restart() noexcept { units.restart(); }
-  void halt() noexcept { units.halt(); }
-};
-
-}  // namespace franka_sim::fci
 
 /// @file
 /// Sets up the network servers of a Panda or an FR3, for every program that runs a world.
