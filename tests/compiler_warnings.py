@@ -4,7 +4,7 @@
 """Fails if the last build has printed a compiler warning about a file of this repository.
 
 The build itself continues after a warning: a user with another compiler must get programs. Warnings about
-system headers do not count, because the optimiser's warnings about them depend on the release. ccache repeats
+system headers do not count, because the optimizer's warnings about them depend on the release. ccache repeats
 the warnings of cached objects, with the paths of the clone that compiled them, so a clean clone shows all of
 them.
 """

@@ -32,11 +32,11 @@ TABLE = [
 
 @dataclass
 class Body:
-    """Mass [kg], centre (3,) [m] and inertia about it (3, 3) [kg m^2], in the frame of a link."""
+    """Mass [kg], center (3,) [m] and inertia about it (3, 3) [kg m^2], in the frame of a link."""
 
     link: int
     mass: float
-    centre: np.ndarray
+    center: np.ndarray
     inertia: np.ndarray
 
 
@@ -46,10 +46,10 @@ def bodies(load: Body, robot: str) -> list[Body]:
     links = yaml.safe_load(LINKS[robot].read_text())
     for link in range(1, 8):
         values = links[f"link{link}"]
-        centre = np.array([float(number) for number in values["origin"]["xyz"].split()])
+        center = np.array([float(number) for number in values["origin"]["xyz"].split()])
         of = {axes: float(number) for axes, number in values["inertia"].items()}
         inertia = [[of["".join(sorted(row + column))] for column in "xyz"] for row in "xyz"]
-        found.append(Body(link, values["mass"], centre, np.array(inertia)))
+        found.append(Body(link, values["mass"], center, np.array(inertia)))
     return found
 
 
@@ -81,21 +81,21 @@ def mass(q, parts: list[Body]) -> np.ndarray:
     """(7, 7) [kg m^2]"""
     links, total = poses(q), np.zeros((7, 7))
     for body in parts:
-        rotation, J = links[body.link, :3, :3], centre_jacobian(links, body)
+        rotation, J = links[body.link, :3, :3], center_jacobian(links, body)
         inertia = rotation @ body.inertia @ rotation.T
         total += body.mass * J[:3].T @ J[:3] + J[3:].T @ inertia @ J[3:]
     return total
 
 
-def centre_jacobian(links: np.ndarray, body: Body) -> np.ndarray:
+def center_jacobian(links: np.ndarray, body: Body) -> np.ndarray:
     at = links[body.link]
-    return jacobian(links, at[:3, :3] @ body.centre + at[:3, 3], body.link)
+    return jacobian(links, at[:3, :3] @ body.center + at[:3, 3], body.link)
 
 
 def gravity(q, parts: list[Body]) -> np.ndarray:
     """Torques that compensate gravity (7,) [Nm]"""
     links = poses(q)
-    return -sum(body.mass * centre_jacobian(links, body)[:3].T @ GRAVITY for body in parts)
+    return -sum(body.mass * center_jacobian(links, body)[:3].T @ GRAVITY for body in parts)
 
 
 def coriolis(q, dq, parts: list[Body]) -> np.ndarray:

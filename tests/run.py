@@ -206,7 +206,7 @@ def main() -> int:
         tests = registered(BUILD, f"_ctest_({'|'.join(selected) or '.*'})_({kinds})_")
     if end_to_end:  # first, as they take longest
         named = sorted((TOP / "tests").glob("test_*.py"))
-        # Neighbours wait for the same thing to be built, such as the site's pages: they do not run together.
+        # Neighbors wait for the same thing to be built, such as the site's pages: they do not run together.
         files += [path for first in range(STRIDE) for path in named[first::STRIDE]]
     for name, folder in known.items():
         if name in selected or not arguments.packages:

@@ -75,6 +75,12 @@ REPLACED_WORDS = [
     ),
     (re.compile(r"(?<!here )\b(is|are|was|were) no (?!longer|more|other)[a-z]+"), "'is not a ...'"),
     (re.compile(r"\banew\b"), "'again'"),
+    (
+        re.compile(
+            r"(?i:colour|(?<![\"_])centre\b(?![\":])|metres?\b|behaviour|neighbour|initialis|normalis|serialis|factoris)"
+        ),
+        "the American spelling",
+    ),
     (re.compile(r"\b(?i:whoever|whomever)\b"), "the caller, the client or the user"),
 ]
 MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(work|home|root|Users)/\w+")

@@ -67,13 +67,13 @@ def test_demo_shows_progress_and_pictures(tmp_path):
 
     code, results, output = pick_and_place(tmp_path, "--speed", "0")
     assert code == 0
-    assert "rests in the red tray" in output and "from the tray's centre" in output
+    assert "rests in the red tray" in output and "from the tray's center" in output
     assert "simulated" in output and "wall" in output
     for name in ("1-before", "2-grasped", "3-placed"):
         with Image.open(tmp_path / f"{name}.png") as picture:
-            colours = picture.convert("RGB").getcolors(maxcolors=1 << 20)
+            colors = picture.convert("RGB").getcolors(maxcolors=1 << 20)
             assert picture.width >= 640
-            assert len(colours) > 200, "the picture is empty"
+            assert len(colors) > 200, "the picture is empty"
     assert results[0]["distance"] < 0.03
 
 

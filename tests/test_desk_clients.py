@@ -162,9 +162,9 @@ def test_franka_deskapi_starts_the_robot(desk_client):
 def configuration_of(name: str) -> dict:
     """As in the client's own examples."""
     inertia = {"x11": 0.001, "x12": 0, "x13": 0, "x22": 0.0025, "x23": 0, "x33": 0.0017}
-    rotation, centre = {"roll": 0.7071, "pitch": 0, "yaw": 0}, {"x": -0.01, "y": 0, "z": 0.03}
+    rotation, center = {"roll": 0.7071, "pitch": 0, "yaw": 0}, {"x": -0.01, "y": 0, "z": 0.03}
     transformation = {"rotation": rotation, "translation": {"x": 0, "y": 0, "z": 0.1034}}
-    parameters = {"mass": 0.73, "centerOfMass": centre, "inertia": inertia, "transformation": transformation}
+    parameters = {"mass": 0.73, "centerOfMass": center, "inertia": inertia, "transformation": transformation}
     hand = {"endEffectorConfiguration": {"endEffector": {"name": "FrankaHand", "params": parameters}}}
     users = [{"name": USER, "password": PASSWORD, "role": "Admin"}]
     users.append({"name": "safety", "password": "another word", "role": "SafetyOperator"})

@@ -289,7 +289,7 @@ def test_the_holder_denies_or_accepts_a_request_on_the_page(desk, cookie):
 # ---- options ---------------------------------------------------------------------------------------------
 
 
-def test_options_select_behaviour_on_which_sources_disagree(tmp_path):
+def test_options_select_behavior_on_which_sources_disagree(tmp_path):
     options = {"release_status": 204, "token_id": False, "fci_after_release": True}
     with desk_with_robot(tmp_path, report={"brakes": OPEN}, **options) as (robot, desk):
         taken = take(desk, "me").json()

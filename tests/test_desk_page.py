@@ -312,7 +312,7 @@ def test_holder_is_asked_and_forced_take_over_works(page, sim):
     page.shows("No user controls fr3")
 
 
-# ---- keyboard, phone, colours ----------------------------------------------------------------------------
+# ---- keyboard, phone, colors ----------------------------------------------------------------------------
 
 
 def go_to(page, name, limit=120):

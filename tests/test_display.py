@@ -10,7 +10,7 @@ from franka_sim_mujoco.session import Session
 from PIL import Image
 from pyfranka.franka_sim import FrankaSim, SimRobot
 from ros_client import in_session, latest
-from screen import colours, dragged, move_pointer, press, virtual_screen, window_of
+from screen import colors, dragged, move_pointer, press, virtual_screen, window_of
 from std_msgs.msg import Bool
 from waiting import wait_for
 
@@ -35,7 +35,7 @@ def test_window_shows_the_scene(screen, tmp_path):
 
         def is_drawn():
             session.check()
-            return colours(tmp_path / "screen.png") >= 200
+            return colors(tmp_path / "screen.png") >= 200
 
         wait_for(is_drawn, lambda: f"{session.tail()}\nA picture", PATIENCE, 0.5)
 
@@ -45,7 +45,7 @@ def test_window_shows_the_scene(screen, tmp_path):
 def test_headless_opens_no_window(screen, tmp_path):
     with in_session(simulation(tmp_path / "launch.log", "headless:=true")):
         latest("/initialized", Bool, PATIENCE)
-        assert colours(tmp_path / "screen.png") < 20
+        assert colors(tmp_path / "screen.png") < 20
 
 
 @pytest.mark.own_process
@@ -67,19 +67,19 @@ class Viewer:
 
     def __init__(self, picture):
         self._picture = picture
-        wait_for(lambda: window_of("franka_sim") and colours(picture) > 200, "a picture", PATIENCE)
+        wait_for(lambda: window_of("franka_sim") and colors(picture) > 200, "a picture", PATIENCE)
         move_pointer(WIDTH // 2, HEIGHT // 2)  # keys go to the window below the pointer
 
     def corner(self, left, top, right, bottom):
         """A part of the window, without what the world draws there: pixels of texts."""
-        colours(self._picture)
+        colors(self._picture)
         with Image.open(self._picture) as picture:
             part = np.asarray(picture.convert("L").crop((left, top, right, bottom)), int)
         return int((part > 200).sum())
 
     def lines(self):
         """The lines of text in the upper left corner: bright on a dark panel, at least LEAST wide."""
-        colours(self._picture)
+        colors(self._picture)
         with Image.open(self._picture) as picture:
             bright = np.asarray(picture.convert("L").crop((BORDER, BORDER, WIDTH // 2, 100)), int) > 200
         rows = np.flatnonzero(np.diff(np.concatenate([[0], bright[:, :LEAST].any(axis=1), [0]])))
@@ -87,7 +87,7 @@ class Viewer:
 
     def black(self):
         """Black pixels: the caps of the robots' joints, which the simple shapes do not have."""
-        colours(self._picture)
+        colors(self._picture)
         with Image.open(self._picture) as picture:
             return int((np.asarray(picture.convert("L"), int) < 40).sum())
 

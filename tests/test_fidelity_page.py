@@ -22,7 +22,7 @@ NAMES = re.compile(
 # A quantity in words is also reported: figures must have digits, so that they can be compared.
 IN_WORDS = (
     r"\b(?:an?|half|one|two|three|four|five|six|seven|eight|nine|ten|twenty|hundred|thousand)\s"
-    r"(?:(?:milli|micro)?seconds?|minutes?|(?:milli|centi)?metres?|degrees|percent|times)\b"
+    r"(?:(?:milli|micro)?seconds?|minutes?|(?:milli|centi)?meters?|degrees|percent|times)\b"
 )
 FIGURE = re.compile(rf"(?<![\w.]){page_figures.NUMBER}(?!\w)|{IN_WORDS}")
 ENTRIES = {"docs/fidelity.md": page_figures.fidelity, "docs/design/limits.md": page_figures.limits}

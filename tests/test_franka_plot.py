@@ -12,7 +12,7 @@ from franka_msgs.msg import FrankaState
 from PIL import Image, ImageChops
 from pyfranka.franka_sim import FrankaSim
 from ros_client import latest, launched
-from screen import colours, virtual_screen, window_of
+from screen import colors, virtual_screen, window_of
 from std_msgs.msg import String
 from waiting import wait_for
 
@@ -78,7 +78,7 @@ def window(picture, *words, environment=None):
 
             def is_drawn():
                 assert program.poll() is None
-                return window_of("franka_plot") and colours(picture) >= 50
+                return window_of("franka_plot") and colors(picture) >= 50
 
             wait_for(is_drawn, "The window", PATIENCE, 0.1)
             yield program
@@ -110,11 +110,11 @@ def test_a_window_follows_a_robot_on_the_network(tmp_path):
         remote = sim.robot.remote
         with window(before, "robot", sim.robot.address, "--seconds", "3", "-s", "O_F_ext_hat_K,q"):
             remote.step(3500)  # the window is full of a robot at rest
-            wait_for(lambda: colours(before) and colours(after) and changed(before, after) == 0, pause=1.0)
+            wait_for(lambda: colors(before) and colors(after) and changed(before, after) == 0, pause=1.0)
             remote.push("panda_link4", (0, 400, 0), 50)
             remote.wait(lambda now: now.mode == "Reflex")
             wait_for(
-                lambda: colours(after) > 50 and changed(before, after) > 2000,
+                lambda: colors(after) > 50 and changed(before, after) > 2000,
                 "The push in the window",
                 PATIENCE,
             )

@@ -18,10 +18,10 @@ from ros_client import launched
 HERE = Path(__file__).resolve().parent
 SEEDS, SEEDS_IN_SHORT = range(1, 11), range(1, 2)
 BAR_SIZE, BAR_MASS = (0.34, 0.03, 0.03), 0.08  # [m], [kg], as in hand_over.sdf
-REST_HEIGHT = 0.465  # of the bar's centre on a stand [m]
+REST_HEIGHT = 0.465  # of the bar's center on a stand [m]
 FIRST, MIDDLE, SECOND = -0.2, 0.0, 0.2  # y of the stands, and of the place between them [m]
 LIFT = 0.08  # [m]
-GRIP = 0.13  # from the bar's centre to an arm's grasp: the last links must not touch [m]
+GRIP = 0.13  # from the bar's center to an arm's grasp: the last links must not touch [m]
 FORCE = 40.0  # [N]
 STIFFNESS = {"nullspace_stiffness": 10.0, "translational_stiffness": 400.0, "rotational_stiffness": 30.0}
 

@@ -38,7 +38,7 @@ def test_client_under_sanitizers(sanitizer):
     programs = sorted(path for path in (build / "test").glob("libfranka_*_test") if path.is_file())
     assert programs
     for program in programs:
-        # Without address space randomisation: on some kernels its range breaks the sanitizer.
+        # Without address space randomization: on some kernels its range breaks the sanitizer.
         run(["setarch", "-R", program], 1800)
 
 

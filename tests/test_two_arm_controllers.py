@@ -30,7 +30,7 @@ def robot(request):
 
 def launched_pair(launch, robot, *arguments, log):
     launch = ["franka_example_controllers", launch, "sim:=true", "rviz:=false", "rqt:=false", *arguments]
-    # Under friction, soft arms rest millimetres off their target.
+    # Under friction, soft arms rest millimeters off their target.
     return launched(*launch, f"robot_type:={robot}", "realism:=ideal", log=log)
 
 

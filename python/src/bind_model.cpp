@@ -31,8 +31,8 @@ constexpr const char* kOfPositions =
     "The same for joint positions, 7 [rad], and the poses of EE in F and K in EE, 4x4.";
 constexpr const char* kOfLoad =
     "The same for joint positions, 7 [rad], and the payload at the flange: inertia about its "
-    "centre "
-    "of mass, 3x3 [kg m^2], mass [kg], centre of mass in F, 3 [m].";
+    "center "
+    "of mass, 3x3 [kg m^2], mass [kg], center of mass in F, 3 [m].";
 
 template <typename State, typename Model>
 void bindKinematics(py::class_<Model>& type) {
@@ -145,7 +145,7 @@ void bindDynamics(py::class_<Model>& type) {
       },
       py::arg("q"), py::arg("m_total"), py::arg("F_x_Ctotal"),
       py::arg("gravity_earth") = py::make_tuple(0.0, 0.0, -9.81),
-      "The same for joint positions, 7 [rad], and the payload at the flange: mass [kg], centre "
+      "The same for joint positions, 7 [rad], and the payload at the flange: mass [kg], center "
       "of mass in F, 3 [m].");
 }
 

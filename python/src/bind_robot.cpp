@@ -248,7 +248,7 @@ void bindSetters(py::class_<Robot>& robot) {
         self.setLoad(mass, com, load_inertia);
       },
       py::arg("mass"), py::arg("F_x_Cload"), py::arg("load_inertia"),
-      "Mass [kg], centre of mass in F, 3 [m], and inertia, 3x3 [kg m^2], of the load.");
+      "Mass [kg], center of mass in F, 3 [m], and inertia, 3x3 [kg m^2], of the load.");
   robot.def("set_filters", &Robot::setFilters, py::call_guard<release>(),
             py::arg("joint_position_filter_frequency"), py::arg("joint_velocity_filter_frequency"),
             py::arg("cartesian_position_filter_frequency"),
@@ -276,7 +276,7 @@ void bindControlOptions(py::module_& module, py::class_<Robot>& robot) {
       },
       py::arg("callback_order") = CallbackOrder::kMotionFirst,
       py::arg("first_cycle_reference") = FirstCycleReference::kRobotState,
-      "Chooses the behaviour of another version of libfranka for the motions started from now "
+      "Chooses the behavior of another version of libfranka for the motions started from now "
       "on; without arguments that of 0.9.");
 }
 

@@ -324,7 +324,7 @@ void bindRequests(py::class_<Robot>& robot) {
             self.request(franka_sim::loadRequest(load), "The load");
           },
           py::arg("mass"), py::arg("F_x_Cload"), py::arg("load_inertia"),
-          "The configured load: mass [kg], centre of mass in F, 3 [m], and inertia, "
+          "The configured load: mass [kg], center of mass in F, 3 [m], and inertia, "
           "3x3 [kg m^2].");
 }
 

@@ -115,9 +115,9 @@ void bindLoads(py::class_<State>& state) {
   field(state, "I_ee", &State::I_ee, "Inertia of the end effector, 3x3 [kg m^2].", Shape::kMatrix3);
   field(state, "I_load", &State::I_load, "Inertia of the load, 3x3 [kg m^2].", Shape::kMatrix3);
   field(state, "I_total", &State::I_total, "Inertia of both, 3x3 [kg m^2].", Shape::kMatrix3);
-  field(state, "F_x_Cee", &State::F_x_Cee, "Centre of mass of the end effector in F [m].");
-  field(state, "F_x_Cload", &State::F_x_Cload, "Centre of mass of the load in F [m].");
-  field(state, "F_x_Ctotal", &State::F_x_Ctotal, "Centre of mass of both in F [m].");
+  field(state, "F_x_Cee", &State::F_x_Cee, "Center of mass of the end effector in F [m].");
+  field(state, "F_x_Cload", &State::F_x_Cload, "Center of mass of the load in F [m].");
+  field(state, "F_x_Ctotal", &State::F_x_Ctotal, "Center of mass of both in F [m].");
 }
 
 template <typename State>

@@ -243,10 +243,10 @@ SETUP = {
         "must be 3 or 4 finite numbers, not (1, 2)": lambda x: x(base=(1, 2)),
         "must be 3 or 4 finite numbers, not (nan": lambda x: x(base=(NAN, 0, 0)),
         "must be 3 or 4 finite numbers, not (0, 0, 0, inf)": lambda x: x(base=(0, 0, 0, INF)),
-        "load must be mass, centre of mass and": lambda x: x(load=5),
-        "load must be mass, centre of mass": lambda x: x(load=(1.0,)),
+        "load must be mass, center of mass and": lambda x: x(load=5),
+        "load must be mass, center of mass": lambda x: x(load=(1.0,)),
         "The mass of load [kg] must be a finite number": lambda x: x(load=("a", (0, 0, 0))),
-        "The centre of mass of load [m] must be 3": lambda x: x(load=(1.0, (0, 0))),
+        "The center of mass of load [m] must be 3": lambda x: x(load=(1.0, (0, 0))),
         "The inertia of load [kg m^2] must be 9": lambda x: x(load=(1.0, (0, 0, 0), [1])),
         "name must be a text, not 5": lambda x: x(name=5),
         "it cannot be 'a b'": lambda x: x(name="a b"),
@@ -267,7 +267,7 @@ BATCH = {
         "seed must be a whole number": lambda x: SimulationBatch(2, seed="a"),
         "threads must be 1 to 1024": lambda x: SimulationBatch(2, threads=0),
         "threads must be a whole number": lambda x: SimulationBatch(2, threads=1.5),
-        "no value 'panda.colour'": lambda x: SimulationBatch(2, observe=["panda.colour"]),
+        "no value 'panda.color'": lambda x: SimulationBatch(2, observe=["panda.color"]),
         "observe must be a list of names, not 'time'": lambda x: SimulationBatch(2, observe="time"),
         "observe must be a list of names, not 5": lambda x: SimulationBatch(2, observe=5),
         "A name of observe must be a text": lambda x: SimulationBatch(2, observe=[5]),
@@ -318,7 +318,7 @@ OPTIONS = {
     "no camera 'nowhere'": {"camera": "nowhere"},
     "camera must be a text": {"camera": 5},
     "randomize must be a dict": {"randomize": ["mass"]},
-    "randomize: 'colour' is not known": {"randomize": {"colour": 1}},
+    "randomize: 'color' is not known": {"randomize": {"color": 1}},
     "randomize: mass is that of an object": {"task": "Reach", "randomize": {"mass": (1, 2)}},
     "randomize: load needs a lowest": {"randomize": {"load": 1}},
     "randomize: load can be from 0 to 3": {"randomize": {"load": (2, 1)}},
@@ -332,7 +332,7 @@ EPISODE_OPTIONS = {
     "is not a unit quaternion": {"object": QUATERNION_0},
     "The position for body 'stone'": {"object": [FAR, 0, 0]},
     "The option goal must be 3 finite": {"goal": [NAN] * 3},
-    "not 'colour'": {"colour": 1},
+    "not 'color'": {"color": 1},
 }
 
 
@@ -509,7 +509,7 @@ def test_bad_input_of_an_episode_keeps_its_random_numbers(name):
     wrong, right = pyfranka.gym.Environment("Push", robot=name), pyfranka.gym.Environment("Push", robot=name)
     for env in (wrong, right):
         env.reset(seed=5)
-    for options in ({"object": [FAR, 0, 0]}, {"q": [9.0] * 7}, {"colour": 1}):
+    for options in ({"object": [FAR, 0, 0]}, {"q": [9.0] * 7}, {"color": 1}):
         with pytest.raises((ValueError, RuntimeError)):
             wrong.reset(seed=9, options=options)
     first, second = wrong.reset()[0], right.reset()[0]

@@ -121,15 +121,15 @@ def test_jacobians_are_the_derivatives_of_poses(model):
 
 
 def test_a_load_adds_its_mass_and_inertia(model):
-    """J^T m J, J^T I J, and J^T m g, with the Jacobian of the load's centre of mass."""
+    """J^T m J, J^T I J, and J^T m g, with the Jacobian of the load's center of mass."""
     mass, com, inertia = 1.3, np.array([0.02, -0.03, 0.1]), np.diag([0.01, 0.02, 0.03])
-    centre = EYE.copy()
-    centre[:3, 3] = com
-    body = model.body_jacobian(Frame.EndEffector, Q, centre, EYE)
+    center = EYE.copy()
+    center[:3, 3] = com
+    body = model.body_jacobian(Frame.EndEffector, Q, center, EYE)
     added = model.mass(Q, inertia, mass, com) - model.mass(Q, *NO_LOAD)
     expected = mass * body[:3].T @ body[:3] + body[3:].T @ inertia @ body[3:]
     np.testing.assert_allclose(added, expected, atol=1e-9)
-    zero = model.zero_jacobian(Frame.EndEffector, Q, centre, EYE)
+    zero = model.zero_jacobian(Frame.EndEffector, Q, center, EYE)
     for earth in ([0.0, 0.0, -9.81], [1.0, -2.0, -9.0]):
         added = model.gravity(Q, mass, com, earth) - model.gravity(Q, *NO_LOAD[1:], earth)
         np.testing.assert_allclose(added, -mass * zero[:3].T @ np.array(earth), atol=1e-9)

@@ -268,7 +268,7 @@ def test_the_hand_grasps_while_the_simulation_steps(arm, sim):
     nothing = arm.gripper.grasp(0.03, 0.1, 20.0)
     sim.step(2000)
     assert nothing.outcome == GripperOutcome.Failed and not arm.gripper.is_grasped
-    assert arm.gripper.move(1.0).outcome == GripperOutcome.Failed, "no hand opens a metre"
+    assert arm.gripper.move(1.0).outcome == GripperOutcome.Failed, "no hand opens a meter"
     homing = arm.gripper.homing()
     sim.step(10)
     arm.gripper.stop()

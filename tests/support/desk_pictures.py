@@ -17,11 +17,11 @@ from pyfranka.franka_sim import FrankaSim, SimRobot
 
 PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
 PHONE, DESKTOP = (390, 844), (1440, 900)
-COLOURS = 256  # of a picture, for a small file
+COLORS = 256  # of a picture, for a small file
 
 
 def save(page: Browser, name: str) -> None:
-    picture = page.picture().quantize(COLOURS)
+    picture = page.picture().quantize(COLORS)
     picture.save(PICTURES / name, optimize=True)
     print(PICTURES / name)
 

@@ -53,8 +53,8 @@ def with_rviz(use: Callable[[], Any], log: Path) -> Any:
     return use()
 
 
-def colours(path: Path, window: int | None = None) -> int:
-    """Takes a picture of a window, or of all of the screen, and counts its colours."""
+def colors(path: Path, window: int | None = None) -> int:
+    """Takes a picture of a window, or of all of the screen, and counts its colors."""
     subprocess.run(["import", "-window", str(window or "root"), str(path)], check=True, timeout=60)
     with Image.open(path) as picture:
         return len(picture.convert("RGB").getcolors(maxcolors=1 << 20))
@@ -77,7 +77,7 @@ def children_of(window: int) -> list[tuple[int, int, int, int]]:
 
 
 def picture_of(title: str, path: Path, x: int = 0, y: int = 0, size: tuple[int, int] | None = None) -> int:
-    """Moves a window, takes a picture of it, and counts its colours: 0 if there is no such window.
+    """Moves a window, takes a picture of it, and counts its colors: 0 if there is no such window.
 
     A window that has just opened may be replaced by another one.
     """
@@ -85,7 +85,7 @@ def picture_of(title: str, path: Path, x: int = 0, y: int = 0, size: tuple[int, 
     with suppress(WindowIsGone, subprocess.CalledProcessError):
         if window:
             move_window(window, x, y, size)
-            return colours(path, window)
+            return colors(path, window)
     return 0
 
 

@@ -18,19 +18,19 @@ import pyfranka.plot
 from franka_sim_mujoco.session import Session
 from PIL import Image
 from pyfranka.franka_sim import FrankaSim, SimRobot
-from screen import colours, dragged, move_pointer, picture_of, press, virtual_screen, window_of
+from screen import colors, dragged, move_pointer, picture_of, press, virtual_screen, window_of
 from waiting import wait_for
 
 PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
-COLOURS = 256  # of a picture of a plot or a panel, for a small file
+COLORS = 256  # of a picture of a plot or a panel, for a small file
 TABLE = """<mujoco><worldbody>
   <geom name="table" type="box" pos="0.4 0 0.2" size="0.2 0.4 0.2"/>
 </worldbody></mujoco>"""
 
 
-def save(picture: Image.Image, name: str, colours_left: int = COLOURS) -> None:
+def save(picture: Image.Image, name: str, colors_left: int = COLORS) -> None:
     picture = picture.convert("RGB")
-    (picture.quantize(colours_left) if colours_left else picture).save(PICTURES / name, optimize=True)
+    (picture.quantize(colors_left) if colors_left else picture).save(PICTURES / name, optimize=True)
     print(PICTURES / name)
 
 
@@ -88,7 +88,7 @@ def viewer() -> None:
     with TemporaryDirectory() as folder, virtual_screen():
         picture = Path(folder) / "window.png"
         with FrankaSim(robot, world="stone.xml", pace="realtime", arguments=["--viewer"]) as sim:
-            wait_for(lambda: window_of("franka_sim") and colours(picture) > 200, "A picture")
+            wait_for(lambda: window_of("franka_sim") and colors(picture) > 200, "A picture")
             move_pointer(600, 450)
             press("h")
             from test_display import Viewer  # where the stone is drawn
@@ -101,7 +101,7 @@ def viewer() -> None:
 
             with dragged(x, y, x + 250, y - 300, hold="Control_L"):
                 wait_for(lambda: moved() > 0.1, "The stone")
-                colours(picture, window_of("franka_sim"))
+                colors(picture, window_of("franka_sim"))
             save(Image.open(picture), "viewer.png", 0)
 
 

@@ -273,7 +273,7 @@ class Remote:
     ) -> None:
         """The end effector as it is set in Desk: m_ee [kg], F_x_Cee 3 [m], I_ee 9 [kg m^2], F_T_NE 4x4,
         or its 16 numbers column by column."""
-        words = [_numbers(center, 3, "The centre of mass"), _numbers(inertia, 9, "The inertia")]
+        words = [_numbers(center, 3, "The center of mass"), _numbers(inertia, 9, "The inertia")]
         self.send(_line("end_effector", [mass], *words, _transform(F_T_NE)), timeout)
 
     def end_effector_power(self, on: bool, timeout: float | None = None) -> None:
@@ -295,8 +295,8 @@ class Remote:
         return report_of(self.send("report", timeout))
 
     def load(self, mass: float, center: ArrayLike = (0, 0, 0), timeout: float | None = None) -> None:
-        """The load that the robot assumes: mass [kg], centre of mass in the flange's frame, 3 [m]."""
-        self.send(_line("load", [mass], _numbers(center, 3, "The centre of mass")), timeout)
+        """The load that the robot assumes: mass [kg], center of mass in the flange's frame, 3 [m]."""
+        self.send(_line("load", [mass], _numbers(center, 3, "The center of mass")), timeout)
 
     def wall(
         self,
@@ -308,7 +308,7 @@ class Remote:
     ) -> None:
         """Sets the virtual wall of that number, 0 to 7: a box. center: 3 [m], edges: 3 [m], orientation:
         quaternion w, x, y, z, all in the robot's base frame."""
-        words = [_numbers(center, 3, "The centre"), _numbers(edges, 3, "The edges")]
+        words = [_numbers(center, 3, "The center"), _numbers(edges, 3, "The edges")]
         words.append(_numbers(orientation, 4, "The orientation"))
         self.send(_line(f"wall {_whole(number, 'The number of a wall')}", *words), timeout)
 

@@ -84,7 +84,7 @@ class Hand:
 
 @dataclass(frozen=True)
 class EndEffector:
-    """The end effector that the robot assumes: mass [kg], centre of mass in the flange's frame, 3 [m],
+    """The end effector that the robot assumes: mass [kg], center of mass in the flange's frame, 3 [m],
     inertia about it, 9 [kg m^2], and the pose F_T_NE of its tool, 16, column-major."""
 
     mass: float

@@ -198,7 +198,7 @@ def _check_number(name: str, value: object, least: int) -> int:
 
 
 class _Plan:
-    """Function, cases and seeds of a sweep, and the identity by which its output is recognised."""
+    """Function, cases and seeds of a sweep, and the identity by which its output is recognized."""
 
     def __init__(self, function: Function, cases: int | Iterable, seed: int):
         if not callable(function):

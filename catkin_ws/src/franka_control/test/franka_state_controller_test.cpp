@@ -71,7 +71,7 @@ class FakeRobot : public hardware_interface::RobotHW {
 
 class FrankaStateControllerTest : public ros_test::ArmControllerTest {
  protected:
-  bool initialise(FrankaStateController& controller, hardware_interface::RobotHW& robot) {
+  bool initialize(FrankaStateController& controller, hardware_interface::RobotHW& robot) {
     ros::NodeHandle root;
     controller_interface::ControllerBase::ClaimedResources claims;
     controller_interface::ControllerBase& base = controller;
@@ -95,7 +95,7 @@ TEST_F(FrankaStateControllerTest, PublishesEveryTopicOfAnyArm) {
     robot.state.NE_T_EE = {{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1}};
 
     FrankaStateController controller;
-    ASSERT_TRUE(initialise(controller, robot));
+    ASSERT_TRUE(initialize(controller, robot));
     Listener<franka_msgs::FrankaState> state(node.resolveName("franka_states"));
     Listener<tf2_msgs::TFMessage> transforms("/tf");
     Listener<geometry_msgs::WrenchStamped> wrench(node.resolveName("F_ext"));
@@ -163,7 +163,7 @@ TEST_F(FrankaStateControllerTest, PublishesAtTheRequestedRate) {
   node.setParam("publish_rate", 100);  // an integer is a number, too
   FakeRobot robot("panda");
   FrankaStateController controller;
-  ASSERT_TRUE(initialise(controller, robot));
+  ASSERT_TRUE(initialize(controller, robot));
   Listener<franka_msgs::FrankaState> states(node.resolveName("franka_states"));
   ASSERT_TRUE(eventually([&] { return states.isConnected(); }));
 
@@ -191,7 +191,7 @@ TEST_F(FrankaStateControllerTest, LosesNoStateToAThreadThatIsLate) {
   node.setParam("publish_rate", 1000.0);
   FakeRobot robot("panda");
   FrankaStateController controller;
-  ASSERT_TRUE(initialise(controller, robot));
+  ASSERT_TRUE(initialize(controller, robot));
   Listener<franka_msgs::FrankaState> states(node.resolveName("franka_states"));
   ASSERT_TRUE(eventually([&] { return states.isConnected(); }));
 
@@ -216,7 +216,7 @@ TEST_F(FrankaStateControllerTest, PublishesThirtyTimesASecondByDefault) {
   setParameters("panda");
   FakeRobot robot("panda");
   FrankaStateController controller;
-  ASSERT_TRUE(initialise(controller, robot));
+  ASSERT_TRUE(initialize(controller, robot));
   Listener<franka_msgs::FrankaState> states(node.resolveName("franka_states"));
   ASSERT_TRUE(eventually([&] { return states.isConnected(); }));
   controller.starting(ros::Time(50.0));
@@ -235,7 +235,7 @@ TEST_F(FrankaStateControllerTest, UpdateNeitherAllocatesNorLocks) {
   FakeRobot robot("panda");
   robot.state = RandomStates().next();
   FrankaStateController controller;
-  ASSERT_TRUE(initialise(controller, robot));
+  ASSERT_TRUE(initialize(controller, robot));
   int i = 0;
   EXPECT_TRUE(eventually([&] {
     const ros::Time now(10.0 + ++i * 1e-3);
@@ -251,7 +251,7 @@ TEST_F(FrankaStateControllerTest, RefusesMissingAndWrongParameters) {
   FakeRobot robot("panda");
   const auto refused = [&] {
     FrankaStateController controller;
-    return !initialise(controller, robot);
+    return !initialize(controller, robot);
   };
   EXPECT_TRUE(refused()) << "nothing is set";
   node.setParam("arm_id", "panda");
@@ -279,7 +279,7 @@ TEST_F(FrankaStateControllerTest, RefusesMissingAndWrongParameters) {
 
   hardware_interface::RobotHW no_franka;
   FrankaStateController controller;
-  EXPECT_FALSE(initialise(controller, no_franka));
+  EXPECT_FALSE(initialize(controller, no_franka));
 }
 
 }  // namespace

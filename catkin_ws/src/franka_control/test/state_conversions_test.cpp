@@ -156,7 +156,7 @@ TEST(ToTransform, TurnsAMatrixIntoAUnitQuaternion) {
   EXPECT_NEAR(0.0, turn.angularDistance(result), 1e-7);
 }
 
-TEST(ToTransform, NormalisesRotationsTypedWithFourDigits) {
+TEST(ToTransform, NormalizesRotationsTypedWithFourDigits) {
   const geometry_msgs::Transform message =
       toTransform({{0.7071, -0.7071, 0, 0, 0.7071, 0.7071, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1}});
   const auto& q = message.rotation;

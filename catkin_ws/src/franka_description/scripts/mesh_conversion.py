@@ -1,9 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Converts a COLLADA mesh into OBJ files with one colour each, for MuJoCo.
+"""Converts a COLLADA mesh into OBJ files with one color each, for MuJoCo.
 
-MuJoCo reads neither COLLADA nor the colours of an OBJ. Debian's assimp reads the file and writes a
-Y-up mesh; it is rotated back to the link's Z-up frame and split by colour, and its bounding box is
+MuJoCo reads neither COLLADA nor the colors of an OBJ. Debian's assimp reads the file and writes a
+Y-up mesh; it is rotated back to the link's Z-up frame and split by color, and its bounding box is
 compared with one computed from the COLLADA file itself.
 """
 
@@ -29,10 +29,10 @@ def convert(dae, folder):
     with tempfile.TemporaryDirectory(prefix="franka_meshes_") as scratch:
         obj = pathlib.Path(scratch, "mesh.obj")
         run_assimp(dae, obj)
-        colours = read_colours(obj.with_suffix(".mtl"))
+        colors = read_colors(obj.with_suffix(".mtl"))
         mesh = ObjMesh(obj.read_text(encoding="ascii"))
     check_box(dae, mesh)
-    parts = mesh.parts(colours)
+    parts = mesh.parts(colors)
     folder.mkdir(parents=True)
     index = []
     for number, (rgba, faces) in enumerate(parts.items()):
@@ -59,19 +59,19 @@ def run_assimp(dae, obj):
         raise ConversionError(f"assimp could not convert {dae.name}; its output: {printed[0]}")
 
 
-def read_colours(mtl):
+def read_colors(mtl):
     """Material name -> (red, green, blue, alpha), each 0 to 1."""
-    colours, name = {}, None
+    colors, name = {}, None
     for line in mtl.read_text(encoding="utf-8", errors="replace").splitlines():
         word, _, rest = line.strip().partition(" ")
         if word == "newmtl":
             name = rest
-            colours[name] = (1.0, 1.0, 1.0, 1.0)
+            colors[name] = (1.0, 1.0, 1.0, 1.0)
         elif word == "Kd":
-            colours[name] = (*map(float, rest.split()), colours[name][3])
+            colors[name] = (*map(float, rest.split()), colors[name][3])
         elif word == "d":
-            colours[name] = (*colours[name][:3], float(rest))
-    return colours
+            colors[name] = (*colors[name][:3], float(rest))
+    return colors
 
 
 class ObjMesh:
@@ -97,11 +97,11 @@ class ObjMesh:
         used = {corner[0] for _, corners in self.faces for corner in corners}
         return bounding_box(tuple(map(float, self.vertices[v - 1])) for v in used)
 
-    def parts(self, colours):
-        """Faces by colour, in the file's order."""
+    def parts(self, colors):
+        """Faces by color, in the file's order."""
         parts = {}
         for material, corners in self.faces:
-            parts.setdefault(colours.get(material, (1.0, 1.0, 1.0, 1.0)), []).append(corners)
+            parts.setdefault(colors.get(material, (1.0, 1.0, 1.0, 1.0)), []).append(corners)
         return parts
 
     def text(self, faces):

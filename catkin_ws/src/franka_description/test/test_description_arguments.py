@@ -50,7 +50,7 @@ def test_same_robot_under_another_name():
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_tool_centre_point(name):
+def test_tool_center_point(name):
     robot = expand(f"{name}/{name}", hand="true", tcp_xyz="0.1 -0.2 1e-2", tcp_rpy="0 0.5 -1")
     origin = robot.joints[f"{name}_hand_tcp_joint"].find("origin")
     assert numbers(origin.get("xyz")) == [0.1, -0.2, 0.01]

@@ -18,7 +18,7 @@ from description_robot import (
     shapes,
 )
 
-# link: (centre, axis, radius without safety distance, length)
+# link: (center, axis, radius without safety distance, length)
 CAPSULES = {
     "link0": [((-0.075, 0, 0.06), 0, 0.06, 0.03)],
     "link1": [((0, 0, -0.1915), 2, 0.06, 0.283)],
@@ -42,17 +42,17 @@ ALL = dict(visual=[*ARM_LINKS, "hand", "finger"], collision=[*ARM_LINKS, "hand"]
 def assert_capsules(link, expected, safety):
     found = shapes(link)
     assert len(found) == 3 * len(expected)
-    for i, (centre, axis, radius, length) in enumerate(expected):
+    for i, (center, axis, radius, length) in enumerate(expected):
         (tag, data, pose), *spheres = found[3 * i : 3 * i + 3]
         assert tag == "cylinder"
         assert data["radius"][0] == pytest.approx(radius + safety, abs=1e-12)
         assert data["length"] == [length]
-        np.testing.assert_allclose(pose[:3, 3], centre, atol=1e-15)
+        np.testing.assert_allclose(pose[:3, 3], center, atol=1e-15)
         direction = np.abs(pose[:3, 2])
         np.testing.assert_allclose(direction, np.eye(3)[axis], atol=1e-15)
         ends = sorted(tuple(sphere[2][:3, 3]) for sphere in spheres)
         offset = np.eye(3)[axis] * length / 2
-        np.testing.assert_allclose(ends, sorted([centre - offset, centre + offset], key=tuple))
+        np.testing.assert_allclose(ends, sorted([center - offset, center + offset], key=tuple))
         for sphere in spheres:
             assert sphere[0] == "sphere"
             assert sphere[1]["radius"] == data["radius"]
@@ -78,7 +78,7 @@ def test_safety_distance_is_added():
         assert_capsules(robot.links[f"p_{link}_sc"], expected, 0.1)
 
 
-def test_dual_panda_and_hand_alone_keep_three_centimetres():
+def test_dual_panda_and_hand_alone_keep_three_centimeters():
     dual, hand = expand("dual_panda/dual_panda_example"), expand("common/hand")
     for arm in ("panda_1", "panda_2"):
         for link, expected in CAPSULES.items():
@@ -166,8 +166,8 @@ def test_without_meshes_all_links_are_primitives():
                 assert tag in ("box", "cylinder", "sphere")
                 assert all(v > 0 for values in data.values() for v in values)
         for visual in robot.links[f"fr3_{link}"].findall("visual"):
-            colour = numbers(visual.find("material/color").get("rgba"))
-            assert len(colour) == 4 and colour[3] == 1
+            color = numbers(visual.find("material/color").get("rgba"))
+            assert len(color) == 4 and color[3] == 1
 
 
 def distance(shape, points):

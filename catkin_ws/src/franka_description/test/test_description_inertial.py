@@ -41,7 +41,7 @@ TERMS = ("ixx", "iyy", "izz", "ixy", "ixz", "iyz")
 
 
 def inertials(**arguments):
-    """(centre, mass, inertia diagonal, inertia products) of the links with a mass."""
+    """(center, mass, inertia diagonal, inertia products) of the links with a mass."""
     robot = expand(arguments.pop("name"), hand="true", gazebo="true", arm_id="x", **arguments)
     found = {}
     for name, link in robot.links.items():
@@ -50,8 +50,8 @@ def inertials(**arguments):
             assert numbers(inertial.find("origin").get("rpy")) == [0, 0, 0]
             values = [float(inertial.find("inertia").get(term)) for term in TERMS]
             mass = float(inertial.find("mass").get("value"))
-            centre = numbers(inertial.find("origin").get("xyz"))
-            found[name[2:]] = [centre, [mass], values[:3], values[3:]]
+            center = numbers(inertial.find("origin").get("xyz"))
+            found[name[2:]] = [center, [mass], values[:3], values[3:]]
     return found
 
 
@@ -86,14 +86,14 @@ def test_the_fr3s_hand_is_the_one_that_desk_configures():
     parts = [(found["hand"], np.zeros(3))]
     parts += [(found[f"{side}finger"], np.array([0, 0, 0.0584])) for side in ("left", "right")]
     mass = sum(part[1][0] for part, _ in parts)
-    centre = sum(part[1][0] * (np.array(part[0]) + at) for part, at in parts) / mass
+    center = sum(part[1][0] * (np.array(part[0]) + at) for part, at in parts) / mass
     inertia = np.zeros((3, 3))
     for part, at in parts:
-        away = np.array(part[0]) + at - centre
+        away = np.array(part[0]) + at - center
         inertia += matrix(*part[2:]) + part[1][0] * (away @ away * np.eye(3) - np.outer(away, away))
     turn = Rotation.from_euler("z", -45, degrees=True).as_matrix()
     assert mass == pytest.approx(0.73, abs=1e-15)
-    assert turn @ centre == pytest.approx([-0.01, 0, 0.03], abs=1e-15)
+    assert turn @ center == pytest.approx([-0.01, 0, 0.03], abs=1e-15)
     assert turn @ inertia @ turn.T == pytest.approx(np.diag([0.001, 0.0025, 0.0017]), abs=1e-15)
 
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The tree of links and joints, and the poses of flange, hand and tool centre point."""
+"""The tree of links and joints, and the poses of flange, hand and tool center point."""
 
 import math
 

@@ -42,13 +42,13 @@ def node(name):
 
 
 def collada(red_triangles=(0, 1, 2, 1, 3, 2)):
-    colours = {"red": "1 0 0 1", "blue": "0 0 1 1"}
+    colors = {"red": "1 0 0 1", "blue": "0 0 1 1"}
     effect = '<instance_effect url="#{0}-e"/>'
-    materials = [f'<material id="{n}-m">{effect.format(n)}</material>' for n in colours]
+    materials = [f'<material id="{n}-m">{effect.format(n)}</material>' for n in colors]
     return f"""<?xml version="1.0"?>
     <COLLADA xmlns="http://www.collada.org/2005/11/COLLADASchema" version="1.4.1">
       <asset><unit name="meter" meter="1"/><up_axis>Z_UP</up_axis></asset>
-      <library_effects>{"".join(material(n, c) for n, c in colours.items())}</library_effects>
+      <library_effects>{"".join(material(n, c) for n, c in colors.items())}</library_effects>
       <library_materials>
         {"".join(materials)}
       </library_materials>
@@ -82,7 +82,7 @@ def rounded(faces):
 
 
 @needs_assimp
-def test_coordinates_are_kept_and_colours_are_split(tmp_path):
+def test_coordinates_are_kept_and_colors_are_split(tmp_path):
     (tmp_path / "part.dae").write_text(collada())
     mesh_conversion.convert(tmp_path / "part.dae", tmp_path / "out" / "part")
     index = (tmp_path / "out" / "part" / "index.yaml").read_text().splitlines()

@@ -94,7 +94,7 @@ class ControllerTest : public ros_test::ArmControllerTest {
  protected:
   ControllerTest() { setParameters("panda"); }
 
-  bool initialise(CartesianImpedanceExampleController& controller,
+  bool initialize(CartesianImpedanceExampleController& controller,
                   hardware_interface::RobotHW& robot) {
     ros::NodeHandle root;
     controller_interface::ControllerBase& base = controller;
@@ -153,7 +153,7 @@ class ControllerTest : public ros_test::ArmControllerTest {
 TEST_F(ControllerTest, FollowsTheEquilibriumPoseWithItsStiffness) {
   FakeRobot robot("panda");
   CartesianImpedanceExampleController controller;
-  ASSERT_TRUE(initialise(controller, robot));
+  ASSERT_TRUE(initialize(controller, robot));
   controller.starting(ros::Time(1.0));
   send(poseMessage(0.35));
   ASSERT_TRUE(eventually([&] {
@@ -164,7 +164,7 @@ TEST_F(ControllerTest, FollowsTheEquilibriumPoseWithItsStiffness) {
   EXPECT_NEAR(200.0 * 0.05, robot.command[0], 1e-6) << "the default stiffness times 5 cm";
   EXPECT_NEAR(0.0, robot.command[1], 1e-9);
 
-  // A quaternion of any length and sign is normalised.
+  // A quaternion of any length and sign is normalized.
   auto message = poseMessage(0.35);
   message.pose.orientation.x = -3.0;
   send(message);
@@ -183,7 +183,7 @@ TEST_F(ControllerTest, FollowsTheEquilibriumPoseWithItsStiffness) {
 TEST_F(ControllerTest, DropsPosesFromBeforeItsStart) {
   FakeRobot robot("panda");
   CartesianImpedanceExampleController controller;
-  ASSERT_TRUE(initialise(controller, robot));
+  ASSERT_TRUE(initialize(controller, robot));
   controller.starting(ros::Time(1.0));
   send(poseMessage(0.35));
   ASSERT_TRUE(eventually([&] {
@@ -201,7 +201,7 @@ TEST_F(ControllerTest, DropsPosesFromBeforeItsStart) {
 TEST_F(ControllerTest, RefusesInvalidPoses) {
   FakeRobot robot("panda");
   CartesianImpedanceExampleController controller;
-  ASSERT_TRUE(initialise(controller, robot));
+  ASSERT_TRUE(initialize(controller, robot));
   controller.starting(ros::Time(1.0));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double infinite = std::numeric_limits<double>::infinity();
@@ -224,7 +224,7 @@ TEST_F(ControllerTest, RefusesInvalidPoses) {
 TEST_F(ControllerTest, TakesStiffnessFromDynamicReconfigure) {
   FakeRobot robot("panda");
   CartesianImpedanceExampleController controller;
-  ASSERT_TRUE(initialise(controller, robot));
+  ASSERT_TRUE(initialize(controller, robot));
   controller.starting(ros::Time(1.0));
 
   // Joint 7 moves nothing: it is the whole null space, with 0.5 Nm/rad from the first cycle on.
@@ -255,7 +255,7 @@ TEST_F(ControllerTest, TakesStiffnessFromDynamicReconfigure) {
 TEST_F(ControllerTest, UpdateNeitherAllocatesNorLocks) {
   FakeRobot robot("panda");
   CartesianImpedanceExampleController controller;
-  ASSERT_TRUE(initialise(controller, robot));
+  ASSERT_TRUE(initialize(controller, robot));
   for (int n = 0; n < 5; ++n) {
     send(poseMessage(0.3 + 0.01 * n));
     ASSERT_TRUE(setStiffness(100.0 + n, 1.0));
@@ -285,7 +285,7 @@ TEST_F(ControllerTest, RefusesMissingAndWrongParametersWithOneSentence) {
   const auto expectRefusal = [&](const std::string& words) {
     errors.clear();
     CartesianImpedanceExampleController controller;
-    EXPECT_FALSE(initialise(controller, robot)) << words;
+    EXPECT_FALSE(initialize(controller, robot)) << words;
     ROS_ERROR("the end");  // arrives after all others
     EXPECT_TRUE(eventually([&] {
       queue.callAvailable();

@@ -181,7 +181,7 @@ TEST(CartesianImpedance, ResetsItsTargetsWhenRestarted) {
   }
 }
 
-TEST(CartesianImpedance, ChangesNoTorqueByMoreThanOneNewtonmetre) {
+TEST(CartesianImpedance, ChangesNoTorqueByMoreThanOneNewtonmeter) {
   Random random;
   for (int n = 0; n < 1000; ++n) {
     Arm arm = random.arm();

@@ -127,7 +127,7 @@ class PythonControllerTest : public testing::TestWithParam<bool> {
     node.setParam("script", path);
   }
 
-  bool initialise(PythonController& controller) {
+  bool initialize(PythonController& controller) {
     ros::NodeHandle root;
     controller_interface::ControllerBase& base = controller;
     claims.clear();
@@ -144,7 +144,7 @@ class PythonControllerTest : public testing::TestWithParam<bool> {
   void expectFailure(const std::string& text) {
     world().forget();
     PythonController controller;
-    ASSERT_TRUE(initialise(controller)) << world().errors();
+    ASSERT_TRUE(initialize(controller)) << world().errors();
     controller.starting(ros::Time(1.0));
     const std::string name = node.getNamespace().substr(1);
     EXPECT_TRUE(eventually([&] {
@@ -160,7 +160,7 @@ class PythonControllerTest : public testing::TestWithParam<bool> {
 
   void expectRefusal(const std::string& text) {
     PythonController controller;
-    EXPECT_FALSE(initialise(controller));
+    EXPECT_FALSE(initialize(controller));
     EXPECT_TRUE(eventually([&] { return world().logged(text); })) << text << "\n"
                                                                   << world().errors();
   }
@@ -191,7 +191,7 @@ TEST_P(PythonControllerTest, PassesEveryAllowedCombination) {
       dict += motion.empty() ? "" : "'" + motion + "': " + moves;
       law("return {" + dict + "}");
       PythonController controller;
-      ASSERT_TRUE(initialise(controller)) << motion << effort << world().errors();
+      ASSERT_TRUE(initialize(controller)) << motion << effort << world().errors();
       std::size_t claimed = 0;
       for (const auto& claim : claims) {
         claimed += claim.resources.size();
@@ -218,7 +218,7 @@ TEST_P(PythonControllerTest, ElbowAccompaniesCartesianCommands) {
   command({"cartesian_velocity"});
   law("return {'cartesian_velocity': [0.0] * 6, 'elbow': [0.25, -1.0]}");
   PythonController controller;
-  ASSERT_TRUE(initialise(controller));
+  ASSERT_TRUE(initialize(controller));
   controller.starting(ros::Time(1.0));
   run(controller, 1);
   EXPECT_EQ((std::array<double, 2>{{0.25, -1.0}}), arm.elbow);
@@ -251,7 +251,7 @@ class Law:
     return [self.k, period, state.q_d[1], state.O_T_EE_d[2, 3], 0, 0, 0]
 )");
   PythonController controller;
-  ASSERT_TRUE(initialise(controller)) << world().errors();
+  ASSERT_TRUE(initialize(controller)) << world().errors();
   controller.starting(ros::Time(1.0));
   run(controller, 1);
   EXPECT_EQ("", world().errors());
@@ -318,7 +318,7 @@ TEST_P(PythonControllerTest, TakesTheRoundedPosesThatTheRobotTakes) {
   }
   law(body + "\n    return T");
   PythonController controller;
-  ASSERT_TRUE(initialise(controller)) << world().errors();
+  ASSERT_TRUE(initialize(controller)) << world().errors();
   controller.starting(ros::Time(1.0));
   for (const franka_test::PerturbedMatrix& perturbed : accepted) {
     run(controller, 1);
@@ -341,7 +341,7 @@ TEST_P(PythonControllerTest, AbandonsALateScriptAndContinuesWithOthers) {
   node.setParam("fallback_controllers", Names{"other"});
   law("\n    while self.n == 3: pass\n    return [0.0] * 7");
   PythonController controller;
-  ASSERT_TRUE(initialise(controller)) << world().errors();
+  ASSERT_TRUE(initialize(controller)) << world().errors();
   controller.starting(ros::Time(1.0));
   run(controller, 2);
   run(controller, 3000);
@@ -420,7 +420,7 @@ TEST_P(PythonControllerTest, ReloadsAScriptTwentyTimes) {
   for (int i = 0; i < 20; ++i) {
     law("return [" + std::to_string(i) + ".0] * 7");
     PythonController controller;
-    ASSERT_TRUE(initialise(controller)) << world().errors();
+    ASSERT_TRUE(initialize(controller)) << world().errors();
     controller.starting(ros::Time(1.0));
     run(controller, 1);
     EXPECT_EQ(static_cast<double>(i), arm.velocity[0]);
@@ -440,7 +440,7 @@ class Law:
   def stopping(self): self.ended = 1
 )");
   PythonController controller;
-  ASSERT_TRUE(initialise(controller)) << world().errors();
+  ASSERT_TRUE(initialize(controller)) << world().errors();
   for (const double expected : {3.0, 7.0}) {
     controller.starting(ros::Time(1.0));
     run(controller, 1);
@@ -452,7 +452,7 @@ class Law:
 TEST_P(PythonControllerTest, LoopNeitherAllocatesNorLocks) {
   law("return [0.0] * 7");
   PythonController controller;
-  ASSERT_TRUE(initialise(controller));
+  ASSERT_TRUE(initialize(controller));
   controller.starting(ros::Time(1.0));
   run(controller, 10);
   rt_guard::Scope scope;
@@ -468,7 +468,7 @@ TEST_P(PythonControllerTest, BringsJointsToRestWithoutAJump) {
       "    return self.q + 0.25 * (1 - np.cos(2.0 * t))",
       "self.q = np.array(state.q_d)");
   PythonController controller;
-  ASSERT_TRUE(initialise(controller)) << world().errors();
+  ASSERT_TRUE(initialize(controller)) << world().errors();
   controller.starting(ros::Time(1.0));
   std::vector<double> q;
   for (int i = 0; i < 2000; ++i) {
@@ -504,7 +504,7 @@ TEST_P(PythonControllerTest, BringsPosesToRestAsPoses) {
       "    T[0, 3] += a\n    return T",
       "self.T = np.array(state.O_T_EE_d)");
   PythonController controller;
-  ASSERT_TRUE(initialise(controller)) << world().errors();
+  ASSERT_TRUE(initialize(controller)) << world().errors();
   controller.starting(ros::Time(1.0));
   run(controller, 500);
   const double x = arm.pose[12];
@@ -520,7 +520,7 @@ TEST_P(PythonControllerTest, BringsPosesToRestAsPoses) {
   }
   EXPECT_GT(positions.back(), x);
   EXPECT_NEAR(positions.back(), positions[positions.size() - 2], 1e-12);
-  // It turned one rad per metre, like the law.
+  // It turned one rad per meter, like the law.
   const double angle = std::atan2(arm.pose[1], arm.pose[0]);
   EXPECT_NEAR(positions.back() - 0.3, angle, 1e-4);
 }
@@ -530,7 +530,7 @@ TEST_P(PythonControllerTest, DampsWithTorquesAtALimitedRate) {
   law("return [20.0] * 7 if self.n < 3 else None");
   arm.state.dq.fill(0.1);
   PythonController controller;
-  ASSERT_TRUE(initialise(controller));
+  ASSERT_TRUE(initialize(controller));
   controller.starting(ros::Time(1.0));
   run(controller, 2);
   for (int i = 1; i <= 15; ++i) {

@@ -107,9 +107,9 @@ def test_the_cartesian_example_moves_on_a_circle(robot):
     first = robot.states[-1].O_T_EE
     states = robot.record(CIRCLE, 5.0, lambda state: abs(state.O_T_EE_d[13] - first[13]) > 0.09)
     begin = states[0].O_T_EE_d
-    centre = begin[13] + 0.05
+    center = begin[13] + 0.05
     for state in states:
-        radius = math.hypot(state.O_T_EE_d[13] - centre, state.O_T_EE_d[14] - begin[14])
+        radius = math.hypot(state.O_T_EE_d[13] - center, state.O_T_EE_d[14] - begin[14])
         assert radius == pytest.approx(0.05, abs=1e-4)
         assert state.O_T_EE_d[12] == pytest.approx(begin[12], abs=1e-4)
     assert not [e for e in robot.errors if "Python" in e]

@@ -42,7 +42,7 @@ add_rostest_gtest(franka_hw_robot_test test/franka_hw_robot.test
   test/robot/support.cpp
   test/robot/switching_test.cpp
 )
-# Unoptimised, because compilation takes most of the time of these tests.
+# Unoptimized, because compilation takes most of the time of these tests.
 target_compile_options(franka_hw_robot_test PRIVATE -Wall -Wextra -O0)
 target_compile_definitions(franka_hw_robot_test PRIVATE
   FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test/data")

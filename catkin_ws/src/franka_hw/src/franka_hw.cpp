@@ -68,7 +68,7 @@ bool FrankaHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
   } catch (const std::runtime_error& error) {
     const bool unreachable = dynamic_cast<const franka::NetworkException*>(&error) != nullptr;
     ROS_ERROR_STREAM("FrankaHW: the robot '" << arm_id_ << "' at " << robot_ip_
-                                             << " could not be initialised. " << error.what()
+                                             << " could not be initialized. " << error.what()
                                              << (unreachable ? kNoRobot : ""));
     return false;
   }

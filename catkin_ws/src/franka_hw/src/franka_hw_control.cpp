@@ -110,13 +110,13 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
   if (!endMotion()) {
     ROS_ERROR_STREAM("FrankaHW: the motion of '" << arm_id_ << "' did not end within "
                                                  << kMaxStopTime.count() << " s.");
-    goOnAsBefore(was_active);
+    resumePrevious(was_active);
     return false;
   }
   if (!setRunFunction(mode, settings.limit_rate, settings.cutoff_frequency,
                       settings.internal_controller)) {
     ROS_WARN_STREAM("FrankaHW: no such control mode for '" << arm_id_ << "': " << mode);
-    goOnAsBefore(was_active);
+    resumePrevious(was_active);
     return false;
   }
   if (mode != current_control_mode_) {
@@ -155,11 +155,11 @@ bool FrankaHW::takePreparationBack() {
   current_control_mode_ = run_settings_.mode;
   setRunFunction(run_settings_.mode, run_settings_.limit_rate, run_settings_.cutoff_frequency,
                  run_settings_.internal_controller);
-  goOnAsBefore(preparation_.was_active);
+  resumePrevious(preparation_.was_active);
   return true;
 }
 
-void FrankaHW::goOnAsBefore(bool was_active) {
+void FrankaHW::resumePrevious(bool was_active) {
   motion_goes_on_ = was_active;
   controller_active_ = was_active;
 }

@@ -283,7 +283,7 @@ struct ModelKDL::Workspace {
   const KDL::RigidBodyInertia last_inertia;  ///< of link 7 and flange without payload, in F
   std::array<double, kJoints> masses{};
   std::array<KDL::Vector, kJoints>
-      first_moments;  ///< mass times centre of mass, in the link's frame
+      first_moments;  ///< mass times center of mass, in the link's frame
 
   KDL::ChainDynParam dynamics;
   KDL::JntArray q{kJoints};

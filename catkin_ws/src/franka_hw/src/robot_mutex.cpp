@@ -33,7 +33,7 @@ std::unique_lock<std::mutex> RobotMutex::takeWhile(const std::function<bool()>& 
   return lock;
 }
 
-std::unique_lock<std::mutex> RobotMutex::takeSoon(std::mutex& mutex,
+std::unique_lock<std::mutex> RobotMutex::lockSoon(std::mutex& mutex,
                                                   const std::function<void()>& busy) {
   const auto deadline = std::chrono::steady_clock::now() + kSoon;
   std::unique_lock<std::mutex> lock(mutex, std::defer_lock);

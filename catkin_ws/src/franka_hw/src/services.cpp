@@ -49,14 +49,14 @@ void setupServices(franka::Robot& robot, RobotMutex& robot_mutex, ros::NodeHandl
   const auto take = [&robot_mutex] {
     const RobotMutex::Request request(robot_mutex);
     return orRefuse(
-        RobotMutex::takeSoon(robot_mutex, [&robot_mutex] { refuseInMotion(robot_mutex); }));
+        RobotMutex::lockSoon(robot_mutex, [&robot_mutex] { refuseInMotion(robot_mutex); }));
   };
   offerSetters(robot, take, node_handle, services);
 }
 
 void setupServices(franka::Robot& robot, std::mutex& robot_mutex, ros::NodeHandle& node_handle,
                    ServiceContainer& services) {
-  const auto take = [&robot_mutex] { return orRefuse(RobotMutex::takeSoon(robot_mutex, [] {})); };
+  const auto take = [&robot_mutex] { return orRefuse(RobotMutex::lockSoon(robot_mutex, [] {})); };
   offerSetters(robot, take, node_handle, services);
 }
 

@@ -113,7 +113,7 @@ TEST(RobotMutex, WaitIsShort) {
   std::mutex mutex;
   const std::lock_guard<std::mutex> held(mutex);
   int attempts = 0;
-  EXPECT_FALSE(RobotMutex::takeSoon(mutex, [&] { attempts++; }));
+  EXPECT_FALSE(RobotMutex::lockSoon(mutex, [&] { attempts++; }));
   EXPECT_GE(attempts, 1);
 }
 
@@ -121,7 +121,7 @@ TEST(RobotMutex, ARefusalEndsTheWait) {
   std::mutex mutex;
   const std::lock_guard<std::mutex> held(mutex);
   const auto refuse = [] { throw std::runtime_error("a motion has the robot"); };
-  EXPECT_THROW(RobotMutex::takeSoon(mutex, refuse), std::runtime_error);
+  EXPECT_THROW(RobotMutex::lockSoon(mutex, refuse), std::runtime_error);
 }
 
 TEST(RobotMutex, ReadingLoopYieldsToARequest) {

@@ -74,9 +74,9 @@ def described(robot):
             origin = collision.find("origin")
             half = [0, 0, 0.5 * float(cylinder.get("length"))]
             axis = rotated(numbers(origin.get("rpy")), half)
-            centre = numbers(origin.get("xyz"))
+            center = numbers(origin.get("xyz"))
             turn = turns.get(link.get("name"), [0, 0, 0])
-            ends = [rotated(turn, [c + sign * a for c, a in zip(centre, axis)]) for sign in (-1, 1)]
+            ends = [rotated(turn, [c + sign * a for c, a in zip(center, axis)]) for sign in (-1, 1)]
             capsules.append(
                 (int(match.group(1) or 8), *ends, float(cylinder.get("radius")) - SAFETY_DISTANCE)
             )

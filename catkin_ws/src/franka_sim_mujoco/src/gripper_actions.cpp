@@ -47,10 +47,10 @@ void abort(Server& server, Result result, const std::string& text, double width)
   server.setAborted(result, text);
 }
 
-std::string millimetres(double metres) {
+std::string millimeters(double meters) {
   std::ostringstream text;
   text.precision(3);
-  text << std::fixed << metres * 1e3 << " mm";
+  text << std::fixed << meters * 1e3 << " mm";
   return text.str();
 }
 
@@ -169,7 +169,7 @@ void GripperActions::homing() {
     abort(homing_server_, result,
           "Homing did not reach the fingers' ends: something is between or beside them. They stand "
           "at " +
-              millimetres(view_.width) + ".",
+              millimeters(view_.width) + ".",
           view_.width);
   }
 }
@@ -190,8 +190,8 @@ void GripperActions::move(const franka_gripper::MoveGoal& goal) {
   }
   result.success = command->fate == Fate::kSucceeded;
   if (!result.success) {
-    result.error = "The fingers stopped at " + millimetres(view_.width) + " instead of " +
-                   millimetres(goal.width) + ": something is in their way.";
+    result.error = "The fingers stopped at " + millimeters(view_.width) + " instead of " +
+                   millimeters(goal.width) + ": something is in their way.";
   }
   move_server_.setSucceeded(result);
 }
@@ -222,9 +222,9 @@ void GripperActions::grasp(const franka_gripper::GraspGoal& goal) {
   }
   result.success = command->fate == Fate::kSucceeded;
   if (!result.success) {
-    result.error = "The fingers came to rest at " + millimetres(view_.width) +
-                   ", outside the expected " + millimetres(goal.width - goal.epsilon.inner) +
-                   " to " + millimetres(goal.width + goal.epsilon.outer) +
+    result.error = "The fingers came to rest at " + millimeters(view_.width) +
+                   ", outside the expected " + millimeters(goal.width - goal.epsilon.inner) +
+                   " to " + millimeters(goal.width + goal.epsilon.outer) +
                    ": there is no object between them, or another one than expected.";
   }
   grasp_server_.setSucceeded(result);
@@ -263,8 +263,8 @@ void GripperActions::gripperCommand(const control_msgs::GripperCommandGoal& goal
     command_server_.setSucceeded(result);
   } else {
     abort(command_server_, result,
-          "The fingers stopped at " + millimetres(view_.width) + " instead of " +
-              millimetres(width) + ": something is in their way, or there is nothing to grasp.",
+          "The fingers stopped at " + millimeters(view_.width) + " instead of " +
+              millimeters(width) + ": something is in their way, or there is nothing to grasp.",
           view_.width);
   }
 }

@@ -24,7 +24,7 @@ namespace franka_sim_mujoco {
 namespace {
 
 /// The configuration, which users of a real robot enter in Desk, is read from the same parameters
-/// as for controllers in this process; the behaviour is that of the FCI.
+/// as for controllers in this process; the behavior is that of the FCI.
 franka_sim::fci::SimRobot makeRobot(const RobotPlan& plan, const RobotHandle& robot) {
   const SimulatedArm& arm = plan.arms.front();
   if (arm.type.empty()) {
@@ -42,11 +42,11 @@ franka_sim::fci::SimRobot makeRobot(const RobotPlan& plan, const RobotHandle& ro
   std::optional<franka_sim::fci::SimRobot::Hand> hand;
   if (unit.has_hand) {
     hand =
-        franka_sim::fci::servedHand(robot.world->hand(robot.name, arm.arm_id), arm.physics.gripper);
+        franka_sim::fci::makeHand(robot.world->hand(robot.name, arm.arm_id), arm.physics.gripper);
   }
-  return franka_sim::fci::servedRobot(plan.fci_ip, franka_sim::protocolsOf(arm.type), unit,
-                                      robot.world->arm(robot.name, arm.arm_id), hand, {},
-                                      arm.physics.command_delay);
+  return franka_sim::fci::makeSimRobot(plan.fci_ip, franka_sim::protocolsOf(arm.type), unit,
+                                       robot.world->arm(robot.name, arm.arm_id), hand, {},
+                                       arm.physics.command_delay);
 }
 
 void fill(franka_sim::fci::SimRobot& robot, GetServedRobot::Response& response) {

@@ -168,7 +168,7 @@ def test_both_arms_stand_in_the_world_of_the_sdf_file():
     stone = gazebo("get_body_state", GetBodyState, "stone")
     assert stone.pose.position.x == pytest.approx(0.000286, abs=2e-3)
     assert stone.pose.position.y == pytest.approx(-0.221972, abs=2e-3)
-    # It rests on the tray: its centre is half its height above.
+    # It rests on the tray: its center is half its height above.
     assert stone.pose.position.z == pytest.approx(0.419773 + 0.023348 + 0.032, abs=1e-3)
     base = gazebo("get_body_state", GetBodyState, "panda_2_link0").pose
     assert base.position.x == pytest.approx(0.9, abs=1e-9)
@@ -270,7 +270,7 @@ def test_contact_forces_equal_the_weight_of_a_resting_object():
     assert contacts.header.frame_id == "world"
 
 
-def test_cameras_see_colours_and_distances():
+def test_cameras_see_colors_and_distances():
     turned = (0, math.sin(math.pi / 4), 0, math.cos(math.pi / 4))  # looking down
     gazebo("spawn_object", SpawnObject, "eye", CAMERA, at(3, 3, 2, turned))
     assert "eye::link::cam" in gazebo("get_world", GetWorld).cameras

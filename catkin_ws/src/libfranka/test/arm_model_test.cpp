@@ -176,7 +176,7 @@ TEST(Combine, FollowsTheParallelAxisTheorem) {
   const Payload total = combine(hand, load);
   EXPECT_DOUBLE_EQ(1.93, total.mass);
   EXPECT_NEAR((0.73 * -0.01 + 1.2 * 0.05) / 1.93, total.com[0], 1e-16);
-  // Two bodies about their common centre: both inertias and the reduced mass at their distance.
+  // Two bodies about their common center: both inertias and the reduced mass at their distance.
   const Eigen::Vector3d d(0.06, -0.02, 0.08);
   const double reduced = 0.73 * 1.2 / 1.93;
   const Eigen::Matrix3d expected =

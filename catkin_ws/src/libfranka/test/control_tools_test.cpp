@@ -20,7 +20,7 @@ TEST(ControlTools, ElbowSignMustBeExactlyOne) {
   }
 }
 
-TEST(ControlTools, RecognisesHomogeneousTransformations) {
+TEST(ControlTools, RecognizesHomogeneousTransformations) {
   EXPECT_TRUE(franka::isHomogeneousTransformation(kPose));
   EXPECT_FALSE(franka::isHomogeneousTransformation({}));
   for (std::size_t i : {3, 7, 11, 15}) {

@@ -21,7 +21,7 @@
 namespace franka_test {
 
 /// A robot for tests: real sockets on 127.0.0.1, port 0, any protocol version, and scripted
-/// misbehaviour.
+/// misbehavior.
 ///
 /// A motion runs in lock-step: from the first answered state on, the next one is sent once the
 /// answer has arrived (or Script::answer_timeout has passed); otherwise states are sent every

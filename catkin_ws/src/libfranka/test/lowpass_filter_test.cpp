@@ -76,7 +76,7 @@ TEST(CartesianLowpassFilter, TakesTheShortestArc) {
 }
 
 // Matrices that are not quite orthogonal count as the nearest rotation, as observed with libfranka
-// 0.9.2 and 0.21.2; the rotation of their normalised quaternion differs by up to 9e-6 rad.
+// 0.9.2 and 0.21.2; the rotation of their normalized quaternion differs by up to 9e-6 rad.
 TEST(CartesianLowpassFilter, TakesTheNearestRotationOfBothPoses) {
   OffRotations off(1e-5);
   for (int i = 0; i < 100; i++) {

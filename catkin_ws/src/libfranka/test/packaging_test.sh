@@ -15,7 +15,7 @@ trap 'rm -rf "$work"' EXIT
 export PATH=/usr/bin:$PATH
 unset CMAKE_PREFIX_PATH ROS_PACKAGE_PATH LD_LIBRARY_PATH PYTHONPATH
 
-# Each case compiles the same sources: not optimised, and only once with a compiler cache.
+# Each case compiles the same sources: not optimized, and only once with a compiler cache.
 options=(-DCMAKE_BUILD_TYPE=Debug)
 if command -v ccache >/dev/null; then
   options+=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)

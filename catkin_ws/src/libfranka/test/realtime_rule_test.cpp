@@ -12,7 +12,7 @@ namespace {
 using franka_core::isLoopback;
 using franka_core::realtimeRule;
 
-TEST(IsLoopback, RecognisesAddressesAndNamesWithAndWithoutPorts) {
+TEST(IsLoopback, RecognizesAddressesAndNamesWithAndWithoutPorts) {
   for (const char* address :
        {"127.0.0.1", "127.0.0.1:1340", "127.1.2.3", "127.255.255.254:1337", "localhost",
         "localhost:4711", "::1", "[::1]", "[::1]:1337", "::ffff:127.0.0.1", "0.0.0.0"}) {
@@ -25,7 +25,7 @@ TEST(IsLoopback, RecognisesAddressesAndNamesWithAndWithoutPorts) {
   }
 }
 
-TEST(IsLoopback, RecognisesTheAddressOfASocket) {
+TEST(IsLoopback, RecognizesTheAddressOfASocket) {
   sockaddr_in address{};
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(0x7f010203);  // 127.1.2.3

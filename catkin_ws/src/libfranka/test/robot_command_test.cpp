@@ -62,7 +62,7 @@ std::string endingOf(Command command, Status status) {
     case Status::kInvalidArgumentRejected:
       return std::string(" command rejected: invalid argument!") +
              (command == Command::kSetLoad
-                  ? " Give mass [kg], centre from the flange [m] and symmetric inertia [kg m^2] of "
+                  ? " Give mass [kg], center from the flange [m] and symmetric inertia [kg m^2] of "
                     "what the arm can carry; simulated arms take at most 10 kg, 1 m and 10 kg m^2."
                   : "");
     case Status::kRejectedDueToActivatedSafetyFunctions:

@@ -82,25 +82,25 @@ class Recorder {
                                state.tau_ext_hat_filtered, state.dq_d, state.ddq_d, gravity}) {
       write(stream, signal);
     }
-    // The torques of a load are linear in its mass and in its moment, mass times centre.
+    // The torques of a load are linear in its mass and in its moment, mass times center.
     const std::array<double, 7> at_flange = loaded(model, state, 1.0, {});
     write(stream, difference(at_flange, loaded(model, state, 0.0, {}), 1.0));
     for (std::size_t axis = 0; axis < 3; axis++) {
-      std::array<double, 3> centre{};
-      centre[axis] = 1.0;
-      const std::array<double, 7> ahead = loaded(model, state, 1.0, centre);
-      centre[axis] = -1.0;  // terms with the square of the centre vanish in the difference
-      write(stream, difference(ahead, loaded(model, state, 1.0, centre), 0.5));
+      std::array<double, 3> center{};
+      center[axis] = 1.0;
+      const std::array<double, 7> ahead = loaded(model, state, 1.0, center);
+      center[axis] = -1.0;  // terms with the square of the center vanish in the difference
+      write(stream, difference(ahead, loaded(model, state, 1.0, center), 0.5));
     }
     stream << "\n";
   }
 
   /// The torques of the desired motion with a point mass as load [Nm].
   static std::array<double, 7> loaded(const franka::Model& model, const franka::RobotState& state,
-                                      double mass, const std::array<double, 3>& centre) {
-    std::array<double, 7> torque = model.gravity(state.q, mass, centre, state.O_ddP_O);
-    const std::array<double, 7> coriolis = model.coriolis(state.q, state.dq_d, {}, mass, centre);
-    const std::array<double, 49> inertia = model.mass(state.q, {}, mass, centre);
+                                      double mass, const std::array<double, 3>& center) {
+    std::array<double, 7> torque = model.gravity(state.q, mass, center, state.O_ddP_O);
+    const std::array<double, 7> coriolis = model.coriolis(state.q, state.dq_d, {}, mass, center);
+    const std::array<double, 49> inertia = model.mass(state.q, {}, mass, center);
     for (std::size_t i = 0; i < 7; i++) {
       torque[i] += coriolis[i];
       for (std::size_t j = 0; j < 7; j++) {

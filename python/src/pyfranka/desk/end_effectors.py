@@ -35,7 +35,7 @@ NOTHING: Json = {
 
 @dataclass(frozen=True)
 class Load:
-    """Mass [kg], centre of mass [m] and inertia [kg m^2] (9 numbers) at the flange; pose of the tool (16
+    """Mass [kg], center of mass [m] and inertia [kg m^2] (9 numbers) at the flange; pose of the tool (16
     numbers)."""
 
     mass: float = 0.0

@@ -18,8 +18,8 @@ import pyfranka
 from pyfranka.plot.recording import Abort, BadInput, Recording
 from pyfranka.plot.signals import EVIDENCE, SIGNALS, Excess, worst
 
-# Seven colours that remain distinct with colour blindness (Okabe and Ito, 2008; the yellow is darker).
-COLOURS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8a7a00")
+# Seven colors that remain distinct with color blindness (Okabe and Ito, 2008; the yellow is darker).
+COLORS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8a7a00")
 STYLES = ("-", ":", "-.")  # dashes are limits
 LIMIT, VIOLATION = "#666666", "#d00000"
 MODES = {
@@ -105,10 +105,10 @@ class Plot:
             if values is None or not np.isfinite(values).any():
                 continue
             for i in self._chosen(values.shape[1]):
-                colour = COLOURS[i % len(COLOURS)]
+                color = COLORS[i % len(COLORS)]
                 label = SIGNALS[name].parts[i] if not drawn else None
                 axes.plot(
-                    recording.time[::step], values[::step, i], style, color=colour, linewidth=1.1, label=label
+                    recording.time[::step], values[::step, i], style, color=color, linewidth=1.1, label=label
                 )
             drawn.append((name, values))
         axes.set_ylabel(_label(panel))
@@ -153,8 +153,8 @@ class Plot:
                     hidden.append((members, line))
                     continue
                 low, high = min(low, np.nanmin(line)), max(high, np.nanmax(line))
-                colour = LIMIT if len(groups) == 1 else COLOURS[members[0] % len(COLOURS)]
-                axes.plot(recording.time[::step], line[::step], color=colour, linewidth=1.0, dashes=(6, 3))
+                color = LIMIT if len(groups) == 1 else COLORS[members[0] % len(COLORS)]
+                axes.plot(recording.time[::step], line[::step], color=color, linewidth=1.0, dashes=(6, 3))
         margin = 0.04 * (high - low)
         axes.set_ylim(low - margin, high + margin)
         if hidden and len(hidden) == 2 * len(groups):
@@ -181,10 +181,10 @@ class Plot:
 
     def _draw_modes(self, axes: Axes, recording: Recording) -> None:
         for begin, end, mode in _spans(recording.modes):
-            colour = MODES[mode][1]
-            if colour:
+            color = MODES[mode][1]
+            if color:
                 last = min(end, len(recording) - 1)
-                axes.axvspan(recording.time[begin], recording.time[last], color=colour, zorder=0, linewidth=0)
+                axes.axvspan(recording.time[begin], recording.time[last], color=color, zorder=0, linewidth=0)
 
     def _draw_errors(self, axes: Axes, recording: Recording, named: bool) -> None:
         for time, names in recording.errors:
@@ -208,8 +208,8 @@ class Plot:
     def _draw_mode_legend(self, recording: Recording) -> None:
         seen = {mode for _, _, mode in _spans(recording.modes)}
         patches = [
-            Patch(facecolor=colour or "white", edgecolor="#bbbbbb", label=text)
-            for mode, (text, colour) in MODES.items()
+            Patch(facecolor=color or "white", edgecolor="#bbbbbb", label=text)
+            for mode, (text, color) in MODES.items()
             if mode in seen
         ]
         if patches:

@@ -255,7 +255,7 @@ class Robot:
         self._native.set_K(EE_T_K)
 
     def set_load(self, mass: float, F_x_Cload: ArrayLike, load_inertia: ArrayLike) -> None:
-        """The load that the robot assumes: mass [kg], centre of mass in F, 3 [m], inertia, 3x3
+        """The load that the robot assumes: mass [kg], center of mass in F, 3 [m], inertia, 3x3
         [kg m^2]."""
         self._native.set_load(mass, F_x_Cload, load_inertia)
 

@@ -25,7 +25,7 @@ class _Setup:
 
     name: prefix of its joints and links (its kind). base: x, y, z [m] and, optionally, the turn about the
     vertical [rad]. hand: False for an arm without one; that of a urdf of one's own stays then, but is not
-    driven. load: mass [kg], centre of mass in the flange's frame [m] and, optionally, inertia 3x3 [kg m^2],
+    driven. load: mass [kg], center of mass in the flange's frame [m] and, optionally, inertia 3x3 [kg m^2],
     as entered in Desk; it is not simulated. realism: a profile of docs/sim_to_real.md, such as
     "real,friction=off". urdf: another description of this kind of robot.
 
@@ -52,19 +52,19 @@ class _Setup:
         self._load()
 
     def _load(self) -> tuple[float, numpy.ndarray, numpy.ndarray] | None:
-        """Mass, centre of mass and inertia."""
+        """Mass, center of mass and inertia."""
         if self.load is None:
             return None
         try:
-            mass, centre, *inertia = self.load
+            mass, center, *inertia = self.load
             (inertia,) = inertia or [numpy.zeros(9)]
         except (TypeError, ValueError):
             raise ValueError(
-                f"load must be mass, centre of mass and, optionally, inertia, not {self.load!r}."
+                f"load must be mass, center of mass and, optionally, inertia, not {self.load!r}."
             ) from None
         return (
             float(numbers(mass, "The mass of load [kg]", 1)[0]),
-            numbers(centre, "The centre of mass of load [m]", 3),
+            numbers(center, "The center of mass of load [m]", 3),
             numbers(inertia, "The inertia of load [kg m^2]", 9),
         )
 

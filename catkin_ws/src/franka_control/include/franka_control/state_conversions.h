@@ -15,7 +15,7 @@ namespace franka_control {
 void toMessage(const franka::RobotState& state, franka_msgs::FrankaState& message) noexcept;
 
 /// Converts a 4x4 column-major transform to a translation and a unit quaternion. Rotations that are
-/// not exactly orthonormal, such as values typed with four digits, are normalised. Real-time safe.
+/// not exactly orthonormal, such as values typed with four digits, are normalized. Real-time safe.
 geometry_msgs::Transform toTransform(const std::array<double, 16>& transform) noexcept;
 
 }  // namespace franka_control

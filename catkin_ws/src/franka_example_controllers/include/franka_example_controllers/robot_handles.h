@@ -16,7 +16,7 @@
 
 namespace franka_example_controllers {
 
-/// The handle of a resource. For the initialisation of controllers, not for the loop.
+/// The handle of a resource. For the initialization of controllers, not for the loop.
 /// @throws hardware_interface::HardwareInterfaceException with a sentence if the robot lacks it
 template <typename Interface>
 auto takeHandle(hardware_interface::RobotHW* robot_hw, const std::string& resource) {

@@ -58,9 +58,9 @@ void bindDynamics(py::class_<ScriptModel>& type) {
              double total_mass, const py::object& F_x_Ctotal) {
             const auto q_values = arrayOf<7>(q, "q");
             const auto inertia = arrayOf<9>(total_inertia, "total_inertia");
-            const auto centre = arrayOf<3>(F_x_Ctotal, "F_x_Ctotal");
+            const auto center = arrayOf<3>(F_x_Ctotal, "F_x_Ctotal");
             return self.ask(Shape::kMass, [&](const auto& model) {
-              return model.getMass(q_values, inertia, total_mass, centre);
+              return model.getMass(q_values, inertia, total_mass, center);
             });
           },
           py::arg("q"), py::arg("total_inertia"), py::arg("total_mass"), py::arg("F_x_Ctotal"),
@@ -78,9 +78,9 @@ void bindDynamics(py::class_<ScriptModel>& type) {
             const auto q_values = arrayOf<7>(q, "q");
             const auto dq_values = arrayOf<7>(dq, "dq");
             const auto inertia = arrayOf<9>(total_inertia, "total_inertia");
-            const auto centre = arrayOf<3>(F_x_Ctotal, "F_x_Ctotal");
+            const auto center = arrayOf<3>(F_x_Ctotal, "F_x_Ctotal");
             return self.ask(Shape::kVector, [&](const auto& model) {
-              return model.getCoriolis(q_values, dq_values, inertia, total_mass, centre);
+              return model.getCoriolis(q_values, dq_values, inertia, total_mass, center);
             });
           },
           py::arg("q"), py::arg("dq"), py::arg("total_inertia"), py::arg("total_mass"),
@@ -100,11 +100,11 @@ void bindDynamics(py::class_<ScriptModel>& type) {
           [](const ScriptModel& self, const py::object& q, double total_mass,
              const py::object& F_x_Ctotal, const py::object& gravity_earth) {
             const auto q_values = arrayOf<7>(q, "q");
-            const auto centre = arrayOf<3>(F_x_Ctotal, "F_x_Ctotal");
+            const auto center = arrayOf<3>(F_x_Ctotal, "F_x_Ctotal");
             const auto gravity =
                 gravity_earth.is_none() ? kGravity : arrayOf<3>(gravity_earth, "gravity_earth");
             return self.ask(Shape::kVector, [&](const auto& model) {
-              return model.getGravity(q_values, total_mass, centre, gravity);
+              return model.getGravity(q_values, total_mass, center, gravity);
             });
           },
           py::arg("q"), py::arg("total_mass"), py::arg("F_x_Ctotal"),

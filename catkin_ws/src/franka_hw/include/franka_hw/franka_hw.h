@@ -406,7 +406,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   /// Warns, after connecting, about controllers that would be refused.
   void warnOfRefusals() const;
   /// Continues a motion that was ended for a switch.
-  void goOnAsBefore(bool was_active);
+  void resumePrevious(bool was_active);
 
   /// The last preparation, and the settings before it.
   struct Preparation {

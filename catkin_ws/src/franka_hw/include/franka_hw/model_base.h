@@ -13,7 +13,7 @@ namespace franka_hw {
 ///
 /// Layouts: transforms 4x4, Jacobians 6x7 (linear rows first), the mass matrix 7x7 and inertias
 /// 3x3, all column-major. Units [m] [rad] [s] [kg] [Nm]. Poses and zero Jacobians are expressed in
-/// the base frame O, body Jacobians in the axes of their frame. F_x_Ctotal is the centre of mass of
+/// the base frame O, body Jacobians in the axes of their frame. F_x_Ctotal is the center of mass of
 /// end effector and load together in the flange frame F, total_inertia their inertia about that
 /// point in the axes of F.
 class ModelBase {

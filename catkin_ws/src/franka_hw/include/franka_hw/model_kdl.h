@@ -77,7 +77,7 @@ class ModelKDL : public ModelBase {
                            KDL::Chain& chain);
   /// Appends a fixed body to a chain, at the last frame of the chain.
   /// @param center_of_mass in that frame [m] @param mass [kg]
-  /// @param inertia about the centre of mass, 3x3 column-major [kg m^2]
+  /// @param inertia about the center of mass, 3x3 column-major [kg m^2]
   static void augmentFrame(const std::string& name, const std::array<double, 3>& center_of_mass,
                            double mass, const std::array<double, 9>& inertia, KDL::Chain& chain);
 

@@ -43,7 +43,7 @@ class RobotMutex : public std::mutex {
 
   /// Tries to lock for half a second. @param busy called between two attempts; may throw
   /// @returns an unlocked lock after that time
-  static std::unique_lock<std::mutex> takeSoon(std::mutex& mutex,
+  static std::unique_lock<std::mutex> lockSoon(std::mutex& mutex,
                                                const std::function<void()>& busy);
 
   /// The reading loop calls this, unlocked, between two reads: sleeps for 0.1 ms, and longer while

@@ -16,10 +16,10 @@ namespace franka_hw {
 class TriggerRate {
  public:
   /// @param rate [Hz], above zero. @throws std::invalid_argument otherwise.
-  /// Reads ros::Time::now(), so ROS time must be initialised.
+  /// Reads ros::Time::now(), so ROS time must be initialized.
   explicit TriggerRate(double rate = 30.0);
 
-  /// @param start of the first period; ROS time need not be initialised.
+  /// @param start of the first period; ROS time need not be initialized.
   TriggerRate(double rate, const ros::Time& start);
 
   /// True if a period has passed since the last time it was true. Calls ros::Time::now(), which

@@ -10,7 +10,7 @@ namespace franka_hw_test {
 /// computation of a millisecond is left. A torque controller runs.
 class BareCycle : public franka_hw::FrankaHW {
  public:
-  BareCycle() : manager_(initialised(), arm_.nh) {
+  BareCycle() : manager_(initialized(), arm_.nh) {
     loader_ = Loop::makeLoader();
     manager_.registerControllerLoader(loader_);
     const std::string name = Loop::describe(arm_.nh, arm_.arm_id, "JT");
@@ -52,7 +52,7 @@ class BareCycle : public franka_hw::FrankaHW {
   }
 
  private:
-  franka_hw::FrankaHW* initialised() {
+  franka_hw::FrankaHW* initialized() {
     if (!init(arm_.nh, arm_.robot_nh)) {
       throw std::runtime_error("no robot");
     }

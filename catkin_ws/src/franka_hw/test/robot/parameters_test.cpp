@@ -59,7 +59,7 @@ std::vector<Case> refusals() {
        {"robot_description"}},
       {"no robot at the address",
        with("robot_ip", std::string("127.0.0.1:9")),
-       {"127.0.0.1:9", "could not be initialised", "franka_sim --robot", "sim:=true"}},
+       {"127.0.0.1:9", "could not be initialized", "franka_sim --robot", "sim:=true"}},
   };
 }
 
@@ -167,7 +167,7 @@ TEST(Parameters, ARobotThatRefusesItsThresholdsIsNotConnected) {
   const LogCatcher log;
   EXPECT_FALSE(robot.init(arm.nh, arm.robot_nh));
   EXPECT_FALSE(robot.connected());
-  EXPECT_NE(std::string::npos, log.text().find("could not be initialised"));
+  EXPECT_NE(std::string::npos, log.text().find("could not be initialized"));
 }
 
 TEST(Parameters, ARobotThatIsStillStartingIsWaitedFor) {

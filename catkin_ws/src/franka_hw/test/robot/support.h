@@ -93,7 +93,7 @@ class TestController : public controller_interface::ControllerBase {
 /// A controller manager and the loop that runs it with a FrankaHW, as franka_control_node does.
 class Loop {
  public:
-  /// The robot must be initialised. Errors of motions are stored and end only the motion.
+  /// The robot must be initialized. Errors of motions are stored and end only the motion.
   /// @param considerate whether the loop yields between two states, so that others can lock the
   /// robot
   Loop(franka_hw::FrankaHW& robot, const FakeArm& arm, bool considerate = true);

@@ -90,7 +90,7 @@ void readBase(ArmOptions& arm, const std::string& text) {
   arm.yaw = numbers.size() == 4 ? numbers[3] : 0.0;
   for (const double coordinate : arm.base) {
     if (!(std::abs(coordinate) <= sizes::kMaxPosition)) {
-      throw CLI::ValidationError("--base", "give metres, 1000 at most, not " + text + ".");
+      throw CLI::ValidationError("--base", "give meters, 1000 at most, not " + text + ".");
     }
   }
 }

@@ -24,10 +24,10 @@ fci::SimRobot makeRobot(const ArmOptions& options, World& world) {
   }
   std::optional<fci::SimRobot::Hand> hand;
   if (robot.hand != nullptr && options.tool == Tool::kGripper) {
-    hand = fci::servedHand(*robot.hand, robot.physics.gripper);
+    hand = fci::makeHand(*robot.hand, robot.physics.gripper);
   }
-  return fci::servedRobot(options.ip, servedProtocols(options), robot.unit, *robot.arm, hand,
-                          vacuum, robot.physics.command_delay);
+  return fci::makeSimRobot(options.ip, servedProtocols(options), robot.unit, *robot.arm, hand,
+                           vacuum, robot.physics.command_delay);
 }
 
 }  // namespace

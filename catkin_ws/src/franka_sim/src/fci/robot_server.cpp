@@ -266,11 +266,11 @@ void RobotServer::sendState() noexcept {
   end_unread_ = before && !motion_shown_;
 }
 
-void RobotServer::publish(std::uint64_t ticks, bool same_moment, bool keep_end) {
+void RobotServer::publish(std::uint64_t ticks, bool same_tick, bool keep_end) {
   collectEnds();
   message_id_ += ticks;
-  if (!same_moment) {
-    oldest_of_moment_ = message_id_;
+  if (!same_tick) {
+    oldest_of_tick_ = message_id_;
     answered_ = false;
   }
   if (version_ == 0) {
@@ -308,7 +308,7 @@ void RobotServer::repeat() noexcept {
 // In a cycle only the command that answers its state is accepted; with the asynchronous generator,
 // any command that does not belong to an earlier motion.
 bool RobotServer::answersAState(std::uint64_t message_id) const noexcept {
-  return message_id >= (asynchronous() ? first_of_motion_ : oldest_of_moment_) &&
+  return message_id >= (asynchronous() ? first_of_motion_ : oldest_of_tick_) &&
          message_id <= message_id_;
 }
 

@@ -16,7 +16,7 @@ bool EqualitySolver::handles(const mjData& data) const noexcept {
   return data.nefc > 0 && data.nefc <= kMaxRows && data.nefc == data.ne;
 }
 
-// The rows, and the matrix that is to be factorised.
+// The rows, and the matrix that is to be factorized.
 void EqualitySolver::multiply(const mjModel& model, mjData* data) {
   const int rows = data->nefc;
   Row unit{};
@@ -36,7 +36,7 @@ void EqualitySolver::multiply(const mjModel& model, mjData* data) {
   }
 }
 
-bool EqualitySolver::factorise(const mjData& data) noexcept {
+bool EqualitySolver::factorize(const mjData& data) noexcept {
   for (int i = 0; i < data.nefc; ++i) {
     for (int j = 0; j <= i; ++j) {
       double value = factor_[i][j];
@@ -61,7 +61,7 @@ void EqualitySolver::solve(const mjModel& model, mjData* data) {
     return;
   }
   multiply(model, data);
-  if (!factorise(*data)) {  // of numbers that are not finite
+  if (!factorize(*data)) {  // of numbers that are not finite
     mj_fwdConstraint(&model, data);
     return;
   }

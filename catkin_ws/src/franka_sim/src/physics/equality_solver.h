@@ -31,7 +31,7 @@ class EqualitySolver {
  private:
   bool handles(const mjData& data) const noexcept;
   void multiply(const mjModel& model, mjData* data);
-  bool factorise(const mjData& data) noexcept;
+  bool factorize(const mjData& data) noexcept;
 
   using Row = std::array<double, kMaxRows>;
 

@@ -91,9 +91,9 @@ std::vector<MeshPart> readIndex(const std::string& folder) {
       continue;
     }
     MeshPart part{folder + name, std::nullopt};
-    std::string colour = valueAfter(line, "rgba", "]}");
-    std::replace(colour.begin(), colour.end(), ',', ' ');
-    const auto rgba = toNumbers(colour, "Colour of " + part.file);
+    std::string color = valueAfter(line, "rgba", "]}");
+    std::replace(color.begin(), color.end(), ',', ' ');
+    const auto rgba = toNumbers(color, "Color of " + part.file);
     if (rgba.size() == 4) {
       part.rgba = {rgba[0], rgba[1], rgba[2], rgba[3]};
     }

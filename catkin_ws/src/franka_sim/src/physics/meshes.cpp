@@ -29,7 +29,7 @@ namespace {
 constexpr unsigned kSteps =
     aiProcess_ValidateDataStructure | aiProcess_Triangulate | aiProcess_SortByPType;
 
-std::optional<std::array<double, 4>> colourOf(const aiMaterial& material) {
+std::optional<std::array<double, 4>> colorOf(const aiMaterial& material) {
   aiColor4D diffuse;
   if (std::string(material.GetName().C_Str()) == AI_DEFAULT_MATERIAL_NAME ||
       material.Get(AI_MATKEY_COLOR_DIFFUSE, diffuse) != aiReturn_SUCCESS) {
@@ -88,7 +88,7 @@ class Collector {
                                static_cast<int>(face.mIndices[2])});
       }
     }
-    append(added, &partOf(colourOf(material)));
+    append(added, &partOf(colorOf(material)));
   }
 
   TriangleMesh& partOf(const std::optional<std::array<double, 4>>& rgba) {
@@ -396,7 +396,7 @@ DrawnMesh makeDrawn(const MeshSource& source) {
     TriangleMesh mesh = stretched(part, source.scale);
     if (!mesh.faces.empty()) {
       thickenFlat(kSheet, &mesh);
-      result.parts.push_back({keepFile(toMsh(mesh), ".msh"), mesh.rgba});
+      result.parts.push_back({registerFile(toMsh(mesh), ".msh"), mesh.rgba});
     }
   }
   if (result.parts.empty()) {
@@ -423,7 +423,7 @@ SolidMesh makeSolid(const MeshSource& source) {
   }
   const bool is_convex = isConvex(mesh);
   keepOutermost(kMaxHullVertices, &mesh);
-  return {keepFile(toMsh(mesh), ".msh"), is_convex};
+  return {registerFile(toMsh(mesh), ".msh"), is_convex};
 }
 
 }  // namespace

@@ -10,14 +10,14 @@
 
 namespace franka_sim::physics {
 
-/// A triangle surface of one colour.
+/// A triangle surface of one color.
 struct TriangleMesh {
   std::vector<Eigen::Vector3f> vertices;      ///< [m]
   std::vector<std::array<int, 3>> faces;      ///< counter-clockwise seen from outside
   std::optional<std::array<double, 4>> rgba;  ///< if the file has one
 };
 
-/// Adds `added` to `mesh`, whose colour stays.
+/// Adds `added` to `mesh`, whose color stays.
 void append(const TriangleMesh& added, TriangleMesh* mesh);
 /// Merges vertices at the same position; drops degenerate faces and vertices without a face.
 void tidy(TriangleMesh* mesh);
@@ -41,20 +41,20 @@ void keepOutermost(int most, TriangleMesh* mesh);
 std::string toMsh(const TriangleMesh& mesh);
 
 struct MeshFile {
-  std::vector<TriangleMesh> parts;  ///< one per colour, at least one
-  bool is_textured{false};          ///< colours come from pictures, which are not drawn
+  std::vector<TriangleMesh> parts;  ///< one per color, at least one
+  bool is_textured{false};          ///< colors come from pictures, which are not drawn
 };
 
 /// Reads a mesh file by Debian's assimp (Collada, STL, OBJ and most others), as Gazebo and rviz do:
 /// transforms of nodes are applied, Collada's <unit> counts and its <up_axis> does not; numbers in
-/// other formats are metres. May take seconds for large files. Thread-safe.
+/// other formats are meters. May take seconds for large files. Thread-safe.
 /// @param submesh when not empty, only the nodes or geometries of this name
 /// @param center puts the middle of the bounding box at the origin
 /// @throws std::runtime_error with the file and the error.
 MeshFile readMeshFile(const std::string& file, const std::string& submesh = "",
                       bool center = false);
 
-/// A file MuJoCo can read, with its colour when the source has one.
+/// A file MuJoCo can read, with its color when the source has one.
 struct MeshPart {
   std::string file;
   std::optional<std::array<double, 4>> rgba;
@@ -65,11 +65,11 @@ struct MeshSource {
   std::string file;  ///< path
   Eigen::Vector3d scale{Eigen::Vector3d::Ones()};
   std::string submesh;  ///< empty: all of it
-  bool center{false};   ///< centres its bounding box at the origin
+  bool center{false};   ///< centers its bounding box at the origin
 };
 
 struct DrawnMesh {
-  std::vector<MeshPart> parts;  ///< one per colour
+  std::vector<MeshPart> parts;  ///< one per color
   bool is_textured{false};      ///< pictures on it are ignored
 };
 
@@ -78,11 +78,11 @@ struct SolidMesh {
   bool is_convex{true};  ///< else its convex hull collides
 };
 
-/// A mesh file of any format assimp knows, converted for MuJoCo and kept in memory (keepFile);
+/// A mesh file of any format assimp knows, converted for MuJoCo and kept in memory (registerFile);
 /// an unchanged file is read once. Thread-safe.
 /// @throws std::runtime_error with the file and the error.
 DrawnMesh loadMeshToDraw(const MeshSource& source);
-/// The same for collisions: the outermost points of all colours, of which MuJoCo takes the hull. A
+/// The same for collisions: the outermost points of all colors, of which MuJoCo takes the hull. A
 /// flat mesh gets a volume behind its front.
 /// @throws std::runtime_error also when the mesh has almost no extent.
 SolidMesh loadMeshToCollide(const MeshSource& source);

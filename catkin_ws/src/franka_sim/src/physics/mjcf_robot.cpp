@@ -16,18 +16,18 @@ namespace franka_sim::physics {
 namespace {
 
 using tinyxml2::XMLElement;
-constexpr std::array<double, 4> kDefaultColour{0.85, 0.87, 0.9, 1};
+constexpr std::array<double, 4> kDefaultColor{0.85, 0.87, 0.9, 1};
 
 /// A URDF expresses a capsule as a cylinder with a ball of its radius on both ends. MuJoCo has
 /// capsules, and collides them many times faster than cylinders.
 std::vector<std::pair<UrdfGeometry, bool>> findCapsules(const std::vector<UrdfGeometry>& shapes) {
   std::vector<std::pair<UrdfGeometry, bool>> result;
   std::set<std::size_t> used;
-  const auto ballAt = [&](const Eigen::Vector3d& centre, double radius) {
+  const auto ballAt = [&](const Eigen::Vector3d& center, double radius) {
     for (std::size_t i = 0; i < shapes.size(); ++i) {
       if (shapes[i].shape == UrdfGeometry::Shape::kSphere && used.count(i) == 0 &&
           std::abs(shapes[i].size.x() - radius) < 1e-6 &&
-          (shapes[i].origin.translation() - centre).norm() < 1e-6) {
+          (shapes[i].origin.translation() - center).norm() < 1e-6) {
         return static_cast<int>(i);
       }
     }
@@ -166,14 +166,14 @@ class Writer {
     int count = 0;
     for (const auto& [shape, is_capsule] : findCapsules(link.visuals)) {
       if (shape.shape != UrdfGeometry::Shape::kMesh) {
-        setLook(writeGeom(shape, is_capsule, pose, body), shape.rgba.value_or(kDefaultColour), link,
+        setLook(writeGeom(shape, is_capsule, pose, body), shape.rgba.value_or(kDefaultColor), link,
                 count++);
         continue;
       }
       for (const MeshPart& part : visualParts(shape.mesh, robot_.description.resolve)) {
         XMLElement* geom = writeGeom(shape, false, pose, body);
         setMesh(geom, part.file, shape.scale);
-        setLook(geom, part.rgba.value_or(shape.rgba.value_or(kDefaultColour)), link, count++);
+        setLook(geom, part.rgba.value_or(shape.rgba.value_or(kDefaultColor)), link, count++);
       }
     }
     return true;
@@ -195,7 +195,7 @@ class Writer {
       if (!parts.empty()) {
         setMesh(geom, parts.front().file, shape.scale);
       }
-      setLook(geom, kDefaultColour, link, count++);
+      setLook(geom, kDefaultColor, link, count++);
     }
   }
 
@@ -290,7 +290,7 @@ class Writer {
     return count;
   }
 
-  /// Neighbours overlap by construction, and the convex hulls of link5 and link7 do too (their
+  /// Neighbors overlap by construction, and the convex hulls of link5 and link7 do too (their
   /// joint stops, not their shapes, keep them apart). So the fingers of a hand meet at their stop.
   bool mayCollide(int a, int b) const { return robot_.urdf.self_collide && distance(a, b) > 2; }
 

@@ -204,7 +204,7 @@ void MjcfWorld::load(const std::string& file) {
                              " instead of <mujoco> or <sdf>.");
   }
   checkCompiler(*root, title_);
-  normalise(folder);
+  normalize(folder);
 }
 
 void MjcfWorld::loadSdf(const std::string& text, const std::string& folder) {
@@ -213,7 +213,7 @@ void MjcfWorld::loadSdf(const std::string& text, const std::string& folder) {
   unsupported_ = scene.unsupported;
 }
 
-void MjcfWorld::normalise(const std::string& folder) {
+void MjcfWorld::normalize(const std::string& folder) {
   XMLElement* root = document_.RootElement();
   angle_unit_ = angleUnit(*root);
   makeFilesAbsolute(root, folder);

@@ -49,7 +49,7 @@ class MjcfWorld {
   MjcfWorld(const MjcfWorld& other, std::vector<std::shared_ptr<const MjcfObject>> objects);
   void load(const std::string& file);
   void loadSdf(const std::string& text, const std::string& folder);
-  void normalise(const std::string& folder);
+  void normalize(const std::string& folder);
   void compose(tinyxml2::XMLDocument* document) const;
   void inspect();
   void rankFrictions(tinyxml2::XMLElement* root) const;

@@ -106,7 +106,7 @@ ModelPtr compile(const std::string& mjcf, const std::string& what) {
   std::memcpy(files.get()->filedata[mj_findFileVFS(files.get(), kFileName)], mjcf.data(),
               mjcf.size());
   try {
-    lendKeptFiles(mjcf, files.get());
+    addRegisteredFiles(mjcf, files.get());
   } catch (const std::runtime_error& error) {
     throw std::runtime_error(what + ": " + error.what());
   }

@@ -57,7 +57,7 @@ std::set<std::string> namedIn(const std::string& text) {
 
 }  // namespace
 
-std::string keepFile(const std::string& content, const std::string& extension) {
+std::string registerFile(const std::string& content, const std::string& extension) {
   Store& kept = store();
   const std::lock_guard<std::mutex> lock(kept.mutex);
   for (std::uint64_t hash = hashOf(content);; ++hash) {
@@ -70,7 +70,7 @@ std::string keepFile(const std::string& content, const std::string& extension) {
   }
 }
 
-void lendKeptFiles(const std::string& mjcf, mjVFS* files) {
+void addRegisteredFiles(const std::string& mjcf, mjVFS* files) {
   Store& kept = store();
   const std::lock_guard<std::mutex> lock(kept.mutex);
   for (const std::string& name : namedIn(mjcf)) {

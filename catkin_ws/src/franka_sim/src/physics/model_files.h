@@ -13,11 +13,11 @@ namespace franka_sim::physics {
 /// Keeps a file's content in memory until the process ends and returns the name for MJCF texts. The
 /// same content is stored once and always has the same name. Thread-safe.
 /// @param extension with its dot, e.g. ".msh": MuJoCo derives the file's kind from it
-std::string keepFile(const std::string& content, const std::string& extension);
+std::string registerFile(const std::string& content, const std::string& extension);
 
 /// Gives MuJoCo access to the kept files that a text names, while it compiles that text.
 /// @throws std::runtime_error with a sentence when there are too many or memory is short
-void lendKeptFiles(const std::string& mjcf, mjVFS* files);
+void addRegisteredFiles(const std::string& mjcf, mjVFS* files);
 
 /// Resolves names in SDF texts: `model://`, `package://`, `file://`, paths relative to the text.
 class SdfFiles {

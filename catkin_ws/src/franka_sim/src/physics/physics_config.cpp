@@ -137,17 +137,17 @@ void drawModelError(const YAML::Node& part, const std::string& where, std::uint6
   checkKeys(part, {"torque_offset", "link_mass", "link_centre"}, where);
   std::array<double, 7> offset{};
   double mass = 0.0;
-  double centre = 0.0;
+  double center = 0.0;
   readNumbers(part, "torque_offset", where, offset);
   readOne(part, "link_mass", where, 0.0, 0.5, mass);
-  readOne(part, "link_centre", where, 0.0, 0.1, centre);
+  readOne(part, "link_centre", where, 0.0, 0.1, center);
   std::mt19937_64 engine(seed);
   std::uniform_real_distribution<double> one(-1.0, 1.0);
   for (std::size_t i = 0; i < 7; ++i) {
     physics.torque_offset[i] = offset[i] * one(engine);
     physics.link_errors[i].mass = mass * one(engine);
-    for (double& shift : physics.link_errors[i].centre) {
-      shift = centre * one(engine);
+    for (double& shift : physics.link_errors[i].center) {
+      shift = center * one(engine);
     }
   }
 }
@@ -272,8 +272,8 @@ void applyPhysics(const RobotPhysics& physics, ControlUnitParameters& parameters
   parameters.sensors = physics.sensors;
 }
 
-void startAt(const std::array<double, 7>& q, const std::string& arm_id,
-             RobotDescription& description) {
+void setInitialPositions(const std::array<double, 7>& q, const std::string& arm_id,
+                         RobotDescription& description) {
   for (std::size_t i = 0; i < 7; ++i) {
     description.initial_positions[jointName(arm_id, i)] = q[i];
   }

@@ -48,20 +48,20 @@ void checkSize(int width, int height) {
 
 /// Converts the z-buffer (rows from the bottom) to distances (rows from the top). 1 is the far end
 /// of the drawn range: no hit.
-std::vector<float> toMetres(const std::vector<float>& buffer, const mjModel& model, int width,
+std::vector<float> toMeters(const std::vector<float>& buffer, const mjModel& model, int width,
                             int height) {
   const double near = model.vis.map.znear * model.stat.extent;
   const double far = model.vis.map.zfar * model.stat.extent;
-  std::vector<float> metres(buffer.size());
+  std::vector<float> meters(buffer.size());
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
       const double z = buffer[static_cast<std::size_t>(height - 1 - y) * width + x];
-      metres[static_cast<std::size_t>(y) * width + x] =
+      meters[static_cast<std::size_t>(y) * width + x] =
           z >= 1 ? std::numeric_limits<float>::infinity()
                  : static_cast<float>(near * far / (far - z * (far - near)));
     }
   }
-  return metres;
+  return meters;
 }
 
 /// MuJoCo's cameras look along -z with y up; optical frames along z with y down.
@@ -186,7 +186,7 @@ Picture Renderer::render(const Scene& scene, const std::string& camera, int widt
   picture.height = height;
   std::vector<float> depth(static_cast<std::size_t>(width) * height);
   impl_->draw(&view, depth.data(), &picture);
-  picture.depth = toMetres(depth, model, width, height);
+  picture.depth = toMeters(depth, model, width, height);
   picture.camera = opticalFrame(*impl_->drawn.data(), id);
   return picture;
 }

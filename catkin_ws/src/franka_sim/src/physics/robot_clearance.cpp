@@ -292,7 +292,7 @@ double RobotClearance::largestSum(const Change& change) noexcept {
   return largest + second;
 }
 
-double RobotClearance::largestWay(const double* qpos, const double* others) noexcept {
+double RobotClearance::maxDisplacement(const double* qpos, const double* others) noexcept {
   return largestSum([&](const Joint& joint) { return qpos[joint.qpos] - others[joint.qpos]; });
 }
 
@@ -329,7 +329,7 @@ void RobotClearance::startTick(mjModel* model, mjData* data) {
     return;
   }
   state_.decided = true;
-  const double way = largestWay(data->qpos, state_.checked_qpos.data());
+  const double way = maxDisplacement(data->qpos, state_.checked_qpos.data());
   const bool was_clear = state_.clear;
   const bool were_objects_clear = state_.objects_clear;
   judge(way, *data);

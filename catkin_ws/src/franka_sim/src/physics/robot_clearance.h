@@ -88,7 +88,7 @@ class RobotClearance {
   bool areObjectsClear() const noexcept { return state_.objects_clear; }
   /// Largest sum of the ways of two points, each of a robot, between two states of the joints [m].
   /// @param qpos, others as in mjData. Real-time safe.
-  double largestWay(const double* qpos, const double* others) noexcept;
+  double maxDisplacement(const double* qpos, const double* others) noexcept;
 
  private:
   /// The way of any point of the robot that a change of a joint can cause, at most.

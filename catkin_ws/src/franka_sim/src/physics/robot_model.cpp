@@ -184,7 +184,7 @@ void applyLinkErrors(RobotModel& robot) {
     UrdfInertial inertial = robot.urdf.links[index].inertial.value_or(UrdfInertial{});
     inertial.mass *= 1.0 + error.mass;
     inertial.inertia *= 1.0 + error.mass;
-    inertial.com += Eigen::Vector3d::Map(error.centre.data());
+    inertial.com += Eigen::Vector3d::Map(error.center.data());
     UrdfInertial added;
     added.mass = error.added_mass;
     added.com = Eigen::Vector3d::Map(error.added_at.data());

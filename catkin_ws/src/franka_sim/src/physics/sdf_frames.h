@@ -11,7 +11,7 @@
 
 namespace franka_sim::physics {
 
-/// The <pose> of an element as written: metres, then roll, pitch, yaw [rad] (or degrees, if the
+/// The <pose> of an element as written: meters, then roll, pitch, yaw [rad] (or degrees, if the
 /// text says so) or a quaternion x y z w. The identity if there is none.
 /// @throws std::runtime_error with a sentence if it is not six (seven) finite numbers.
 Eigen::Isometry3d writtenPose(const tinyxml2::XMLElement& element, const std::string& where);

@@ -20,7 +20,7 @@ namespace {
 using tinyxml2::XMLElement;
 using Kind = SdfShape::Kind;
 
-std::string colour(const std::array<double, 3>& rgb) { return toText(rgb.data(), 3); }
+std::string color(const std::array<double, 3>& rgb) { return toText(rgb.data(), 3); }
 
 /// Stiffness of the simulator's own contacts [1/s^2]: 1 / time constant^2 of kContactSolref.
 constexpr double kOwnStiffness = 1 / (0.01 * 0.01);
@@ -43,7 +43,7 @@ class SdfWriter {
     append(root_, "option")->SetAttribute("gravity", toText(scene_.gravity.data(), 3).c_str());
     append(root_, "size")->SetAttribute("nuser_cam", 3);
     XMLElement* headlight = append(append(root_, "visual"), "headlight");
-    headlight->SetAttribute("ambient", colour(scene_.ambient).c_str());
+    headlight->SetAttribute("ambient", color(scene_.ambient).c_str());
     headlight->SetAttribute("diffuse", "0.25 0.25 0.25");
     headlight->SetAttribute("specular", "0.05 0.05 0.05");
     XMLElement* sky = append(assets_, "texture");
@@ -52,8 +52,8 @@ class SdfWriter {
     sky->SetAttribute("builtin", scene_.background ? "flat" : "gradient");
     const std::array<double, 3> above = scene_.background.value_or(std::array{0.86, 0.9, 0.95});
     const std::array<double, 3> below = scene_.background.value_or(std::array{0.55, 0.66, 0.8});
-    sky->SetAttribute("rgb1", colour(above).c_str());
-    sky->SetAttribute("rgb2", colour(below).c_str());
+    sky->SetAttribute("rgb1", color(above).c_str());
+    sky->SetAttribute("rgb2", color(below).c_str());
     sky->SetAttribute("width", 64);
     sky->SetAttribute("height", 384);
   }
@@ -368,9 +368,9 @@ class SdfWriter {
     e->SetAttribute("directional", light.kind == SdfLight::Kind::kDirectional ? "true" : "false");
     e->SetAttribute("pos", toText(Eigen::Vector3d(pose * light.position)).c_str());
     e->SetAttribute("dir", toText(Eigen::Vector3d(pose.linear() * light.direction)).c_str());
-    e->SetAttribute("diffuse", colour(light.diffuse).c_str());
-    e->SetAttribute("specular", colour(light.specular).c_str());
-    e->SetAttribute("attenuation", colour(light.attenuation).c_str());
+    e->SetAttribute("diffuse", color(light.diffuse).c_str());
+    e->SetAttribute("specular", color(light.specular).c_str());
+    e->SetAttribute("attenuation", color(light.attenuation).c_str());
     e->SetAttribute("castshadow", light.shadows ? "true" : "false");
     // OpenGL's cones have up to a right angle; beyond, light to all sides (180).
     e->SetAttribute("cutoff",

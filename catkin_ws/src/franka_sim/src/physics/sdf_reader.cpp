@@ -32,8 +32,8 @@ void forEach(const XMLElement& parent, const char* name, Act act) {
 
 Eigen::Vector3d toVector(const std::vector<double>& n) { return {n[0], n[1], n[2]}; }
 
-std::array<double, 3> rgb(const std::array<double, 4>& colour) {
-  return {colour[0], colour[1], colour[2]};
+std::array<double, 3> rgb(const std::array<double, 4>& color) {
+  return {color[0], color[1], color[2]};
 }
 
 /// A model that is being read: its pose and its frames.
@@ -59,9 +59,9 @@ class Reader {
     forEach(world, "light",
             [&](const XMLElement& light) { readLight(light, frames.poseOf(light, ""), -1); });
     const XMLElement* look = world.FirstChildElement("scene");
-    const XMLElement& scene = look == nullptr ? world : *look;  // a world has no colours of its own
-    scene_.ambient = rgb(readColour(scene, "ambient", {0.4, 0.4, 0.4, 1}, title_));
-    scene_.background = rgb(readColour(scene, "background", {0.7, 0.7, 0.7, 1}, title_));
+    const XMLElement& scene = look == nullptr ? world : *look;  // a world has no colors of its own
+    scene_.ambient = rgb(readColor(scene, "ambient", {0.4, 0.4, 0.4, 1}, title_));
+    scene_.background = rgb(readColor(scene, "background", {0.7, 0.7, 0.7, 1}, title_));
     forEach(world, "actor",
             [&](const XMLElement& actor) { note("actor '" + optional(actor, "name") + "'"); });
     forEach(world, "population", [&](const XMLElement& population) {
@@ -218,8 +218,8 @@ class Reader {
     result.position = pose.translation();
     const Eigen::Vector3d along = toVector(childNumbers(light, "direction", {0, 0, -1}, where));
     result.direction = pose.linear() * along.normalized();
-    result.diffuse = rgb(readColour(light, "diffuse", {1, 1, 1, 1}, where));
-    result.specular = rgb(readColour(light, "specular", {0.1, 0.1, 0.1, 1}, where));
+    result.diffuse = rgb(readColor(light, "diffuse", {1, 1, 1, 1}, where));
+    result.specular = rgb(readColor(light, "specular", {0.1, 0.1, 0.1, 1}, where));
     result.attenuation = {1, 1, 0};  // SDF's
     if (const XMLElement* attenuation = light.FirstChildElement("attenuation")) {
       result.attenuation = {childNumbers(*attenuation, "constant", {1}, where)[0],

@@ -27,7 +27,7 @@ struct SdfSurface {
   int bitmask{kEveryBit};  ///< two surfaces collide if these share a bit
 };
 
-/// Default colour.
+/// Default color.
 inline constexpr std::array<double, 4> kGrey{{0.7, 0.7, 0.7, 1}};
 
 struct SdfShape {
@@ -40,7 +40,7 @@ struct SdfShape {
   Eigen::Isometry3d pose{
       Eigen::Isometry3d::Identity()};         ///< in the link; a plane's z is its normal
   SdfSurface surface;                         ///< of a collision
-  std::optional<std::array<double, 4>> rgba;  ///< of a visual with a colour
+  std::optional<std::array<double, 4>> rgba;  ///< of a visual with a color
   double opacity{1};                          ///< of a visual
 };
 

@@ -23,7 +23,7 @@ using tinyxml2::XMLElement;
 
 /// Gazebo's plain materials, by the word after "Gazebo/".
 const std::map<std::string, std::array<double, 3>>& plainMaterials() {
-  static const std::map<std::string, std::array<double, 3>> kColours{
+  static const std::map<std::string, std::array<double, 3>> kColors{
       {"Black", {0.05, 0.05, 0.05}},  {"Blue", {0.1, 0.15, 0.9}},    {"DarkGrey", {0.2, 0.2, 0.2}},
       {"DarkGray", {0.2, 0.2, 0.2}},  {"Gold", {0.85, 0.65, 0.15}},  {"Green", {0.1, 0.7, 0.15}},
       {"Grey", {0.55, 0.55, 0.55}},   {"Gray", {0.55, 0.55, 0.55}},  {"Indigo", {0.3, 0.05, 0.5}},
@@ -31,7 +31,7 @@ const std::map<std::string, std::array<double, 3>>& plainMaterials() {
       {"Turquoise", {0.1, 0.8, 0.8}}, {"White", {0.95, 0.95, 0.95}}, {"Wood", {0.72, 0.58, 0.42}},
       {"Yellow", {0.95, 0.85, 0.1}},
   };
-  return kColours;
+  return kColors;
 }
 
 const XMLElement* descend(const XMLElement* element, std::initializer_list<const char*> path) {
@@ -79,8 +79,8 @@ std::optional<SdfShape> readMesh(const XMLElement& mesh, const std::string& what
 
 }  // namespace
 
-std::array<double, 4> readColour(const XMLElement& element, const char* name,
-                                 const std::array<double, 4>& fallback, const std::string& where) {
+std::array<double, 4> readColor(const XMLElement& element, const char* name,
+                                const std::array<double, 4>& fallback, const std::string& where) {
   const std::string text = childText(element, name);
   if (text.empty()) {
     return fallback;
@@ -212,7 +212,7 @@ std::optional<std::array<double, 4>> readMaterial(const XMLElement& visual, cons
   const XMLElement* named = material->FirstChildElement("script");
   const std::string script = named == nullptr ? std::string() : childText(*named, "name");
   if (script.empty()) {
-    return readColour(*material, "diffuse", {1, 1, 1, 1}, what);
+    return readColor(*material, "diffuse", {1, 1, 1, 1}, what);
   }
   const auto known = plainMaterials().find(script.substr(script.rfind('/') + 1));
   if (known == plainMaterials().end()) {

@@ -15,8 +15,8 @@ namespace franka_sim::physics {
 
 /// Red, green and blue (0 to 1) in a child element, with or without opacity; `fallback` if there is
 /// none.
-std::array<double, 4> readColour(const tinyxml2::XMLElement& element, const char* name,
-                                 const std::array<double, 4>& fallback, const std::string& where);
+std::array<double, 4> readColor(const tinyxml2::XMLElement& element, const char* name,
+                                const std::array<double, 4>& fallback, const std::string& where);
 
 /// The <geometry> of a collision or visual as a shape at the origin; empty if it has no
 /// counterpart, which is then added to `unsupported`.
@@ -27,7 +27,7 @@ std::optional<SdfShape> readShape(const tinyxml2::XMLElement& thing, const std::
 /// Friction and contact parameters of a <collision>.
 SdfSurface readSurface(const tinyxml2::XMLElement& collision, const std::string& what,
                        std::set<std::string>* unsupported);
-/// A visual's colour: its diffuse colour, or that of one of Gazebo's plain materials. Empty if it
+/// A visual's color: its diffuse color, or that of one of Gazebo's plain materials. Empty if it
 /// has no material.
 std::optional<std::array<double, 4>> readMaterial(const tinyxml2::XMLElement& visual,
                                                   const std::string& what,

@@ -38,7 +38,7 @@ std::optional<Shape::Kind> kindOf(int type) {
   }
 }
 
-// As MuJoCo's renderer: a material's colour, unless the geom has one of its own.
+// As MuJoCo's renderer: a material's color, unless the geom has one of its own.
 std::array<float, 4> colorOf(const mjModel& model, int geom) {
   constexpr std::array<float, 4> kUnset{0.5F, 0.5F, 0.5F, 1.0F};
   std::array<float, 4> color;

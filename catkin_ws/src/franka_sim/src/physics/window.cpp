@@ -23,7 +23,7 @@ constexpr int kWidth = 1200, kHeight = 900;  ///< [pixel]
 constexpr int kMaxWindowGeoms = 4000;
 constexpr double kZoomStep = 0.05;
 constexpr double kContactDot = 0.004;         ///< [m]
-constexpr double kMetresPerNewton = 0.005;    ///< length of contact force arrows
+constexpr double kMetersPerNewton = 0.005;    ///< length of contact force arrows
 constexpr double kPaceSpan = 0.5;             ///< over which the pace is measured [s]
 constexpr std::uint64_t kMaxPushTicks = 100;  ///< [ticks], for each picture
 constexpr float kOrange[4] = {0.95f, 0.45f, 0.1f, 1};
@@ -174,20 +174,20 @@ struct Window::Impl {
     }
   }
 
-  mjvGeom* nextGeom(int type, const double* at, const double* size, const float* colour) {
+  mjvGeom* nextGeom(int type, const double* at, const double* size, const float* color) {
     if (scene.ngeom >= scene.maxgeom) {
       return nullptr;
     }
     mjvGeom* geom = &scene.geoms[scene.ngeom++];
-    mjv_initGeom(geom, type, size, at, nullptr, colour);
+    mjv_initGeom(geom, type, size, at, nullptr, color);
     geom->category = mjCAT_DECOR;
     return geom;
   }
 
-  void drawArrow(const double* from, const double* to, double dot, const float* colour) {
+  void drawArrow(const double* from, const double* to, double dot, const float* color) {
     const double size[3] = {dot, dot, dot};
-    nextGeom(mjGEOM_SPHERE, from, size, colour);
-    mjvGeom* arrow = nextGeom(mjGEOM_ARROW, from, nullptr, colour);
+    nextGeom(mjGEOM_SPHERE, from, size, color);
+    mjvGeom* arrow = nextGeom(mjGEOM_ARROW, from, nullptr, color);
     if (arrow != nullptr) {
       mjv_makeConnector(arrow, mjGEOM_ARROW, dot, from[0], from[1], from[2], to[0], to[1], to[2]);
     }
@@ -198,7 +198,7 @@ struct Window::Impl {
   void drawContacts(const std::vector<Contact>& contacts) {
     for (const Contact& contact : contacts) {
       double to[3];
-      mju_addScl3(to, contact.position.data(), contact.force.data(), kMetresPerNewton);
+      mju_addScl3(to, contact.position.data(), contact.force.data(), kMetersPerNewton);
       drawArrow(contact.position.data(), to, kContactDot, kOrange);
     }
   }

@@ -246,7 +246,7 @@ void World::Impl::updateKinematics() noexcept {
   if (kinematics_fresh) {
     return;
   }
-  // mj_kinematics normalises quaternions in place; reading must not change later results.
+  // mj_kinematics normalizes quaternions in place; reading must not change later results.
   physics::copyQuaternions(*model, data->qpos, kept_qpos.data());
   mj_kinematics(model.get(), data.get());
   physics::copyQuaternions(*model, kept_qpos.data(), data->qpos);
@@ -287,7 +287,7 @@ void World::Impl::applyPushes() noexcept {
   updateKinematics();
   mju_zero(data->xfrc_applied, 6 * model->nbody);
   for (const Push& push : pushes) {
-    // MuJoCo applies forces at the centre of mass.
+    // MuJoCo applies forces at the center of mass.
     const Eigen::Vector3d point = poseOf(*data, push.body) * push.point;
     const Eigen::Map<const Eigen::Vector3d> com(data->xipos + 3 * push.body);
     double* wrench = data->xfrc_applied + 6 * push.body;

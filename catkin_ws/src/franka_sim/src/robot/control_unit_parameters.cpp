@@ -91,16 +91,16 @@ bool isPayload(const franka_core::Payload& payload) noexcept {
 std::string payloadFault(const franka_core::Payload& payload) {
   if (!std::isfinite(payload.mass) || !franka_core::allFinite(payload.com) ||
       !franka_core::allFinite(payload.inertia)) {
-    return "Mass [kg], centre [m] and inertia [kg m^2] must be finite numbers.";
+    return "Mass [kg], center [m] and inertia [kg m^2] must be finite numbers.";
   }
   if (payload.mass < 0.0 || payload.mass > kMaxPayloadMass) {
     return "The mass is " + franka_core::numberText(payload.mass) +
            " kg; it must lie between 0 and " + franka_core::numberText(kMaxPayloadMass) + " kg.";
   }
   if (distanceOf(payload) > kMaxPayloadDistance) {
-    return "The centre of mass is " + franka_core::numberText(distanceOf(payload)) +
+    return "The center of mass is " + franka_core::numberText(distanceOf(payload)) +
            " m from the flange; it must be within " + franka_core::numberText(kMaxPayloadDistance) +
-           " m. Give it in metres, in the flange's frame.";
+           " m. Give it in meters, in the flange's frame.";
   }
   if (largestOf(payload.inertia) > kMaxPayloadInertia) {
     return "The inertia has an entry of " + franka_core::numberText(largestOf(payload.inertia)) +

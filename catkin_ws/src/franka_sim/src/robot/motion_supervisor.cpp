@@ -65,7 +65,7 @@ void MotionSupervisor::judge(const std::array<double, 7>& motor_torques) noexcep
   if (estimate.first) {
     initializeFromMeasurement();
   } else if (mode() == RobotMode::kGuiding) {
-    holdHere();
+    holdPosition();
   }
   updateDesired();
   if (hasReflexes() && estimate.measured && (mode() == RobotMode::kIdle || isMoving())) {
@@ -80,7 +80,7 @@ void MotionSupervisor::judge(const std::array<double, 7>& motor_torques) noexcep
 
 // Sets the stored poses of the present mode to the present pose.
 void MotionSupervisor::initializeFromMeasurement() noexcept {
-  holdHere();
+  holdPosition();
   guideFromHere();
   if (isMoving()) {
     safety_.motionBegins();
@@ -252,7 +252,7 @@ bool MotionSupervisor::standsStill() const noexcept {
 
 // --- what the state shows ------------------------------------------------------------------------
 
-void MotionSupervisor::holdHere() noexcept {
+void MotionSupervisor::holdPosition() noexcept {
   followArm();
   rest_.finish();
 }

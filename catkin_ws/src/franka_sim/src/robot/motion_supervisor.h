@@ -112,7 +112,7 @@ class MotionSupervisor {
   void brake() noexcept;
   void stopAndClose() noexcept;
   void leaveStop(ModeEvent event) noexcept;
-  void holdHere() noexcept;
+  void holdPosition() noexcept;
   void followArm() noexcept;
   void guideFromHere() noexcept;
   void showJoints(const std::array<double, 7>& q, const std::array<double, 7>& dq,

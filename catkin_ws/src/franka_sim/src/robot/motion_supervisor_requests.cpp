@@ -309,14 +309,14 @@ void MotionSupervisor::enter(RobotMode before) noexcept {
     case RobotMode::kIdle:
     case RobotMode::kReflex:
       if (brakes_closed_) {
-        holdHere();
+        holdPosition();
       } else if (before != RobotMode::kAutomaticErrorRecovery) {
         brake();
       }
       break;
     case RobotMode::kGuiding:
       guideFromHere();
-      holdHere();
+      holdPosition();
       break;
     case RobotMode::kAutomaticErrorRecovery:
       break;
@@ -336,7 +336,7 @@ void MotionSupervisor::stopAndClose() noexcept {
   }
   brakes_closed_ = standsStill() && !rest_.isBraking();
   if (brakes_closed_) {
-    holdHere();
+    holdPosition();
   } else {
     brake();
   }
@@ -353,7 +353,7 @@ void MotionSupervisor::leaveStop(ModeEvent event) noexcept {
 void MotionSupervisor::enterMove() noexcept {
   rest_.finish();
   if (!generates()) {
-    holdHere();
+    holdPosition();
   }
   if (controlledOutside()) {
     law_switch_ = LawSwitch::kFromZero;

@@ -77,7 +77,7 @@ bool applyChange(const std::string& name, const std::string& value, Realism& rea
 
 }  // namespace
 
-bool behaveAlike(const Realism& one, const Realism& other) {
+bool haveSameBehavior(const Realism& one, const Realism& other) {
   const bool same_parts = std::all_of(kParts.begin(), kParts.end(), [&](const Part& part) {
     return one.*part.member == other.*part.member;
   });

@@ -181,17 +181,17 @@ void Host::standStill() {
   restartClock();
 }
 
-void Host::publishAll(bool same_moment) {
+void Host::publishAll(bool same_tick) {
   published_at_ = clock_.now();
   for (Entry& entry : entries_) {
-    publish(entry, same_moment, published_at_);
+    publish(entry, same_tick, published_at_);
   }
   for (Service* service : services_) {
     service->published();
   }
 }
 
-void Host::publish(Entry& entry, bool same_moment, Clock::time_point now) {
+void Host::publish(Entry& entry, bool same_tick, Clock::time_point now) {
   if (entry.robot->expectsCommand()) {
     entry.ended_at.reset();
   } else if (!entry.ended_at) {
@@ -199,7 +199,7 @@ void Host::publish(Entry& entry, bool same_moment, Clock::time_point now) {
   }
   const bool keep_end =
       pace_.waitsForClients() && entry.ended_at && now - *entry.ended_at < kEndKept;
-  entry.robot->publish(std::max<std::uint64_t>(entry.unpublished_ticks, 1), same_moment, keep_end);
+  entry.robot->publish(std::max<std::uint64_t>(entry.unpublished_ticks, 1), same_tick, keep_end);
   entry.unpublished_ticks = 0;
   entry.shown_at = now;
 }
@@ -363,7 +363,7 @@ bool Host::followsClock() const {
 }
 
 // Whether an answer of a client that has not been given up is missing.
-bool Host::answersAreMissing() const {
+bool Host::isAnswerMissing() const {
   return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
     return entry.isDue() && !entry.given_up && !entry.robot->receiveCommand();
   });
@@ -383,7 +383,7 @@ bool Host::settlesInKnownTime() const {
                      [](const Entry& entry) { return entry.robot->settlesInKnownTime(); });
 }
 
-void Host::giveUpSilentClients() {
+void Host::dropSilentClients() {
   for (Entry& entry : entries_) {
     entry.given_up = entry.given_up || (entry.isDue() && !entry.robot->receiveCommand());
   }
@@ -391,7 +391,7 @@ void Host::giveUpSilentClients() {
 
 void Host::waitInLockStep() {
   const bool news = std::any_of(entries_.begin(), entries_.end(),
-                                [](const Entry& entry) { return entry.robot->hasNews(); });
+                                [](const Entry& entry) { return entry.robot->hasPendingState(); });
   const bool due = clientsAreDue();
   if (due || news || followsClock() || clock_.now() - published_at_ >= kTick) {
     publishAll();
@@ -449,11 +449,11 @@ bool Host::waitForClients() {
   const Clock::time_point now = clock_.now();
   waited_ += std::min<Clock::duration>(now - waited_until_, kMaxCountedTime);
   waited_until_ = now;
-  if (!answersAreMissing() && (receiveAll() || waited_ >= kTick)) {
+  if (!isAnswerMissing() && (receiveAll() || waited_ >= kTick)) {
     return false;
   }
-  if (patienceHasEnded(now)) {
-    giveUpSilentClients();
+  if (hasTimedOut(now)) {
+    dropSilentClients();
     return true;
   }
   publishWhileWaiting(now);
@@ -461,7 +461,7 @@ bool Host::waitForClients() {
   return true;
 }
 
-bool Host::patienceHasEnded(Clock::time_point now) {
+bool Host::hasTimedOut(Clock::time_point now) {
   if (waited_ >= pace_.patience) {
     return true;
   }

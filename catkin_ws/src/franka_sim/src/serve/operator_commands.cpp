@@ -242,7 +242,7 @@ using fci::Reply;
 
 constexpr double kGraspTolerance = 0.005;  // [m] either way, the default of libfranka's grasp
 
-std::string metres(double width) { return franka_core::fixedText(width, 4) + " m"; }
+std::string meters(double width) { return franka_core::fixedText(width, 4) + " m"; }
 
 GripperUnit& handOf(WholeRobot& robot) {
   if (robot.hand() == nullptr) {
@@ -266,7 +266,7 @@ void requireHomed(const GripperUnit& hand) {
 Reply outcomeOf(const GripperUnit& hand, GripperUnit::Ticket ticket, const std::string& failure) {
   if (ticket == 0) {
     throw std::invalid_argument("The hand refuses this: widths lie between 0 and " +
-                                metres(hand.maxWidth()) + ", speeds and forces from 0 on.");
+                                meters(hand.maxWidth()) + ", speeds and forces from 0 on.");
   }
   return Reply([&hand, ticket, failure]() -> std::optional<std::string> {
     switch (hand.outcome(ticket)) {
@@ -277,7 +277,7 @@ Reply outcomeOf(const GripperUnit& hand, GripperUnit::Ticket ticket, const std::
       case GripperOutcome::kInterrupted:
         throw std::runtime_error("Another command or a reset has ended this one.");
       default:
-        throw std::runtime_error(failure + " The width is " + metres(hand.width()) + ".");
+        throw std::runtime_error(failure + " The width is " + meters(hand.width()) + ".");
     }
   });
 }

@@ -95,8 +95,8 @@ void SimRobot::serve(bool stops_only) {
   }
 }
 
-void SimRobot::publish(std::uint64_t ticks, bool same_moment, bool keep_end) {
-  server_.publish(ticks, same_moment, keep_end);
+void SimRobot::publish(std::uint64_t ticks, bool same_tick, bool keep_end) {
+  server_.publish(ticks, same_tick, keep_end);
   publishTools(ticks);
 }
 
@@ -194,8 +194,9 @@ std::string detailOf(const ControlUnit& unit, std::size_t error) {
   return "";
 }
 
-RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
-                               const franka_core::ArmModel& arm) {
+RobotServerParameters makeServerParameters(const std::string& address,
+                                           const ProtocolRange& protocols,
+                                           const franka_core::ArmModel& arm) {
   RobotServerParameters server;
   server.address = address;
   server.oldest_version = protocols.oldest;
@@ -205,17 +206,18 @@ RobotServerParameters servedAt(const std::string& address, const ProtocolRange& 
   return server;
 }
 
-SimRobot::Hand servedHand(HandPlant& fingers, const GripperLatency& latency) {
+SimRobot::Hand makeHand(HandPlant& fingers, const GripperLatency& latency) {
   return {&fingers, handParameters(latency)};
 }
 
-SimRobot servedRobot(const std::string& address, const ProtocolRange& protocols,
-                     ControlUnitParameters unit, ArmPlant& arm,
-                     const std::optional<SimRobot::Hand>& hand,
-                     const std::optional<SimRobot::Vacuum>& vacuum, unsigned command_delay) {
+SimRobot makeSimRobot(const std::string& address, const ProtocolRange& protocols,
+                      ControlUnitParameters unit, ArmPlant& arm,
+                      const std::optional<SimRobot::Hand>& hand,
+                      const std::optional<SimRobot::Vacuum>& vacuum, unsigned command_delay) {
   unit.rules = InterfaceRules::kFci;
   unit.protocol_version = protocols.newest;
-  return SimRobot(unit, arm, servedAt(address, protocols, unit.model), hand, vacuum, command_delay);
+  return SimRobot(unit, arm, makeServerParameters(address, protocols, unit.model), hand, vacuum,
+                  command_delay);
 }
 
 std::string linksOf(const SelfCollision::Pair& pair) {

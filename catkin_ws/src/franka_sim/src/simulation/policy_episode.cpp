@@ -58,16 +58,16 @@ Eigen::Vector3d shortened(const Eigen::Vector3d& vector, double longest) noexcep
   return length <= longest ? vector : Eigen::Vector3d(vector * (longest / length));
 }
 
-/// The rotation, or the nearest one that is turned from the centre by the largest angle [rad].
-Eigen::Matrix3d within(const Eigen::Matrix3d& rotation, const Eigen::Matrix3d& centre,
+/// The rotation, or the nearest one that is turned from the center by the largest angle [rad].
+Eigen::Matrix3d within(const Eigen::Matrix3d& rotation, const Eigen::Matrix3d& center,
                        double largest) noexcept {
   // The trace of a rotation is 1 + 2 cos(angle).
-  if (rotation.cwiseProduct(centre).sum() >= 1.0 + 2.0 * std::cos(largest)) {
+  if (rotation.cwiseProduct(center).sum() >= 1.0 + 2.0 * std::cos(largest)) {
     return rotation;
   }
   const Eigen::Vector3d turn =
-      franka_core::vectorOf(Eigen::Matrix3d(rotation * centre.transpose()));
-  return franka_core::rotationFrom(shortened(turn, largest)) * centre;
+      franka_core::vectorOf(Eigen::Matrix3d(rotation * center.transpose()));
+  return franka_core::rotationFrom(shortened(turn, largest)) * center;
 }
 
 Eigen::Isometry3d poseOf(const std::array<double, 16>& transform) noexcept {
@@ -175,7 +175,7 @@ void ArmPolicy::applyCartesianDelta(const double* action, double seconds) {
   target_.translation() = now.translation() + shortened(position - now.translation(), kLead);
   const Eigen::Matrix3d turned =
       within(franka_core::rotationFrom(share * turning) * target_.linear(), start_, kMaxTurn);
-  target_.linear() = franka_core::orthonormalised(within(turned, now.linear(), kTurnLead));
+  target_.linear() = franka_core::orthonormalized(within(turned, now.linear(), kTurnLead));
   std::array<double, 16> O_T_EE;
   Eigen::Map<Eigen::Matrix4d>(O_T_EE.data()) = (to_base_ * target_).matrix();
   robot_->cartesianLaw().setTarget(O_T_EE, seconds, TargetMotion::kLinear);

@@ -40,7 +40,7 @@ RobotDescription describeRobot(const RobotSetup& setup, const std::string& urdf,
   robot.resolve = resolveUri;
   robot.base.position = setup.base;
   robot.base.orientation = {std::cos(0.5 * setup.yaw), 0, 0, std::sin(0.5 * setup.yaw)};
-  startAt(kReadyPose, setup.arm_id, robot);
+  setInitialPositions(kReadyPose, setup.arm_id, robot);
   applyRestOffset(kJointStiffness, setup.arm_id, robot);
   if (hand) {
     for (const char* finger : {"_finger_joint1", "_finger_joint2"}) {

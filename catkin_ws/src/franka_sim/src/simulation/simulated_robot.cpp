@@ -180,13 +180,13 @@ void SimulatedRobot::actuate(const RobotCommand* command) noexcept {
   robot_.actuate(moving() ? nextCommand() : command);
 }
 
-bool SimulatedRobot::isLike(const SimulatedRobot& other) const {
+bool SimulatedRobot::hasSameSetup(const SimulatedRobot& other) const {
   const RobotSetup& one = setup_;
   const RobotSetup& two = other.setup_;
   return one.robot == two.robot && one.arm_id == two.arm_id &&
          (robot_.hand() == nullptr) == (other.robot_.hand() == nullptr) &&
-         behaveAlike(readRealism(one.realism, kInProcessProfile),
-                     readRealism(two.realism, kInProcessProfile));
+         haveSameBehavior(readRealism(one.realism, kInProcessProfile),
+                          readRealism(two.realism, kInProcessProfile));
 }
 
 void SimulatedRobot::restore(const SimulatedRobot& then, bool earlier) {

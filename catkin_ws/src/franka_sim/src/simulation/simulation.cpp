@@ -61,7 +61,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
   const bool alike = content != nullptr && content->robots.size() == robots_.size() &&
                      std::equal(robots_.begin(), robots_.end(), content->robots.begin(),
                                 [](const SimulatedRobot& robot, const SimulatedRobot& then) {
-                                  return robot.isLike(then);
+                                  return robot.hasSameSetup(then);
                                 });
   if (!alike) {
     throw std::runtime_error(

@@ -22,8 +22,8 @@ class SimulationServer::Front final : public fci::SimRobot {
  public:
   Front(SimulatedRobot& robot, const std::string& address)
       : SimRobot(robot.units(),
-                 fci::servedAt(address, protocolsOf(robot.setup().robot),
-                               robot.units().unit().configuration().model),
+                 fci::makeServerParameters(address, protocolsOf(robot.setup().robot),
+                                           robot.units().unit().configuration().model),
                  toolsOf(robot)),
         robot_(robot),
         address_(address) {

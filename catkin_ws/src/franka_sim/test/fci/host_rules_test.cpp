@@ -64,17 +64,17 @@ class CountingRobot : public HostedRobot {
     }
     served_all += stops_only ? 0 : 1;
   }
-  void publish(std::uint64_t ticks, bool same_moment, bool keep_end) override {
+  void publish(std::uint64_t ticks, bool same_tick, bool keep_end) override {
     ends_kept += keep_end ? 1 : 0;
-    (same_moment ? repeated : published)++;
+    (same_tick ? repeated : published)++;
     message_ids += ticks;
     seen = true;
-    if (!same_moment || !begun) {
+    if (!same_tick || !begun) {
       shown_at = clock_.now();
     }
   }
   void repeat() override { repeats++; }
-  bool hasNews() const override { return false; }
+  bool hasPendingState() const override { return false; }
   bool receiveCommand() override { return answers && seen && clock_.now() - shown_at >= delay; }
   bool expectsCommand() const override { return moving; }
   bool asynchronous() const override { return has_asynchronous_motion; }

@@ -61,16 +61,16 @@ class BareRobot final : public HostedRobot {
     vacuum.serve(stops_only);
     most_unsent = std::max(most_unsent, arm.unsentBytes());
   }
-  void publish(std::uint64_t ticks, bool same_moment, bool keep_end) override {
+  void publish(std::uint64_t ticks, bool same_tick, bool keep_end) override {
     const double now = processorTime();
     worst = published_at > 0.0 ? std::max(worst, now - published_at) : worst;
     published_at = now;
-    arm.publish(ticks, same_moment, keep_end);
+    arm.publish(ticks, same_tick, keep_end);
     hand.publish(ticks);
     vacuum.publish(ticks);
   }
   void repeat() override { arm.repeat(); }
-  bool hasNews() const override { return arm.hasNews(); }
+  bool hasPendingState() const override { return arm.hasPendingState(); }
   bool receiveCommand() override { return arm.receiveCommand(); }
   bool expectsCommand() const override { return arm.expectsCommands(); }
   bool asynchronous() const override { return arm.asynchronous(); }

@@ -103,7 +103,7 @@ TEST_F(RobotServerTest, RunsAMotionFromStartToEnd) {
     handler_.endMotion(Status::kReflexAborted, RobotMode::kReflex);
     serve();
     EXPECT_FALSE(client.answer(Command::kMove, 0));
-    EXPECT_TRUE(server_.hasNews());
+    EXPECT_TRUE(server_.hasPendingState());
     server_.publish();
     EXPECT_EQ(client.state()->robot_mode, RobotMode::kReflex);
     const auto end = client.answer(Command::kMove);
@@ -390,11 +390,11 @@ TEST_F(RobotServerTest, KeepsTheStateThatShowsAnAbortUntilTheClientsNextRequest)
     EXPECT_EQ(3, states()) << "states of a motion are not kept back";
   };
   move();
-  EXPECT_FALSE(server_.hasNews());
+  EXPECT_FALSE(server_.hasPendingState());
   handler_.endMotion(Status::kReflexAborted, RobotMode::kReflex);
-  EXPECT_TRUE(server_.hasNews());
+  EXPECT_TRUE(server_.hasPendingState());
   publish(5);
-  EXPECT_FALSE(server_.hasNews());
+  EXPECT_FALSE(server_.hasPendingState());
   const auto end = client.state(0);
   ASSERT_TRUE(end);
   EXPECT_EQ(RobotMode::kReflex, end->robot_mode);

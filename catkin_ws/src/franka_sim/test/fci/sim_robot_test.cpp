@@ -35,7 +35,8 @@ ControlUnitParameters unitOf(unsigned version) {
 }
 
 RobotServerParameters serverOf(const ProtocolRange& protocols) {
-  RobotServerParameters parameters = servedAt("127.0.0.1", protocols, test::pandaModel());
+  RobotServerParameters parameters =
+      makeServerParameters("127.0.0.1", protocols, test::pandaModel());
   parameters.port = 0;
   return parameters;
 }

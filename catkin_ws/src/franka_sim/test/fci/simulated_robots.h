@@ -112,7 +112,7 @@ class SimulatedRobots {
     description.urdf = test::urdfOf(name);
     description.resolve = [](const std::string&) { return std::string(); };
     description.base.position = {place.x, 0, 0};
-    startAt(kReadyPose, name, description);
+    setInitialPositions(kReadyPose, name, description);
     applyPhysics(RobotPhysics{}, name, description);
     unit.end_effector = franka_core::endEffectorFromUrdf(description.urdf, name);
     unit.rules = InterfaceRules::kFci;

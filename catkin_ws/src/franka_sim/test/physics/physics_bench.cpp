@@ -37,7 +37,7 @@ RobotDescription panda(const franka_sim::RobotPhysics& physics = {}) {
   description.name = "panda";
   description.urdf = readFile(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
   description.base.position = {-0.5, 0, 0};
-  startAt(kHome, "panda", description);
+  setInitialPositions(kHome, "panda", description);
   applyPhysics(physics, "panda", description);
   return description;
 }

@@ -169,7 +169,7 @@ TEST_P(RobotClearanceTest, NoPointMovesFartherThanTheBound) {
   std::mt19937 random(3);
   std::uniform_real_distribution<double> anywhere(-2.8, 2.8);
   std::uniform_real_distribution<double> opening(0.0, 0.04);
-  const auto place = [&](std::vector<double>* centres, std::vector<double>* q) {
+  const auto place = [&](std::vector<double>* centers, std::vector<double>* q) {
     for (int joint = 0; joint < model.njnt; ++joint) {
       if (impl.owners.robot_of_body[model.jnt_bodyid[joint]] >= 0) {
         const bool slides = model.jnt_type[joint] == mjJNT_SLIDE;
@@ -177,7 +177,7 @@ TEST_P(RobotClearanceTest, NoPointMovesFartherThanTheBound) {
       }
     }
     mj_kinematics(&model, impl.data.get());
-    centres->assign(impl.data->geom_xpos, impl.data->geom_xpos + 3 * model.ngeom);
+    centers->assign(impl.data->geom_xpos, impl.data->geom_xpos + 3 * model.ngeom);
     q->assign(impl.data->qpos, impl.data->qpos + model.nq);
   };
   std::vector<double> before, after, q_before, q_after;
@@ -185,7 +185,7 @@ TEST_P(RobotClearanceTest, NoPointMovesFartherThanTheBound) {
   for (int trial = 0; trial < 2000; ++trial) {
     place(&before, &q_before);
     place(&after, &q_after);
-    const double bound = impl.clearance.largestWay(q_before.data(), q_after.data());
+    const double bound = impl.clearance.maxDisplacement(q_before.data(), q_after.data());
     for (int geom = 0; geom < model.ngeom; ++geom) {
       if (impl.owners.robot_of_geom[geom] >= 0) {
         const double way = mju_dist3(&before[3 * geom], &after[3 * geom]);

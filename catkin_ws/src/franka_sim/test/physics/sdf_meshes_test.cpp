@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Meshes of SDF worlds and of robots: poses, colours, and errors.
+// Meshes of SDF worlds and of robots: poses, colors, and errors.
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>
@@ -30,9 +30,9 @@ const std::string kLid =
     "<instance_material symbol='m' target='#blue'/></technique_common></bind_material>"
     "</instance_geometry>";
 
-std::string effect(const std::string& name, const std::string& colour) {
+std::string effect(const std::string& name, const std::string& color) {
   return "<effect id='" + name + "-fx'><profile_COMMON><technique sid='common'><lambert><diffuse>" +
-         colour + "</diffuse></lambert></technique></profile_COMMON></effect>";
+         color + "</diffuse></lambert></technique></profile_COMMON></effect>";
 }
 
 std::string geometry(const std::string& id, const std::string& positions, int vertices,
@@ -49,12 +49,12 @@ std::string geometry(const std::string& id, const std::string& positions, int ve
          "</vcount><p>" + corners + "</p></polylist></mesh></geometry>";
 }
 
-/// A red box from 0 0 0 to 2 4 6 and a blue square from 0 0 6 to 2 2 6 facing up, in centimetres.
+/// A red box from 0 0 0 to 2 4 6 and a blue square from 0 0 6 to 2 2 6 facing up, in centimeters.
 std::string collada(const std::string& nodes, const std::string& up = "Z_UP",
                     const std::string& blue = "<color>0.1 0.2 0.9 1</color>") {
   return "<?xml version='1.0'?><COLLADA xmlns='http://www.collada.org/2005/11/COLLADASchema' "
          "version='1.4.1'><asset><created>2026-01-01T00:00:00</created>"
-         "<modified>2026-01-01T00:00:00</modified><unit name='centimetre' meter='0.01'/><up_axis>" +
+         "<modified>2026-01-01T00:00:00</modified><unit name='centimeter' meter='0.01'/><up_axis>" +
          up +
          "</up_axis></asset><library_images><image id='picture'><init_from>wood.png"
          "</init_from></image></library_images><library_effects>" +
@@ -163,7 +163,7 @@ TEST_F(SdfMeshTest, ScaleAndPoseApply) {
   expectReach(reachOf(world, "m").box, {0, 0, 1}, {0.2, 0.2, 1.12});
 }
 
-TEST_F(SdfMeshTest, SubmeshesAreFoundByTheirNodesAndCentred) {
+TEST_F(SdfMeshTest, SubmeshesAreFoundByTheirNodesAndCentered) {
   write("a.dae", collada(node("body", kBox) + node("top", "<translate>0 0 4</translate>" + kLid) +
                          "<node id='anonymous'>" + kLid + "</node>"));
   const auto boxOf = [&](const std::string& submesh) {
@@ -182,12 +182,12 @@ TEST_F(SdfMeshTest, SubmeshesAreFoundByTheirNodesAndCentred) {
   EXPECT_THAT(world.unsupported(), HasSubstr("no triangles of the name 'legs'"));
 }
 
-TEST_F(SdfMeshTest, MaterialColoursOverrideMeshColours) {
+TEST_F(SdfMeshTest, MaterialColorsOverrideMeshColors) {
   write("a.dae", collada(node("n", kBox + kLid)));
   write("b.stl",
         "solid b\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\n"
         "vertex 0 1 0\nendloop\nendfacet\nendsolid b\n");
-  const auto colours = [&](const std::string& text) {
+  const auto colors = [&](const std::string& text) {
     World world(file(model(text)));
     const mjModel& m = *implOf(world).model;
     std::vector<std::array<float, 4>> result;
@@ -197,14 +197,14 @@ TEST_F(SdfMeshTest, MaterialColoursOverrideMeshColours) {
     }
     return result;
   };
-  using Colours = std::vector<std::array<float, 4>>;
-  EXPECT_EQ(colours(visual("a.dae")), (Colours{{0.8F, 0.1F, 0.2F, 1}, {0.1F, 0.2F, 0.9F, 1}}));
-  EXPECT_EQ(colours(visual("a.dae", "", "<transparency>0.75</transparency>")),
-            (Colours{{0.8F, 0.1F, 0.2F, 0.25F}, {0.1F, 0.2F, 0.9F, 0.25F}}));
+  using Colors = std::vector<std::array<float, 4>>;
+  EXPECT_EQ(colors(visual("a.dae")), (Colors{{0.8F, 0.1F, 0.2F, 1}, {0.1F, 0.2F, 0.9F, 1}}));
+  EXPECT_EQ(colors(visual("a.dae", "", "<transparency>0.75</transparency>")),
+            (Colors{{0.8F, 0.1F, 0.2F, 0.25F}, {0.1F, 0.2F, 0.9F, 0.25F}}));
   const std::array<float, 4> green{0.1F, 0.7F, 0.2F, 1};
-  EXPECT_EQ(colours(visual("a.dae", "", "<material><diffuse>0.1 0.7 0.2 1</diffuse></material>")),
-            (Colours{green, green}));
-  EXPECT_EQ(colours(visual("b.stl")), (Colours{{0.7F, 0.7F, 0.7F, 1}}));
+  EXPECT_EQ(colors(visual("a.dae", "", "<material><diffuse>0.1 0.7 0.2 1</diffuse></material>")),
+            (Colors{green, green}));
+  EXPECT_EQ(colors(visual("b.stl")), (Colors{{0.7F, 0.7F, 0.7F, 1}}));
 }
 
 TEST_F(SdfMeshTest, ReportsTextures) {
@@ -214,9 +214,9 @@ TEST_F(SdfMeshTest, ReportsTextures) {
   World world(file(model(visual("a.dae"))));
   EXPECT_THAT(world.unsupported(), HasSubstr("textures of the mesh " + folder_ / "a.dae"));
   EXPECT_EQ(reachOf(world, "m").geoms, 2);
-  World coloured(
+  World colored(
       file(model(visual("a.dae", "", "<material><diffuse>1 0 0 1</diffuse></material>"))));
-  EXPECT_EQ(coloured.unsupported(), "");
+  EXPECT_EQ(colored.unsupported(), "");
 }
 
 /// A tetrahedron in three formats.
@@ -384,9 +384,9 @@ TEST_F(SdfMeshTest, RobotsMayHaveMeshesOfAnyFormat) {
 }
 
 TEST(KeptFilesTest, StoresEqualContentOnce) {
-  const std::string one = physics::keepFile("one", ".msh");
-  EXPECT_EQ(one, physics::keepFile("one", ".msh"));
-  EXPECT_NE(one, physics::keepFile("two", ".msh"));
+  const std::string one = physics::registerFile("one", ".msh");
+  EXPECT_EQ(one, physics::registerFile("one", ".msh"));
+  EXPECT_NE(one, physics::registerFile("two", ".msh"));
   EXPECT_THAT(one, HasSubstr(".msh"));
 }
 

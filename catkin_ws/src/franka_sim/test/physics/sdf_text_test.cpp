@@ -229,7 +229,7 @@ TEST_F(SdfTextTest, ExpandsNestedModelsAndIncludes) {
   EXPECT_EQ(scene.joints.at(0).child, 3);
 }
 
-TEST_F(SdfTextTest, LightsCamerasAndColoursKeepTheirDefaults) {
+TEST_F(SdfTextTest, LightsCamerasAndColorsKeepTheirDefaults) {
   const SdfScene scene = both(
       world("<gravity>0 0 -1.62</gravity><scene><ambient>0.1 0.2 0.3 1</ambient>"
             "<background>0.5 0.6 0.7</background></scene>"

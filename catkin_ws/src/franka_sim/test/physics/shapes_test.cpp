@@ -51,7 +51,7 @@ class ShapesTest : public ::testing::Test {
   WorldShapes shapes = shapesOf(world)();
 };
 
-TEST_F(ShapesTest, HaveKindSizePlaceAndColour) {
+TEST_F(ShapesTest, HaveKindSizePlaceAndColor) {
   ASSERT_EQ(1U, shapesOn("world").size());
   const Shape plane = shapesOn("world")[0];
   EXPECT_EQ(Shape::Kind::kPlane, plane.kind);

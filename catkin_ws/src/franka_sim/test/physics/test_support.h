@@ -50,7 +50,7 @@ inline RobotDescription robot(const std::string& kind, const std::string& arm_id
   RobotDescription description;
   description.name = arm_id;
   description.urdf = replaceAll(urdfOf(kind), kind + "_", arm_id + "_");
-  startAt(kHome, arm_id, description);
+  setInitialPositions(kHome, arm_id, description);
   for (int i = 0; i < 7; ++i) {
     const std::string joint = arm_id + "_joint" + std::to_string(i + 1);
     description.rotor_inertia[joint] = kRotorInertia;

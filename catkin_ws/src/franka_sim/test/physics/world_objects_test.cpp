@@ -325,7 +325,7 @@ TEST(WorldChanges, AreTakenBack) {
 TEST(WorldObjects, TwistsReferToTheBodysOrigin) {
   World world;
   world.setGravity({0, 0, 0});
-  // The centre of mass is 0.2 m from the origin: rotation about it moves the origin.
+  // The center of mass is 0.2 m from the origin: rotation about it moves the origin.
   world.addObject("club",
                   "<body name='club'><freejoint/><inertial pos='0.2 0 0' mass='1' "
                   "diaginertia='0.01 0.01 0.01'/></body>",

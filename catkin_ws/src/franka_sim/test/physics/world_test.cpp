@@ -149,7 +149,7 @@ TEST(WorldTest, PushAtAPointTurnsTheBody) {
   Pose high;
   high.position = {5, 5, 50};
   world.setBodyPose("stone", high);
-  // 1e-3 N at 0.01 m from the centre about z: 1e-5 Nm on 1.407e-5 kg m^2 for 0.1 s.
+  // 1e-3 N at 0.01 m from the center about z: 1e-5 Nm on 1.407e-5 kg m^2 for 0.1 s.
   world.pushAt("stone", {5.01, 5, 50}, {0, 1e-3, 0}, 100);
   run(&world, 100);
   const auto turn = world.bodyPose("stone").orientation;

@@ -134,7 +134,7 @@ TEST_F(ErrorFlags, MotionOutOfAVirtualWallIsAllowed) {
     franka_core::fci::CartesianLimit wall;
     wall.object_world_size = {{2, 1, 2}};
     wall.object_frame = franka_core::kIdentityTransform;
-    wall.object_frame[13] = 0.48;  // from y = -0.02 on: the hand is two centimetres inside
+    wall.object_frame[13] = 0.48;  // from y = -0.02 on: the hand is two centimeters inside
     wall.active = true;
     ASSERT_EQ(Status::kSuccess, unit.request(SetVirtualWall{0, wall}));
     moveTwist();

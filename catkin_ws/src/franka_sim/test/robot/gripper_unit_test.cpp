@@ -45,7 +45,7 @@ class GripperTest : public ::testing::Test {
     return 100.0;
   }
 
-  /// The stone of the demo: 25 mm wide, centred or `beside` the centre [m].
+  /// The stone of the demo: 25 mm wide, centered or `beside` the center [m].
   void putStone(double width = 0.025, double beside = 0.0) {
     hand.has_object = true;
     hand.object = FakeHand::Object{};
@@ -252,7 +252,7 @@ TEST_F(GripperTest, GraspHoldsWithHalfOfTheForceOnEachFinger) {
   }
 }
 
-TEST_F(GripperTest, GraspCentresAnObject) {
+TEST_F(GripperTest, GraspCentersAnObject) {
   for (const double beside : {0.01, -0.01}) {
     putStone(0.025, beside);
     hand.put(0.07);

@@ -284,7 +284,7 @@ TEST_F(ArmTest, ExcessiveLoadsAreRefusedWithValueLimitAndUnit) {
       {1e300, {{0, 0, 0}}, ball(0), "The mass is 1e+300 kg"},
       {1, {{0, 0, 1.01}}, ball(0), "is 1.01 m from the flange; it must be within 1 m"},
       {1, {{0.8, 0.8, 0}}, ball(0), " m from the flange"},
-      {1, {{100, 0, 0}}, ball(0), "is 100 m from the flange"},  // entered in millimetres
+      {1, {{100, 0, 0}}, ball(0), "is 100 m from the flange"},  // entered in millimeters
       {1, {{0, 0, 0}}, ball(10.01), "an entry of 10.01 kg m^2; none may be beyond 10 kg m^2"},
       {1, {{0, 0, 0}}, ball(1e12), "an entry of 1e+12 kg m^2"},
       {1, {{0, 0, 0}}, {{1, 0.5, 0, -0.5, 1, 0, 0, 0, 1}}, "symmetric"},

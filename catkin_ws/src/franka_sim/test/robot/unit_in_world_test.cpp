@@ -22,7 +22,7 @@ namespace {
 
 using franka_core::RobotState;
 
-/// Centre of mass of the link hand, in its own frame [m].
+/// Center of mass of the link hand, in its own frame [m].
 Eigen::Vector3d handCenter(const std::string& id) {
   return id == "fr3"
              ? Eigen::Vector3d(-0.00737411357523114, -0.00737411357523114, 0.0287828571428571)
@@ -58,7 +58,7 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
       description.base.position = {{-0.5, 0, 0.3}};
       description.initial_positions[id() + "_finger_joint1"] = 0.03;
     }
-    startAt(kReady, id(), description);
+    setInitialPositions(kReady, id(), description);
     world = std::make_unique<World>(test::world(scene));
     world->addRobot(description);
     arm = &world->arm(id(), id());
@@ -135,7 +135,7 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
     EXPECT_TRUE(gripper->isGrasped());
   }
 
-  /// Where the stone is in the frame of the tool centre point [m].
+  /// Where the stone is in the frame of the tool center point [m].
   Eigen::Vector3d stoneInHand() const {
     const Pose hand_pose = world->bodyPose(id() + "_hand_tcp");
     const Pose stone = world->bodyPose("stone");
@@ -253,7 +253,7 @@ TEST_P(UnitInWorldTest, PushesOnTheHandAreReadWithinHalfAPercent) {
 }
 
 TEST_P(UnitInWorldTest, UnconfiguredKilogramReadsWeightAndInertiaAtFullSpeed) {
-  // A point of 1 kg at the hand's centre of mass: the arm always exerts m (a - g) on it. Its
+  // A point of 1 kg at the hand's center of mass: the arm always exerts m (a - g) on it. Its
   // acceleration is the difference of its velocity in the world. The second difference of its
   // position is wrong by a quarter of the acceleration in a tick in which the number of physics
   // steps changes (decision 58).

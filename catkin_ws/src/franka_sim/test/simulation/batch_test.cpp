@@ -165,7 +165,7 @@ TEST(Batch, InvalidArgumentsAreRefused) {
   };
   EXPECT_NE(made({}, 1, {}).find("at least one"), std::string::npos);
   EXPECT_NE(made(worlds.all, 0, {}).find("1 to 1024 threads, not on 0"), std::string::npos);
-  for (const char* name : {"", ".", "panda", "panda.", "panda.colour", "moon.pose", "stone.q",
+  for (const char* name : {"", ".", "panda", "panda.", "panda.color", "moon.pose", "stone.q",
                            "panda.pose.q", "time.pose"}) {
     const std::string text = made(worlds.all, 1, {name});
     EXPECT_NE(text.find("There is no value '" + std::string(name) + "'"), std::string::npos)

@@ -58,7 +58,7 @@ TEST(OperatorSwitches, FciStaysOffWhileAnotherProgramHasItsPort) {
   FakeArm arm(model, kReady);
   ControlUnitParameters unit = pandaWithHand();
   unit.rules = InterfaceRules::kFci;
-  fci::RobotServerParameters server = fci::servedAt("127.0.0.1", {6, 10}, pandaModel());
+  fci::RobotServerParameters server = fci::makeServerParameters("127.0.0.1", {6, 10}, pandaModel());
   server.port = 0;
   fci::SimRobot robot(unit, arm, server, std::nullopt);
   robot.observe();

@@ -63,7 +63,7 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
     robot.name = id;
     robot.urdf = urdf;
     robot.resolve = [](const std::string&) { return std::string(); };
-    startAt(kReadyPose, id, robot);
+    setInitialPositions(kReadyPose, id, robot);
     applyPhysics(RobotPhysics{}, id, robot);
     world_->addRobot(robot);
     arm_ = &world_->arm(id, id);

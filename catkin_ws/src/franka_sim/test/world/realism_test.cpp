@@ -33,7 +33,7 @@ class RealismTest : public ::testing::TestWithParam<const char*> {
   void start(const std::string& realism) {
     physics_ = physicsOf(id(), realism);
     RobotDescription description = robot(id());
-    startAt(kReadyPose, id(), description);
+    setInitialPositions(kReadyPose, id(), description);
     applyPhysics(physics_, id(), description);
     world_ = std::make_unique<World>();
     world_->addRobot(description);

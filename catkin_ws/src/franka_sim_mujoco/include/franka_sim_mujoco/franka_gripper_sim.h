@@ -20,7 +20,7 @@ namespace franka_sim_mujoco {
 
 /// The Franka hand in simulation: a controller of the two finger joints' efforts with the actions
 /// of the real gripper node and its topic joint_states (30 Hz). GripperUnit implements the
-/// behaviour, this class the ROS interface. Parameters in the controller's namespace: see the
+/// behavior, this class the ROS interface. Parameters in the controller's namespace: see the
 /// package's documentation (manual, FrankaGripperSim).
 class FrankaGripperSim
     : public controller_interface::Controller<hardware_interface::EffortJointInterface> {

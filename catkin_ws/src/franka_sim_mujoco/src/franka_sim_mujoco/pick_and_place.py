@@ -144,9 +144,9 @@ class Arm:
         server = f"{self._namespace}{self.CONTROLLER}/dynamic_reconfigure_compliance_param_node"
         ReconfigureClient(rospy.resolve_name(server), timeout=30).update_configuration(parameters)
 
-    def set_load(self, mass: float, centre: tuple[float, float, float], inertia: list[float]) -> None:
-        """Sets the robot's load: [kg], centre in the flange frame [m], [kg m^2] column-major."""
-        answer = self._set_load(mass, centre, inertia)
+    def set_load(self, mass: float, center: tuple[float, float, float], inertia: list[float]) -> None:
+        """Sets the robot's load: [kg], center in the flange frame [m], [kg m^2] column-major."""
+        answer = self._set_load(mass, center, inertia)
         if not answer.success:
             raise TaskError(f"set_load was refused: {answer.error}")
 
@@ -368,7 +368,7 @@ class Placement:
     """Final position of the stone."""
 
     position: tuple[float, float, float]  # in the world [m]
-    distance: float  # from the tray's centre, in the plane [m]
+    distance: float  # from the tray's center, in the plane [m]
     in_tray: bool  # stands or lies in the red tray, at rest
 
 

@@ -40,7 +40,7 @@ Frame operator++(Frame& frame, int /* postfix */) noexcept;
 /// expressed in the base frame O, body Jacobians in the frame's own axes. Transforms are 4x4,
 /// Jacobians 6x7 (linear rows first), the mass matrix 7x7, inertias 3x3, all column-major.
 /// `I_total`, `m_total` and `F_x_Ctotal` are of end effector and load together: inertia about their
-/// centre of mass in the axes of F [kg m^2], mass [kg], centre of mass in F [m].
+/// center of mass in the axes of F [kg m^2], mass [kg], center of mass in F [m].
 class Model {
  public:
   /// @name Without a robot (not in the vendor's library)

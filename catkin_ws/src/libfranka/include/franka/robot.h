@@ -197,8 +197,8 @@ class Robot {
   /// @param NE_T_EE pose of EE in the nominal end effector frame, 4x4 column-major.
   void setEE(const std::array<double, 16>& NE_T_EE);
   /// Sets the mass that the robot carries besides the end effector.
-  /// @param load_mass [kg]. @param F_x_Cload centre of mass in F [m].
-  /// @param load_inertia about the centre of mass, axes of F, 3x3 column-major [kg m^2].
+  /// @param load_mass [kg]. @param F_x_Cload center of mass in F [m].
+  /// @param load_inertia about the center of mass, axes of F, 3x3 column-major [kg m^2].
   void setLoad(double load_mass, const std::array<double, 3>& F_x_Cload,
                const std::array<double, 9>& load_inertia);
   /// Sets the robot's own filters of commands (protocol 3 to 5), each 1 to 1000 [Hz], where 1000
@@ -241,7 +241,7 @@ class Robot {
   std::array<double, 7> getLowerJointVelocityLimits(
       const std::array<double, 7>& joint_positions) const noexcept;
 
-  /// Selects the behaviour of another version of the library for all motions started later.
+  /// Selects the behavior of another version of the library for all motions started later.
   /// Extension of this library.
   void setControlOptions(const ControlOptions& options);
 

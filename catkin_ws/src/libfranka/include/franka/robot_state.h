@@ -37,14 +37,14 @@ struct RobotState {
   std::array<double, 16> NE_T_EE{};    ///< EE in the nominal end effector frame
   std::array<double, 16> EE_T_K{};     ///< K in EE
   double m_ee{};                       ///< mass of the end effector [kg]
-  std::array<double, 9> I_ee{};        ///< its inertia about its centre of mass, axes of F [kg m^2]
-  std::array<double, 3> F_x_Cee{};     ///< its centre of mass in F [m]
+  std::array<double, 9> I_ee{};        ///< its inertia about its center of mass, axes of F [kg m^2]
+  std::array<double, 3> F_x_Cee{};     ///< its center of mass in F [m]
   double m_load{};                     ///< mass of the load [kg]
-  std::array<double, 9> I_load{};      ///< its inertia about its centre of mass, axes of F [kg m^2]
-  std::array<double, 3> F_x_Cload{};   ///< its centre of mass in F [m]
+  std::array<double, 9> I_load{};      ///< its inertia about its center of mass, axes of F [kg m^2]
+  std::array<double, 3> F_x_Cload{};   ///< its center of mass in F [m]
   double m_total{};                    ///< mass of end effector and load [kg]
-  std::array<double, 9> I_total{};     ///< inertia of both about their centre of mass [kg m^2]
-  std::array<double, 3> F_x_Ctotal{};  ///< centre of mass of both in F [m]
+  std::array<double, 9> I_total{};     ///< inertia of both about their center of mass [kg m^2]
+  std::array<double, 3> F_x_Ctotal{};  ///< center of mass of both in F [m]
   std::array<double, 2> elbow{};       ///< position of joint 3 [rad], sign of joint 4 (+1 or -1)
   std::array<double, 2> elbow_d{};     ///< desired elbow
   std::array<double, 2> elbow_c{};     ///< commanded elbow

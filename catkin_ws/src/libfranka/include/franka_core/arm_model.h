@@ -28,9 +28,9 @@ constexpr std::array<double, 16> kIdentityTransform{1, 0, 0, 0, 0, 1, 0, 0, 0, 0
 /// The body at the flange: end effector and load taken together.
 struct Payload {
   double mass{0.0};             ///< [kg]
-  std::array<double, 3> com{};  ///< F_x_C, centre of mass in flange frame F [m]
+  std::array<double, 3> com{};  ///< F_x_C, center of mass in flange frame F [m]
   std::array<double, 9>
-      inertia{};  ///< about the centre of mass, axes of F, 3x3 column-major [kg m^2]
+      inertia{};  ///< about the center of mass, axes of F, 3x3 column-major [kg m^2]
 };
 
 /// Mass, Coriolis, gravity, pose and Jacobian, computed together.
@@ -119,7 +119,7 @@ class ArmModel {
   std::array<double, 16> flange_;
 };
 
-/// End effector and load as one body about their common centre of mass (parallel-axis theorem).
+/// End effector and load as one body about their common center of mass (parallel-axis theorem).
 /// A part of zero mass contributes nothing, its inertia included (protocol 8.4).
 Payload combine(const Payload& end_effector, const Payload& load) noexcept;
 

@@ -16,7 +16,7 @@ namespace franka_core {
 /// Largest load or end effector of simulated arms (chosen here: three times the payload of the arm,
 /// and as far from the flange as its reach).
 constexpr double kMaxPayloadMass = 10.0;     ///< [kg]
-constexpr double kMaxPayloadDistance = 1.0;  ///< of the centre of mass from the flange [m]
+constexpr double kMaxPayloadDistance = 1.0;  ///< of the center of mass from the flange [m]
 constexpr double kMaxPayloadInertia = 10.0;  ///< each entry [kg m^2]
 
 /// Bounds on the magnitude of one Cartesian quantity and its derivatives.

@@ -51,7 +51,7 @@ inline Eigen::Matrix3d rotationFromRpy(const Eigen::Vector3d& rpy) noexcept {
 /// The rotation nearest to a matrix that is almost a rotation. Newton's iteration for the polar
 /// factor: unlike a conversion over quaternions it is smooth, so that rounded matrices cause no
 /// jerk. Errors of 1e-5 vanish in three steps (1e-10, 1e-20).
-inline Eigen::Matrix3d orthonormalised(const Eigen::Matrix3d& matrix) noexcept {
+inline Eigen::Matrix3d orthonormalized(const Eigen::Matrix3d& matrix) noexcept {
   Eigen::Matrix3d rotation = matrix;
   for (int i = 0; i < 3; i++) {
     const Eigen::Matrix3d square = rotation.transpose() * rotation;

@@ -195,7 +195,7 @@ void addRigidBodies(const urdf::Link& link, const Pose& at, const std::string& f
 }
 
 // All bodies below a link, joints at position 0. The hand and moving links must have a mass; other
-// links (tool centre points, coarse collision bodies) need none.
+// links (tool center points, coarse collision bodies) need none.
 void addSubtree(const urdf::Link& link, const Pose& at, const std::string& hand_name,
                 Payload& sum) {
   const bool moves = link.parent_joint && link.parent_joint->type != urdf::Joint::FIXED;
@@ -205,7 +205,7 @@ void addSubtree(const urdf::Link& link, const Pose& at, const std::string& hand_
     fail("link " + quoted(link.name) +
          " has no inertial, so the end effector's mass is unknown. Generate the description with "
          "the "
-         "xacro argument gazebo:=true, or set mass, centre of mass and inertia by parameters.");
+         "xacro argument gazebo:=true, or set mass, center of mass and inertia by parameters.");
   }
   for (const urdf::LinkSharedPtr& child : link.child_links) {
     addSubtree(*child, at * toPose(child->parent_joint->parent_to_joint_origin_transform),

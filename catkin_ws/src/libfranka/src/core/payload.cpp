@@ -6,7 +6,7 @@ namespace franka_core {
 
 namespace {
 
-// A part's inertia about the common centre of mass, three by three column-major.
+// A part's inertia about the common center of mass, three by three column-major.
 void addAbout(const Payload& part, const std::array<double, 3>& com,
               std::array<double, 9>& inertia) noexcept {
   const spatial::Symmetric shift = spatial::pointInertia(

@@ -47,7 +47,7 @@ std::string hint(Command command) {
   char text[240];
   std::snprintf(
       text, sizeof text,
-      " Give mass [kg], centre from the flange [m] and symmetric inertia [kg m^2] of what "
+      " Give mass [kg], center from the flange [m] and symmetric inertia [kg m^2] of what "
       "the arm can carry; simulated arms take at most %g kg, %g m and %g kg m^2.",
       kMaxPayloadMass, kMaxPayloadDistance, kMaxPayloadInertia);
   return text;

@@ -346,10 +346,10 @@ const franka_core::RobotState& Robot::Impl::receiveState() {
 }
 
 std::chrono::milliseconds Robot::Impl::stateBound() const noexcept {
-  return mayBeStarved() ? std::max(timeouts_.state, timeouts_.silence) : timeouts_.state;
+  return serverMayBeDelayed() ? std::max(timeouts_.state, timeouts_.silence) : timeouts_.state;
 }
 
-bool Robot::Impl::mayBeStarved() const noexcept {
+bool Robot::Impl::serverMayBeDelayed() const noexcept {
   return channel_->serverIsLoopback() || keepsOtherTime();
 }
 

@@ -98,8 +98,8 @@ class Robot::Impl {
   /// Waits for a newer state. Older and repeated ones are dropped; but a robot that repeats its
   /// last state waits for another client (a simulated one in lock-step), so the wait is extended.
   /// Time in which this process itself does not run does not count.
-  /// @throws NetworkException after Timeouts::state, or Timeouts::silence if mayBeStarved; at once
-  /// if the connection is closed.
+  /// @throws NetworkException after Timeouts::state, or Timeouts::silence if serverMayBeDelayed; at
+  /// once if the connection is closed.
   /// @throws ProtocolException for an invalid datagram.
   const franka_core::RobotState& receiveState();
   /// Reads datagrams that have arrived, without waiting. @returns whether there was a newer state.
@@ -122,7 +122,7 @@ class Robot::Impl {
   bool keepsOtherTime() const noexcept;
   /// Whether the robot is a simulated one, which load may stop for a while: one on this machine, or
   /// one that keepsOtherTime.
-  bool mayBeStarved() const noexcept;
+  bool serverMayBeDelayed() const noexcept;
 
   /// Whether the newest state shows an active motion generator or external controller.
   bool isMoving() const noexcept;

@@ -26,15 +26,15 @@ RunningMotion::RunningMotion(Robot::Impl& robot, const fci::MoveRequest& request
     start();
   } catch (const NetworkException&) {
     connection_lost_ = true;
-    abandonStart();
+    cancelStart();
     throw;
   } catch (...) {
-    abandonStart();
+    cancelStart();
     throw;
   }
 }
 
-void RunningMotion::abandonStart() noexcept {
+void RunningMotion::cancelStart() noexcept {
   // Unless the robot itself reports that there is no motion, it may already be moving.
   if (!end_) {
     cancel();
@@ -56,7 +56,7 @@ void RunningMotion::requireRunning() const {
 
 /// The robot reports the end of a motion once: later calls throw the same again.
 template <typename Function>
-void RunningMotion::concludeWith(Function function) {
+void RunningMotion::finishWith(Function function) {
   try {
     function();
   } catch (...) {
@@ -70,7 +70,7 @@ void RunningMotion::start() {
       robot_.receive(fci::Command::kMove, id_, robot_.bounds().command, /*owns_states=*/true);
   robot_.beginMotion();
   if (fci::meaning(reply.status) != fci::Meaning::kGood) {
-    concludeWith([&] {
+    finishWith([&] {
       throw CommandException(fci::statusText(fci::Command::kMove, reply.status, robot_.mode()));
     });
   }
@@ -86,7 +86,7 @@ void RunningMotion::awaitStart() {
       return;
     }
     if (reply && reply->status != fci::Status::kMotionStarted) {
-      concludeWith([&] { throwEnd(*reply, robot_.state(), nullptr); });
+      finishWith([&] { throwEnd(*reply, robot_.state(), nullptr); });
     }
     if (Robot::Impl::Clock::now() > deadline) {
       throw NetworkException(std::string(fci::kConnectionTimeout) +
@@ -121,7 +121,7 @@ const franka_core::RobotState& RunningMotion::receive() {
   requireRunning();
   receiveState();
   if (robot_.state().robot_mode != franka_core::RobotMode::kMove || !isShown()) {
-    concludeWith([this] {
+    finishWith([this] {
       const franka_core::RobotState end = robot_.state();  // newer ones arrive with the reply
       const Reply reply = lastReply();
       if (reply.status == fci::Status::kSuccess) {
@@ -145,7 +145,7 @@ void RunningMotion::finish(franka_core::RobotCommand command) {
                              " The robot does not end the motion, although its end is commanded.");
     }
   } while (robot_.isMoving());
-  concludeWith([this] {
+  finishWith([this] {
     const franka_core::RobotState end = robot_.state();
     const Reply reply = lastReply();
     if (reply.status != fci::Status::kSuccess) {

@@ -48,12 +48,12 @@ class RunningMotion {
 
   void start();
   void awaitStart();
-  void abandonStart() noexcept;
+  void cancelStart() noexcept;
   bool isShown() const noexcept;
   void receiveState();
   void requireRunning() const;
   template <typename Function>
-  void concludeWith(Function function);
+  void finishWith(Function function);
   Reply lastReply();
   /// @param end the state that showed the end.
   [[noreturn]] void throwEnd(const Reply& reply, const franka_core::RobotState& end,

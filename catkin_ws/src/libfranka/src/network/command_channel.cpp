@@ -126,7 +126,7 @@ void CommandChannel::send(fci::Bytes request) {
   }
 }
 
-void CommandChannel::readWhatIsThere() {
+void CommandChannel::readAvailable() {
   std::uint8_t buffer[16384];
   while (!closed_) {
     const ssize_t result = recv(socket_.get(), buffer, sizeof(buffer), MSG_DONTWAIT);
@@ -181,7 +181,7 @@ std::optional<CommandChannel::Message> CommandChannel::tryReceive(std::uint32_t 
   const std::lock_guard<std::mutex> lock(receive_mutex_);
   std::optional<Message> message = take(id);
   if (!message) {
-    readWhatIsThere();
+    readAvailable();
     message = take(id);
   }
   if (!message && broken_) {

@@ -69,7 +69,7 @@ class CommandChannel {
   bool serverIsLoopback() const noexcept;
 
  private:
-  void readWhatIsThere();
+  void readAvailable();
   void sortStream();
   std::optional<Message> take(std::uint32_t id);
 

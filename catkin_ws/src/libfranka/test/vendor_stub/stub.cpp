@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 //
-// The part of the public interface that the stub's user needs, with recognisable results.
+// The part of the public interface that the stub's user needs, with recognizable results.
 #include <franka/exception.h>
 #include <franka/robot.h>
 

@@ -112,7 +112,7 @@ TEST(PidParameters, ReconfigureShowsGainsSetByTheProgramOnly) {
   expectGains(pid, {30.0, 20.0, 10.0, 5.0, -6.0}, true);
 }
 
-TEST(PidParameters, CanBeInitialisedTwiceAndDestroyedWhileOffered) {
+TEST(PidParameters, CanBeInitializedTwiceAndDestroyedWhileOffered) {
   {
     Pid pid;
     ASSERT_TRUE(pid.initParam(ns("full")));

@@ -34,7 +34,7 @@ ControllerManager::ControllerManager(hardware_interface::RobotHW* robot_hw,
   if (supervision.watches()) {
     supervisor_ = std::make_unique<internal::Supervisor>(
         supervision, *registry_, *gate_, own_nh,
-        [this](const std::string& name, bool first) { return settleFault(name, first); });
+        [this](const std::string& name, bool first) { return handleFault(name, first); });
   }
   services_ = std::make_unique<internal::ManagerServices>(*this, *handover_, nh);
 }
@@ -52,18 +52,18 @@ void ControllerManager::update(const ros::Time& time, const ros::Duration& perio
   internal::FirstException thrown;
   if (reset_controllers) {
     for (const ControllerSpec& spec : list.specs()) {
-      thrown.keepOf([&] { restart(spec, time); });
+      thrown.capture([&] { restart(spec, time); });
     }
   }
   if (supervisor_) {
-    thrown.keepOf([&] { supervisor_->update(list, time, period); });
+    thrown.capture([&] { supervisor_->update(list, time, period); });
   } else {
     for (ControllerBase* controller : list.controllers()) {
-      thrown.keepOf([&] { controller->updateRequest(time, period); });
+      thrown.capture([&] { controller->updateRequest(time, period); });
     }
   }
   // Also if a controller throws in every cycle: this is how it is stopped.
-  thrown.keepOf([&] { handover_->serve(*robot_hw_, time); });
+  thrown.capture([&] { handover_->serve(*robot_hw_, time); });
   thrown.rethrow();
 }
 

@@ -89,7 +89,7 @@ void Supervisor::update(const ControllerList& list, const ros::Time& time,
   last_cycle_ = begin;
   FirstException thrown;
   for (const ControllerSpec& spec : list.specs()) {
-    thrown.keepOf([&] { spec.watch->update(time, period, window); });
+    thrown.capture([&] { spec.watch->update(time, period, window); });
   }
   const std::chrono::duration<double> elapsed = Clock::now() - begin;
   execution_[window].add(elapsed.count());
@@ -113,7 +113,7 @@ void Supervisor::run() {
     ending_.wait_until(lock, settles ? std::min(next, Clock::now() + kFaultPeriod) : next);
     lock.unlock();
     if (settles) {
-      settleFaults();
+      handleFaults();
     }
     if (Clock::now() >= next) {
       next += std::chrono::duration_cast<Clock::duration>(period);
@@ -125,7 +125,7 @@ void Supervisor::run() {
   }
 }
 
-void Supervisor::settleFaults() {
+void Supervisor::handleFaults() {
   const ControllerListPtr list = registry_.snapshot();
   for (const ControllerSpec& spec : list->specs()) {
     if (spec.watch->fault() == ControllerWatch::Fault::kNone) {
@@ -146,12 +146,12 @@ void Supervisor::settleFaults() {
   }
   for (const auto& [name, first] : unsettled) {
     if (!settle_(name, first)) {
-      settleLater(name);
+      handleLater(name);
     }
   }
 }
 
-void Supervisor::settleLater(const std::string& name) {
+void Supervisor::handleLater(const std::string& name) {
   const std::lock_guard<std::mutex> lock(mutex_);
   unsettled_.emplace(name, false);
 }

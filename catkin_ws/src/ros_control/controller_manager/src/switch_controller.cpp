@@ -190,8 +190,8 @@ bool ControllerManager::switchController(const Names& start_controllers,
   const bool carried_out = carryOut(start_controllers, stop_controllers, strictness, start_asap,
                                     timeout > 0.0 ? timeout : default_switch_timeout_, thrown);
   for (const std::string& name : thrown) {
-    if (!settleFault(name, true)) {
-      supervisor_->settleLater(name);
+    if (!handleFault(name, true)) {
+      supervisor_->handleLater(name);
     }
   }
   return carried_out;
@@ -305,7 +305,7 @@ std::unique_ptr<SwitchRequest> ControllerManager::planFallback(const ControllerS
   return request;
 }
 
-bool ControllerManager::settleFault(const std::string& name, bool first) {
+bool ControllerManager::handleFault(const std::string& name, bool first) {
   SwitchHandover::Turn turn(*handover_, kFaultTimeout);
   if (!turn) {
     if (first && !handover_->mustEnd()) {

@@ -23,11 +23,11 @@ bool SwitchRequest::advance(hardware_interface::RobotHW& robot, const ros::Time&
     return proceed(robot, time);
   } catch (const std::exception& error) {
     copyText(error.what(), broken_by);
-    breakOff();
+    abandon();
     throw;
   } catch (...) {
     copyText("an exception of unknown type", broken_by);
-    breakOff();
+    abandon();
     throw;
   }
 }
@@ -64,7 +64,7 @@ bool SwitchRequest::begin(hardware_interface::RobotHW& robot, const ros::Time& t
   return true;
 }
 
-void SwitchRequest::breakOff() {
+void SwitchRequest::abandon() {
   broken = true;
   for (const Start& start : starts) {
     if (start.outcome == Outcome::kPending) {

@@ -24,10 +24,10 @@ if ! command -v setarch >/dev/null; then
   exit 1
 fi
 
-# The headers of every workspace on the prefix path, and of the neighbours in the source tree.
+# The headers of every workspace on the prefix path, and of the neighbors in the source tree.
 includes="-I$package/include -I$package/../../../../tests/include"
-for neighbour in boost_bind_compat hardware_interface controller_interface; do
-  includes="$includes -I$package/../$neighbour/include"
+for neighbor in boost_bind_compat hardware_interface controller_interface; do
+  includes="$includes -I$package/../$neighbor/include"
 done
 prefixes=$(printf '%s' "${CMAKE_PREFIX_PATH:-}" | tr ':' ' ')
 found=""
@@ -78,7 +78,7 @@ for _ in $(seq 100); do
   sleep 0.1
 done
 
-# Without address space randomisation, which some kernels stretch beyond what the sanitizer knows.
+# Without address space randomization, which some kernels stretch beyond what the sanitizer knows.
 TSAN_OPTIONS="suppressions=$here/tsan.supp halt_on_error=0 exitcode=66 second_deadlock_stack=1" \
   STRESS_OPERATIONS="$operations" setarch "$(uname -m)" -R "$build/stress_test" \
   >"$build/stress_test.log" 2>&1 && status=0 || status=$?

@@ -111,7 +111,7 @@ TEST(RealtimePublisher, WorksWithLockGuardAndPublishesOnRequest) {
   EXPECT_EQ(std::vector<std::uint32_t>({2}), collector.received());
 }
 
-TEST(RealtimePublisher, CanBeInitialisedAgainForAnotherTopic) {
+TEST(RealtimePublisher, CanBeInitializedAgainForAnotherTopic) {
   ros::NodeHandle node;
   RealtimePublisher<std_msgs::UInt32> publisher(node, "before", 1, true);
   publisher.init(node, "after", 1, true);

@@ -19,7 +19,7 @@ std::string attribute(const TiXmlElement& element, const char* name) {
   return value == nullptr ? std::string() : std::string(value);
 }
 
-std::string serialised(const TiXmlElement& element) {
+std::string serialized(const TiXmlElement& element) {
   TiXmlPrinter printer;
   element.Accept(&printer);
   return printer.CStr();
@@ -125,7 +125,7 @@ bool TransmissionParser::parseJoints(TiXmlElement* trans_it, std::vector<JointIn
     if (role != nullptr) {
       joint.role_ = textOf(*role);
     }
-    joint.xml_element_ = serialised(*it);
+    joint.xml_element_ = serialized(*it);
     joints.push_back(std::move(joint));
   }
   return !joints.empty();
@@ -144,7 +144,7 @@ bool TransmissionParser::parseActuators(TiXmlElement* trans_it,
       continue;
     }
     actuator.hardware_interfaces_ = hardwareInterfaces(*it, actuator.name_);
-    actuator.xml_element_ = serialised(*it);
+    actuator.xml_element_ = serialized(*it);
     actuators.push_back(std::move(actuator));
   }
   return !actuators.empty();

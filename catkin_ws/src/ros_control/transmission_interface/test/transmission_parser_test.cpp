@@ -82,7 +82,7 @@ TEST(TransmissionParser, ReadsEveryField) {
   EXPECT_THAT(infos[0].actuators_[1].hardware_interfaces_, IsEmpty());
 }
 
-TEST(TransmissionParser, SerialisedElementsAreXml) {
+TEST(TransmissionParser, SerializedElementsAreXml) {
   const auto infos = parsed(
       transmission("<joint name='j&amp;1'><hardwareInterface>a/A</hardwareInterface></joint>" +
                    std::string(kGoodActuator)));

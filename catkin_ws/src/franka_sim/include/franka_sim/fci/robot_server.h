@@ -106,17 +106,17 @@ class RobotServer {
 
   /// Sends the handler's state, `ticks` after the last one, then the replies that had to wait until
   /// this state was sent. Real-time safe.
-  /// @param same_moment time has not advanced since the last state: an answer to any state of this
+  /// @param same_tick time has not advanced since the last state: an answer to any state of this
   /// moment is accepted. @param keep_end sends the last state again if it showed the end of a
   /// motion that the client has not requested, and the client has sent no request since: however
   /// late it reads, it finds that state. Replies are sent, and ticks count.
-  void publish(std::uint64_t ticks = 1, bool same_moment = false, bool keep_end = false);
+  void publish(std::uint64_t ticks = 1, bool same_tick = false, bool keep_end = false);
   /// Sends the last state once more, byte for byte. Clients drop it, because it is not newer than
   /// their last state, but detect that the robot is connected.
   void repeat() noexcept;
   /// Whether a reply waits until the next state is sent, or a motion has ended and no state has
   /// shown that yet.
-  bool hasNews() const noexcept {
+  bool hasPendingState() const noexcept {
     return motion_end_ || stop_end_ || recovery_end_ || answered_setter_count_ > 0 ||
            (motion_shown_ && !expectsCommands());
   }
@@ -182,7 +182,7 @@ class RobotServer {
   std::optional<franka_core::fci::Status> motion_end_, stop_end_, recovery_end_;
 
   std::uint64_t message_id_{0};
-  std::uint64_t oldest_of_moment_{0};
+  std::uint64_t oldest_of_tick_{0};
   std::uint64_t first_of_motion_{0};  // the first state after its start
   bool asynchronous_{false};
   bool begun_{false};

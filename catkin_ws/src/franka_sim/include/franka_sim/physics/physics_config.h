@@ -41,11 +41,11 @@ void applyPhysics(const RobotPhysics& physics, ControlUnitParameters& parameters
 constexpr std::array<double, 7> kReadyPose{0, -M_PI_4, 0, -3 * M_PI_4, 0, M_PI_2, M_PI_4};
 
 /// Makes q [rad] the initial positions of these joints.
-void startAt(const std::array<double, 7>& q, const std::string& arm_id,
-             RobotDescription& description);
+void setInitialPositions(const std::array<double, 7>& q, const std::string& arm_id,
+                         RobotDescription& description);
 
 /// Moves the initial positions of these joints to where a real arm rests after a motion to them:
-/// its model of gravity is wrong by a few tenths of a newton metre, which the stiffness [Nm/rad] of
+/// its model of gravity is wrong by a few tenths of a newton meter, which the stiffness [Nm/rad] of
 /// the hold turns into about 1e-4 rad (docs/fidelity.md). Clients are never tested with a position
 /// that equals its target to the last bit. Joints without an initial position do not change.
 void applyRestOffset(const std::array<double, 7>& stiffness, const std::string& arm_id,

@@ -22,7 +22,7 @@ inline Pose toPose(const Eigen::Isometry3d& transform) {
   return {array(transform.translation()), {turn.w(), turn.x(), turn.y(), turn.z()}};
 }
 
-/// Orientation (w, x, y, z) as it is, without normalisation. Real-time safe. Thread-safe.
+/// Orientation (w, x, y, z) as it is, without normalization. Real-time safe. Thread-safe.
 inline Eigen::Quaterniond quaternion(const Pose& pose) {
   return {pose.orientation[0], pose.orientation[1], pose.orientation[2], pose.orientation[3]};
 }
@@ -33,7 +33,7 @@ inline bool hasUnitOrientation(const Pose& pose) {
   return std::abs(quaternion(pose).norm() - 1) < 1e-3;
 }
 
-/// Rigid transform of a pose whose orientation is not zero; normalises it. Real-time safe.
+/// Rigid transform of a pose whose orientation is not zero; normalizes it. Real-time safe.
 /// Thread-safe.
 inline Eigen::Isometry3d toIsometry(const Pose& pose) {
   Eigen::Isometry3d transform = Eigen::Isometry3d::Identity();

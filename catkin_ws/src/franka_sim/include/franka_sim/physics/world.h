@@ -29,13 +29,13 @@ using ResourceResolver = std::function<std::string(const std::string& uri)>;
 /// How a robot's link differs from its URDF.
 struct LinkError {
   double mass{0};                    ///< as a share of the link's mass and inertia
-  std::array<double, 3> centre{};    ///< shift of the centre of mass, in the link's frame [m]
+  std::array<double, 3> center{};    ///< shift of the center of mass, in the link's frame [m]
   double added_mass{0};              ///< a point mass on the link [kg]
   std::array<double, 3> added_at{};  ///< where, in the link's frame [m]
 
   /// Whether there is a difference.
   bool exists() const noexcept {
-    return mass != 0.0 || added_mass != 0.0 || centre != std::array<double, 3>{};
+    return mass != 0.0 || added_mass != 0.0 || center != std::array<double, 3>{};
   }
 };
 

@@ -39,7 +39,7 @@ constexpr bool acceptsSettersInMotion(InterfaceRules rules) noexcept {
   return rules != InterfaceRules::kFci;
 }
 /// Whether Cartesian thresholds are for O_F_ext_hat_K; otherwise they are for K_F_ext_hat_K.
-constexpr bool judgesWrenchInBase(InterfaceRules rules) noexcept {
+constexpr bool checksWrenchInBase(InterfaceRules rules) noexcept {
   return rules == InterfaceRules::kFci;
 }
 

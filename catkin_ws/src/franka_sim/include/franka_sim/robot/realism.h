@@ -26,7 +26,7 @@ struct Realism {
 };
 
 /// Whether robots of both behave in the same way: seeds count only where something is drawn.
-bool behaveAlike(const Realism& one, const Realism& other);
+bool haveSameBehavior(const Realism& one, const Realism& other);
 
 /// Longest delay of commands [ms].
 constexpr unsigned kMaxCommandDelay = 20;

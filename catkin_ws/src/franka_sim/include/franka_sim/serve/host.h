@@ -81,14 +81,14 @@ class HostedRobot {
   /// Whether no client is connected: then serve() has nothing to do until a poll reports a new one,
   /// except for opening and closing ports.
   virtual bool idle() const { return false; }
-  /// Sends states, `ticks` after the last ones. @param same_moment whether time has stood still
+  /// Sends states, `ticks` after the last ones. @param same_tick whether time has stood still
   /// since. @param keep_end see RobotServer::publish.
-  virtual void publish(std::uint64_t ticks, bool same_moment, bool keep_end) = 0;
+  virtual void publish(std::uint64_t ticks, bool same_tick, bool keep_end) = 0;
   /// For long standstills of time within a motion: sends the client the last state again,
   /// unchanged, unless an answer to it is due; also to clients of the device on the flange.
   virtual void repeat() = 0;
   /// Whether a client waits for the next state.
-  virtual bool hasNews() const = 0;
+  virtual bool hasPendingState() const = 0;
 
   /// Reads commands. @returns whether the answer to the last state has arrived.
   virtual bool receiveCommand() = 0;
@@ -198,8 +198,8 @@ class Host {
     bool isStarting() const { return isDue() && !robot->motionHasBegun() && !given_up; }
   };
 
-  void publishAll(bool same_moment = false);
-  void publish(Entry& entry, bool same_moment, Clock::time_point now);
+  void publishAll(bool same_tick = false);
+  void publish(Entry& entry, bool same_tick, Clock::time_point now);
   void serveAll();
   void serveIfDue();
   bool holdsRequestsBack() const;
@@ -217,11 +217,11 @@ class Host {
   bool clientsAreDue() const;
   bool hasAsynchronousMotion() const;
   bool followsClock() const;
-  bool answersAreMissing() const;
+  bool isAnswerMissing() const;
   bool mustAdvanceTime();
   bool settlesInKnownTime() const;
-  bool patienceHasEnded(Clock::time_point now);
-  void giveUpSilentClients();
+  bool hasTimedOut(Clock::time_point now);
+  void dropSilentClients();
   bool stopped() const;
 
   std::function<void()> step_;

@@ -76,9 +76,9 @@ class SimRobot : public HostedRobot {
   void actuate() override;
   void serve(bool stops_only) override;
   bool idle() const override;
-  void publish(std::uint64_t ticks, bool same_moment, bool keep_end) override;
+  void publish(std::uint64_t ticks, bool same_tick, bool keep_end) override;
   void repeat() override;
-  bool hasNews() const override { return server_.hasNews(); }
+  bool hasPendingState() const override { return server_.hasPendingState(); }
   bool receiveCommand() override { return server_.receiveCommand(); }
   bool expectsCommand() const override { return server_.expectsCommands(); }
   bool asynchronous() const override { return server_.asynchronous(); }
@@ -112,27 +112,30 @@ class SimRobot : public HostedRobot {
   std::function<void(const std::string&)> report_;
 };
 
+}  // namespace franka_sim::fci
+
 /// @file
 /// Sets up the network servers of a Panda or an FR3, for every program that runs a world.
 
 namespace franka_sim::fci {
 
 /// Servers at an address of this machine, with the models of the arm that clients request.
-RobotServerParameters servedAt(const std::string& address, const ProtocolRange& protocols,
-                               const franka_core::ArmModel& arm);
+RobotServerParameters makeServerParameters(const std::string& address,
+                                           const ProtocolRange& protocols,
+                                           const franka_core::ArmModel& arm);
 
 /// A hand to serve, with the gains of its fingers. @param fingers outlive the robot
-SimRobot::Hand servedHand(HandPlant& fingers, const GripperLatency& latency);
+SimRobot::Hand makeHand(HandPlant& fingers, const GripperLatency& latency);
 
 /// A robot that behaves as behind its own interface, of its newest protocol.
 /// @param unit the robot's own configuration, as the user enters it in Desk
 /// @param arm outlives the robot @param command_delay of every command [ticks]
 /// @throws as SimRobot
-SimRobot servedRobot(const std::string& address, const ProtocolRange& protocols,
-                     ControlUnitParameters unit, ArmPlant& arm,
-                     const std::optional<SimRobot::Hand>& hand,
-                     const std::optional<SimRobot::Vacuum>& vacuum = {},
-                     unsigned command_delay = 0);
+SimRobot makeSimRobot(const std::string& address, const ProtocolRange& protocols,
+                      ControlUnitParameters unit, ArmPlant& arm,
+                      const std::optional<SimRobot::Hand>& hand,
+                      const std::optional<SimRobot::Vacuum>& vacuum = {},
+                      unsigned command_delay = 0);
 
 /// The two links that came too close, named as in the description without the arm's name: "link2
 /// and hand".

@@ -88,7 +88,7 @@ class SimulatedRobot {
   SimulatedRobot(const SimulatedRobot&) = default;
   ~SimulatedRobot() = default;
   /// Whether the other one's condition can be restored here: same robot, hand and realism.
-  bool isLike(const SimulatedRobot& other) const;
+  bool hasSameSetup(const SimulatedRobot& other) const;
   /// Takes over the condition of a robot like this one: motion, commands, hand, settings, errors.
   /// One that clients on the network use restarts instead, because their motions are theirs.
   /// @param earlier whether it was this robot

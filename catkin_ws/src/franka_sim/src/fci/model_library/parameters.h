@@ -13,7 +13,7 @@ constexpr std::size_t kLinkNumbers = 16 + 1 + 3 + 9;
 /// Marks the block in the shared object's file, so that the server finds it.
 constexpr std::array<char, 32> kMark{"franka_sim served arm parameter"};
 
-/// The arm's parameters as laid out in the shared object: links 1 to 7 (origin, mass, centre of
+/// The arm's parameters as laid out in the shared object: links 1 to 7 (origin, mass, center of
 /// mass, inertia), then the flange.
 struct Parameters {
   std::array<char, 32> mark;

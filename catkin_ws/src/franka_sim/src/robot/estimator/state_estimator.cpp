@@ -257,7 +257,7 @@ void StateEstimator::updateContacts(const CollisionThresholds& thresholds) noexc
   state_->O_F_ext_hat_K = external_wrench_.inBase(wrench_filter_.update(estimate_.tau_ext));
   state_->K_F_ext_hat_K = external_wrench_.inStiffness(state_->O_F_ext_hat_K);
 
-  const bool in_base = judgesWrenchInBase(configuration_->parameters().rules);
+  const bool in_base = checksWrenchInBase(configuration_->parameters().rules);
   if (!configuration_->hasReflexes()) {
     // Without reflexes: the manual's formulas, applied to the published values (decision 48).
     const std::array<double, 6>& shown = in_base ? state_->O_F_ext_hat_K : state_->K_F_ext_hat_K;

@@ -139,15 +139,15 @@ const GripperParameters& checked(const GripperParameters& parameters) {
     require(isNotNegative(gains.p) && isNotNegative(gains.i) && isNotNegative(gains.d),
             i == 0 ? "finger1/gains" : "finger2/gains", "finite numbers that are not negative");
   }
-  require(isPositive(parameters.max_width), "max_width", "a positive width in metres");
+  require(isPositive(parameters.max_width), "max_width", "a positive width in meters");
   require(isNotNegative(parameters.move_tolerance), "move/width_tolerance",
-          "a width in metres that is not negative");
+          "a width in meters that is not negative");
   require(isNotNegative(parameters.resting_threshold), "grasp/resting_threshold",
-          "a speed in metres per second that is not negative");
+          "a speed in meters per second that is not negative");
   require(parameters.consecutive_samples >= 1, "grasp/consecutive_samples", "1 or more");
   require(isPositive(parameters.homing_speed), "homing_speed",
-          "a positive speed in metres per second");
-  require(isPositive(parameters.max_speed), "max_speed", "a positive speed in metres per second");
+          "a positive speed in meters per second");
+  require(isPositive(parameters.max_speed), "max_speed", "a positive speed in meters per second");
   require(isPositive(parameters.max_force), "max_force", "a positive force in newtons");
   require(std::isfinite(parameters.room_temperature), "room_temperature",
           "a finite temperature in degrees Celsius");
@@ -379,7 +379,7 @@ std::array<double, 2> GripperUnit::follow(double period) noexcept {
   return force;
 }
 
-// The fingers centre on each other while they press, like the mechanics of the real hand.
+// The fingers center on each other while they press, like the mechanics of the real hand.
 std::array<double, 2> GripperUnit::press() const noexcept {
   const double rise = std::min(pressed_ / kForceRise, 1.0);
   std::array<double, 2> force;

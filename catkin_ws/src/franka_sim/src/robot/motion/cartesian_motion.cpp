@@ -134,7 +134,7 @@ Transform tidied(const Transform& pose) noexcept {
   Transform tidy = franka_core::kIdentityTransform;
   const Eigen::Map<const Eigen::Matrix4d> from(pose.data());
   Eigen::Map<Eigen::Matrix4d> to(tidy.data());
-  to.topLeftCorner<3, 3>() = franka_core::orthonormalised(from.topLeftCorner<3, 3>());
+  to.topLeftCorner<3, 3>() = franka_core::orthonormalized(from.topLeftCorner<3, 3>());
   to.topRightCorner<3, 1>() = from.topRightCorner<3, 1>();
   return tidy;
 }

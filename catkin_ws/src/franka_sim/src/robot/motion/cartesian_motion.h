@@ -63,7 +63,7 @@ class CartesianMotion {
   /// At rest. @param pose O_T_EE @param elbow q3 [rad] and its sign.
   void start(const Transform& pose, const std::array<double, 2>& elbow) noexcept;
 
-  /// Takes the next commanded pose O_T_EE; it is kept orthonormalised. The first must be where the
+  /// Takes the next commanded pose O_T_EE; it is kept orthonormalized. The first must be where the
   /// motion starts, and sets the history to rest there.
   /// @param sign the elbow's present sign, which a commanded elbow must have.
   ErrorSet takePose(const Transform& pose, const ElbowCommand& elbow, double sign,

@@ -291,7 +291,7 @@ Transform moved(const Transform& pose, const Derivative& twist) noexcept {
   MutableMatrix to(result.data());
   const Eigen::Matrix3d turned =
       franka_core::rotationFrom(part(twist, 3) * kTick) * from.topLeftCorner<3, 3>();
-  to.topLeftCorner<3, 3>() = franka_core::orthonormalised(turned);
+  to.topLeftCorner<3, 3>() = franka_core::orthonormalized(turned);
   to.topRightCorner<3, 1>() = from.topRightCorner<3, 1>() + part(twist, 0) * kTick;
   return result;
 }

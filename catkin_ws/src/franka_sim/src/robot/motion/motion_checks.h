@@ -14,7 +14,7 @@ namespace franka_sim {
 
 /// Values as a client reads them from a state of 32 bit floats.
 inline double asEchoed(double value) noexcept {
-  // Volatile, because GCC 12 at -O2 otherwise treats two neighbouring conversions as a copy and
+  // Volatile, because GCC 12 at -O2 otherwise treats two neighboring conversions as a copy and
   // drops the rounding.
   const volatile float narrow = static_cast<float>(value);
   return narrow;

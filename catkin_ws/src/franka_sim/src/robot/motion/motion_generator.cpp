@@ -42,8 +42,8 @@ void smoothPose(double gain, const Transform& input, Transform& output) noexcept
   }
   const Eigen::Map<const Eigen::Matrix4d> next(input.data());
   Eigen::Map<Eigen::Matrix4d> last(output.data());
-  const Eigen::Quaterniond from(franka_core::orthonormalised(last.topLeftCorner<3, 3>()));
-  const Eigen::Quaterniond to(franka_core::orthonormalised(next.topLeftCorner<3, 3>()));
+  const Eigen::Quaterniond from(franka_core::orthonormalized(last.topLeftCorner<3, 3>()));
+  const Eigen::Quaterniond to(franka_core::orthonormalized(next.topLeftCorner<3, 3>()));
   last.topLeftCorner<3, 3>() = from.slerp(gain, to).toRotationMatrix();
   last.topRightCorner<3, 1>() += gain * (next.topRightCorner<3, 1>() - last.topRightCorner<3, 1>());
 }

@@ -40,7 +40,7 @@ class BrakeTrajectory {
 /// Real-time safe.
 class RestSequence {
  public:
-  /// The behaviour of the desired pose in a tick.
+  /// The behavior of the desired pose in a tick.
   enum class Step {
     kNone,    ///< nothing: the arm rests
     kBrakes,  ///< follows braking()

@@ -55,7 +55,7 @@ std::string describeJointCollision(const Collision& collision) {
 std::string describeCartesianCollision(const Collision& collision, InterfaceRules rules) {
   static constexpr const char* kAxes[] = {"x", "y", "z"};
   const std::string axis =
-      std::string(kAxes[collision.index % 3]) + (judgesWrenchInBase(rules) ? " of O" : " of K");
+      std::string(kAxes[collision.index % 3]) + (checksWrenchInBase(rules) ? " of O" : " of K");
   return collision.index < 3 ? "along " + axis + ": " + against(collision, "force", "N")
                              : "about " + axis + ": " + against(collision, "torque", "Nm");
 }

@@ -41,9 +41,9 @@ void SafetyController::start(SafetyRules rules) noexcept {
   state_ = SafetyState{};
   moveBrakes(BrakeMotion::kNone);
   unit_->request(UserStop{false});
-  unit_->request(FciActivation{!ruled()});
-  unit_->request(Brakes{ruled()});
-  state_.brakes_closed.fill(ruled());
+  unit_->request(FciActivation{!hasDeskRules()});
+  unit_->request(Brakes{hasDeskRules()});
+  state_.brakes_closed.fill(hasDeskRules());
 }
 
 void SafetyController::switchOff() noexcept {
@@ -62,7 +62,7 @@ Refusal SafetyController::refusalOfMotors() const noexcept {
   if (!state_.power) {
     return Refusal::kNotReady;
   }
-  if (!ruled()) {
+  if (!hasDeskRules()) {
     return Refusal::kNone;
   }
   if (state_.self_test) {
@@ -89,7 +89,7 @@ Refusal SafetyController::unlock() noexcept {
   if (refusal != Refusal::kNone) {
     return refusal;
   }
-  if (!ruled()) {
+  if (!hasDeskRules()) {
     unit_->request(Brakes{false});
   } else if (brakesClosed() && brakes_ != BrakeMotion::kOpening) {
     moveBrakes(BrakeMotion::kOpening);
@@ -98,7 +98,7 @@ Refusal SafetyController::unlock() noexcept {
 }
 
 void SafetyController::lock() noexcept {
-  if (ruled()) {
+  if (hasDeskRules()) {
     deactivateFci();
   }
   closeBrakes();
@@ -109,7 +109,7 @@ void SafetyController::closeBrakes() noexcept {
   unit_->request(Brakes{true});
   const bool all = std::all_of(state_.brakes_closed.begin(), state_.brakes_closed.end(),
                                [](bool closed) { return closed; });
-  if (ruled() && !all && brakes_ != BrakeMotion::kClosing) {
+  if (hasDeskRules() && !all && brakes_ != BrakeMotion::kClosing) {
     moveBrakes(BrakeMotion::kClosing);
   }
 }
@@ -142,7 +142,7 @@ bool SafetyController::brakesClosed() const noexcept { return any(state_.brakes_
 
 Refusal SafetyController::activateFci() noexcept {
   Refusal refusal = refusalOfMotors();
-  if (ruled() && refusal == Refusal::kNone) {
+  if (hasDeskRules() && refusal == Refusal::kNone) {
     if (brakesClosed()) {
       refusal = Refusal::kBrakesClosed;
     } else if (state_.mode != OperatingMode::kExecution) {
@@ -188,13 +188,13 @@ Refusal SafetyController::allowsOperatorMotion() const noexcept {
   if (stopPressed()) {
     return Refusal::kEmergencyStopPressed;
   }
-  const bool client = ruled() && fciActive();  // the FCI has exclusive control of the arm
+  const bool client = hasDeskRules() && fciActive();  // the FCI has exclusive control of the arm
   return client || unit_->state().robot_mode == RobotMode::kMove ? Refusal::kMotionActive
                                                                  : Refusal::kNone;
 }
 
 bool SafetyController::handServed() const noexcept {
-  return state_.power && state_.end_effector_power && (!ruled() || fciActive());
+  return state_.power && state_.end_effector_power && (!hasDeskRules() || fciActive());
 }
 
 // --- inputs --------------------------------------------------------------------------------------
@@ -209,13 +209,13 @@ void SafetyController::press(SafetyInput input, bool pressed) noexcept {
     state_.conflicting_inputs = false;  // its next release activates the robot again
   }
   applyStops();
-  if (fr3_ && ruled() && input == SafetyInput::kX31 && pressed) {
+  if (fr3_ && hasDeskRules() && input == SafetyInput::kX31 && pressed) {
     lock();
   }
 }
 
 void SafetyController::pressUserStop(bool pressed) noexcept {
-  if (ruled()) {
+  if (hasDeskRules()) {
     press(fr3_ ? SafetyInput::kX31 : SafetyInput::kX4, pressed);
   } else {
     unit_->request(UserStop{pressed});
@@ -246,13 +246,13 @@ Refusal SafetyController::guide(bool active) noexcept {
   if (!active) {
     state_.conflicting_inputs = state_.conflicting_inputs && !fr3_;
     unit_->request(Guiding{false});
-    if (ruled()) {
+    if (hasDeskRules()) {
       applyStops();
     }
     return Refusal::kNone;
   }
   Refusal refusal = refusalOfMotors();
-  if (ruled() && refusal == Refusal::kNone) {
+  if (hasDeskRules() && refusal == Refusal::kNone) {
     const bool allowed = fr3_ ? state_.mode == OperatingMode::kProgramming && !stopPressed()
                               : state_.pressed(SafetyInput::kX4);
     if (brakesClosed()) {
@@ -266,7 +266,7 @@ Refusal SafetyController::guide(bool active) noexcept {
   }
   if (refusal == Refusal::kNone) {
     unit_->request(Guiding{true});
-  } else if (ruled()) {
+  } else if (hasDeskRules()) {
     applyStops();
   }
   return refusal;
@@ -310,7 +310,7 @@ void SafetyController::advanceSelfTest() noexcept {
   state_.self_test = false;
   state_.self_test_left = 0.0;
   state_.self_test_due = kSelfTestPeriod;
-  if (!ruled()) {
+  if (!hasDeskRules()) {
     unit_->request(Brakes{false});
     unit_->request(FciActivation{true});
   }
@@ -323,7 +323,7 @@ void SafetyController::setSelfTestDue(double due) noexcept {
 void SafetyController::advanceClock() noexcept {
   const double before = state_.self_test_due;
   state_.self_test_due = std::max(0.0, before - kTick);
-  if (ruled() && before > 0.0 && state_.self_test_due == 0.0) {
+  if (hasDeskRules() && before > 0.0 && state_.self_test_due == 0.0) {
     inject(RecoverableError::kTd2Timeout, true);
   }
 }
@@ -351,14 +351,14 @@ Refusal SafetyController::acknowledge(DemandedRecovery recovery) noexcept {
 
 void SafetyController::inject(RecoverableError error, bool active) noexcept {
   state_.recoverable[static_cast<std::size_t>(error)] = active;
-  if (active && ruled()) {
+  if (active && hasDeskRules()) {
     lock();
   }
 }
 
 void SafetyController::inject(DemandedRecovery recovery, std::size_t joint, bool active) noexcept {
   state_.demanded[static_cast<std::size_t>(recovery)][joint] = active;
-  if (active && ruled()) {
+  if (active && hasDeskRules()) {
     lock();
   }
 }
@@ -380,7 +380,7 @@ void SafetyController::step() noexcept {
     advanceClock();
     advanceBrakes();
   }
-  if (!ruled()) {
+  if (!hasDeskRules()) {
     state_.brakes_closed.fill(unit_->status().brakes_closed);
   }
 }

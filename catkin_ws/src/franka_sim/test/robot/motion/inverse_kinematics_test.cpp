@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Inverse kinematics against the forward kinematics of ArmModel, and its behaviour near
+// Inverse kinematics against the forward kinematics of ArmModel, and its behavior near
 // singularities.
 #include <gtest/gtest.h>
 

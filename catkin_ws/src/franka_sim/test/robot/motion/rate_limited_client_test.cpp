@@ -124,8 +124,8 @@ Joints middle(const MotionLimits& limits, Random& random) {
 Joints wildVelocities(const MotionLimits& limits, const Joints& q, Random& random) {
   Joints dq{};
   for (std::size_t i = 0; i < 7; i++) {
-    const double centre = 0.5 * (limits.arm.q_max[i] + limits.arm.q_min[i]);
-    dq[i] = std::copysign(random.between(0.0, 8.0), centre - q[i]);
+    const double center = 0.5 * (limits.arm.q_max[i] + limits.arm.q_min[i]);
+    dq[i] = std::copysign(random.between(0.0, 8.0), center - q[i]);
   }
   return dq;
 }

@@ -104,7 +104,7 @@ struct SetNEToEERequest {
 struct SetLoadRequest {
   double mass{0.0};
   std::array<double, 3> F_x_Cload{};
-  std::array<double, 9> inertia{};  ///< about the centre of mass, axes of F
+  std::array<double, 9> inertia{};  ///< about the center of mass, axes of F
 };
 struct SetFiltersRequest {
   double joint_position{1000.0}, joint_velocity{1000.0};          ///< cutoffs [Hz]; 1000 is off

@@ -60,7 +60,7 @@ class ControllerBase {
     }
   }
 
-  /// The four requests below return false, after logging, for a controller that is not initialised.
+  /// The four requests below return false, after logging, for a controller that is not initialized.
   bool startRequest(const ros::Time& time) {
     if (!mayChangeState("start")) {
       return false;
@@ -103,7 +103,7 @@ class ControllerBase {
   /// Resources by hardware interface.
   typedef std::vector<hardware_interface::InterfaceResources> ClaimedResources;
 
-  /// Initialises a constructed controller, outside the control loop. Not real-time safe.
+  /// Initializes a constructed controller, outside the control loop. Not real-time safe.
   /// @param robot_hw offers the interfaces @param root_nh of the controller manager
   /// @param controller_nh of the controller's own namespace
   /// @param[out] claimed_resources the controller's claims

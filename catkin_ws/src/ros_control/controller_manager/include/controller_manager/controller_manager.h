@@ -150,7 +150,7 @@ class ControllerManager {
                 int strictness, bool start_asap, double timeout, std::vector<std::string>& thrown);
   /// Starts the fallbacks of an aborted controller, and notifies the robot. @param first log it if
   /// that is not possible yet @returns false if it must be repeated
-  bool settleFault(const std::string& name, bool first);
+  bool handleFault(const std::string& name, bool first);
   std::unique_ptr<internal::SwitchRequest> planFallback(const ControllerSpec& aborted);
   bool watchController(ControllerSpec& spec, const ros::NodeHandle& controller_nh);
   void explainWithdrawal(double elapsed) const;

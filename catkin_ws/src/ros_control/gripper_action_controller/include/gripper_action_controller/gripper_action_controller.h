@@ -95,7 +95,7 @@ class GripperActionController : public controller_interface::Controller<Hardware
   // In the control loop.
   void takeOrder();
   void hold();
-  void judgeGoal(double error_position);
+  void checkGoal(double error_position);
   void settle(RealtimeGoal& goal, bool reached);
   void publishSnapshot(bool stalled);
 

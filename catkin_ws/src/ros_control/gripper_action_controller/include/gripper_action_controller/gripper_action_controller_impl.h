@@ -116,7 +116,7 @@ void GripperActionController<HardwareInterface>::update(const ros::Time& time,
   const double velocity = joint_.getVelocity();
   const bool still = std::abs(velocity) <= stall_velocity_threshold_;
   still_for_ = still ? still_for_ + period.toSec() : 0.0;
-  judgeGoal(error_position);
+  checkGoal(error_position);
   computed_effort_ = hw_iface_adapter_.updateCommand(
       time, period, commands_.position_, 0.0, error_position, -velocity, commands_.max_effort_);
   publishSnapshot(still_for_ > stall_timeout_ && !(std::abs(error_position) < goal_tolerance_));
@@ -149,7 +149,7 @@ void GripperActionController<HardwareInterface>::hold() {
 }
 
 template <class HardwareInterface>
-void GripperActionController<HardwareInterface>::judgeGoal(double error_position) {
+void GripperActionController<HardwareInterface>::checkGoal(double error_position) {
   RealtimeGoal* const goal = order_ != nullptr ? order_->goal.get() : nullptr;
   if (goal == nullptr || !goal->isOpen()) {
     return;

@@ -11,7 +11,7 @@
 namespace hardware_interface {
 
 /// Base of hardware interfaces: the resources that controllers claim exclusively. Claims are made
-/// while controllers are initialised, never in the control loop. Called by one thread at a time.
+/// while controllers are initialized, never in the control loop. Called by one thread at a time.
 class HardwareInterface {
  public:
   virtual ~HardwareInterface() = default;

@@ -188,8 +188,8 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   const Segment& sampleJoint(std::size_t joint);
   void sampleDesiredState();
   /// @returns false if a violated tolerance ended the goal, and the joints hold from now on.
-  bool judgeGoal();
-  bool judgeJoint(std::size_t joint, RealtimeGoal& goal);
+  bool checkGoal();
+  bool checkJointTolerance(std::size_t joint, RealtimeGoal& goal);
   void failGoal(RealtimeGoal& goal, int code, std::size_t joint, const char* kind,
                 const StateTolerances<Scalar>& tolerance);
   static void succeed(RealtimeGoal& goal);

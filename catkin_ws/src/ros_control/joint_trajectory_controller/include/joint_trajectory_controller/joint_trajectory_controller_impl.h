@@ -49,7 +49,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::update(
   takeCommand();
   updateFuncExtensionPoint(trajectory(), time_data_);
   sampleDesiredState();
-  if (!judgeGoal()) {
+  if (!checkGoal()) {
     sampleDesiredState();
   }
   hw_iface_adapter_.updateCommand(time_data_.time, time_data_.period, desired_state_, state_error_);
@@ -172,7 +172,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::sampleDesiredSta
 }
 
 template <class SegmentImpl, class HardwareInterface>
-bool JointTrajectoryController<SegmentImpl, HardwareInterface>::judgeGoal() {
+bool JointTrajectoryController<SegmentImpl, HardwareInterface>::checkGoal() {
   RealtimeGoal* const goal = command_ != nullptr ? command_->goal.get() : nullptr;
   if (goal == nullptr || !goal->isOpen()) {
     return true;
@@ -184,7 +184,7 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::judgeGoal() {
     return true;
   }
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    if (!judgeJoint(i, *goal)) {
+    if (!checkJointTolerance(i, *goal)) {
       beginHold();
       return false;
     }
@@ -197,8 +197,8 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::judgeGoal() {
 }
 
 template <class SegmentImpl, class HardwareInterface>
-bool JointTrajectoryController<SegmentImpl, HardwareInterface>::judgeJoint(std::size_t joint,
-                                                                           RealtimeGoal& goal) {
+bool JointTrajectoryController<SegmentImpl, HardwareInterface>::checkJointTolerance(
+    std::size_t joint, RealtimeGoal& goal) {
   const Segment& segment = *segments_[joint];
   if (segment.goalHandle() != goal.handle().get()) {
     return true;

@@ -19,7 +19,7 @@ export function el(tag, properties = {}, ...children) {
 
 const SVG = "http://www.w3.org/2000/svg";
 
-/** An icon of strokes, which inherits the colour of the text. `paths`: values of the attribute d. */
+/** An icon of strokes, which inherits the color of the text. `paths`: values of the attribute d. */
 export function icon(...paths) {
   const svg = document.createElementNS(SVG, "svg");
   svg.setAttribute("viewBox", "0 0 24 24");

@@ -135,11 +135,11 @@ function showHelp() {
 function changeTheme() {
   const chosen = nextTheme();
   showTheme();
-  notify(`Colours: ${chosen === "auto" ? "as the system" : chosen}.`);
+  notify(`Colors: ${chosen === "auto" ? "as the system" : chosen}.`);
 }
 
 function showTheme() {
-  document.getElementById("theme").setAttribute("aria-label", `Colours: ${choice()}. Change them`);
+  document.getElementById("theme").setAttribute("aria-label", `Colors: ${choice()}. Change them`);
 }
 
 function connectHeader() {

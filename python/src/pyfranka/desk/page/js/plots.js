@@ -4,7 +4,7 @@
 import { el, setText } from "./dom.js";
 import { number } from "./format.js";
 import { SPAN } from "./history.js";
-import { colour, onColours } from "./theme.js";
+import { color, onColors } from "./theme.js";
 
 const PERIOD = 200; // [ms] between two drawings
 const HEIGHT = 190; // [px]
@@ -69,14 +69,14 @@ export class Plot {
       this.plot = new uPlot(this.options(), [[0], ...this.series.map(() => [0])], this.canvas);
     };
     this.make();
-    onColours(() => this.make());
+    onColors(() => this.make());
     new ResizeObserver(() => this.plot.setSize({ width: Math.max(200, this.canvas.clientWidth), height: HEIGHT })).observe(this.canvas);
   }
 
   options() {
     const axis = {
-      stroke: colour("--muted"), font: "12px system-ui, sans-serif",
-      grid: { stroke: colour("--line"), width: 1 }, ticks: { show: false },
+      stroke: color("--muted"), font: "12px system-ui, sans-serif",
+      grid: { stroke: color("--line"), width: 1 }, ticks: { show: false },
     };
     return {
       width: Math.max(200, this.canvas.clientWidth),
@@ -90,7 +90,7 @@ export class Plot {
       ],
       series: [
         {},
-        ...this.series.map((name, i) => ({ label: name, stroke: colour(`--line-${i + 1}`), width: 1.6, show: this.shown[i], points: { show: false } })),
+        ...this.series.map((name, i) => ({ label: name, stroke: color(`--line-${i + 1}`), width: 1.6, show: this.shown[i], points: { show: false } })),
       ],
     };
   }

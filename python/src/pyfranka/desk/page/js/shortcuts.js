@@ -18,7 +18,7 @@ export const SHORTCUTS = [
   ["c", "Take or release control"],
   ["v", "Go to the 3D view"],
   ["1 – 9", "Select a robot"],
-  ["t", "Change the colours: automatic, light, dark"],
+  ["t", "Change the colors: automatic, light, dark"],
   ["?", "Show this list"],
 ];
 

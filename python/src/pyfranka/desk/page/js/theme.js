@@ -27,13 +27,13 @@ export function nextTheme() {
   return next;
 }
 
-/** Calls back when colours have changed, for what is drawn on a canvas. */
-export function onColours(listener) {
+/** Calls back when colors have changed, for what is drawn on a canvas. */
+export function onColors(listener) {
   listeners.push(listener);
 }
 
-/** The value of a colour of css/theme.css, such as "--text". */
-export function colour(name) {
+/** The value of a color of css/theme.css, such as "--text". */
+export function color(name) {
   return getComputedStyle(document.documentElement).getPropertyValue(name).trim();
 }
 

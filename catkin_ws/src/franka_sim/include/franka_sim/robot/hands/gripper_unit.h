@@ -166,7 +166,7 @@ enum class GripperState { kIdle, kHolding, kMoving, kGrasping };
 ///
 /// Idle keeps the fingers where the last command left them, by the position gains alone. A grasp
 /// approaches at its speed until the fingers stand still, then presses (the force rises within 0.05
-/// s and centres a loose object) and checks the width once they stand still under full force. A
+/// s and centers a loose object) and checks the width once they stand still under full force. A
 /// hold keeps pressing even if the object is lost; `isGrasped` shows the loss. Until a command
 /// begins, which takes the latency, a hand holds what it held before.
 class GripperUnit {

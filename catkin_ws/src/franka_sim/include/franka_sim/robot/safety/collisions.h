@@ -38,7 +38,7 @@ std::string describeCartesianCollision(const Collision& collision, InterfaceRule
 /// A cylinder with a half sphere on either end, fixed to a link.
 struct Capsule {
   int link;                        ///< 0 to 7; kHandLink for the hand
-  std::array<double, 3> from, to;  ///< centres of the half spheres, in the link's frame [m]
+  std::array<double, 3> from, to;  ///< centers of the half spheres, in the link's frame [m]
   double radius;                   ///< [m]
 };
 

@@ -185,7 +185,7 @@ class SafetyController {
  private:
   enum class BrakeMotion { kNone, kOpening, kClosing };
 
-  bool ruled() const noexcept { return rules_ == SafetyRules::kDesk; }
+  bool hasDeskRules() const noexcept { return rules_ == SafetyRules::kDesk; }
   bool stopPressed() const noexcept;
   bool anyRecoverable() const noexcept;
   Refusal refusalOfMotors() const noexcept;

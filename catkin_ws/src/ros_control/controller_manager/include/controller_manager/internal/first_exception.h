@@ -13,7 +13,7 @@ namespace internal {
 class FirstException {
  public:
   template <class Call>
-  void keepOf(Call&& call) {
+  void capture(Call&& call) {
     try {
       std::forward<Call>(call)();
     } catch (...) {

@@ -51,7 +51,7 @@ class Supervisor {
   void update(const ControllerList& list, const ros::Time& time, const ros::Duration& period);
 
   /// Handles an aborted controller later; does not wait. Thread-safe.
-  void settleLater(const std::string& name);
+  void handleLater(const std::string& name);
 
   const Supervision& supervision() const { return supervision_; }
 
@@ -59,7 +59,7 @@ class Supervisor {
   typedef std::chrono::steady_clock Clock;
 
   void run();
-  void settleFaults();
+  void handleFaults();
   void publish();
   controller_manager_msgs::ControllerStatistics message(const std::string& name,
                                                         const std::string& type,

@@ -75,7 +75,7 @@ struct SwitchRequest {
   void wait(Start& start, const ros::Time& time) const;
   void giveUp(Start& start, Outcome reason, const ros::Time& time) const;
   void stop(const Stop& stop, const ros::Time& time) const;
-  void breakOff();
+  void abandon();
   /// Makes a request of the controller. @returns false if it threw; it is then aborted.
   template <class Call>
   bool runs(Start& start, const char* callback, Call call) const;

@@ -21,7 +21,7 @@ struct DontClaimResources {
 };
 
 /// Base of hardware interfaces: named handles, and a policy whether getHandle claims. For start-up
-/// and the initialisation of controllers. Called by one thread at a time. Not real-time safe.
+/// and the initialization of controllers. Called by one thread at a time. Not real-time safe.
 template <class ResourceHandle, class ClaimPolicy = DontClaimResources>
 class HardwareResourceManager : public HardwareInterface, public ResourceManager<ResourceHandle> {
  public:

@@ -16,7 +16,7 @@
 namespace hardware_interface {
 namespace internal {
 
-/// Whether T is a ResourceManager, recognised by its typedef.
+/// Whether T is a ResourceManager, recognized by its typedef.
 template <class T, class = void>
 struct IsResourceManager : std::false_type {};
 
@@ -28,7 +28,7 @@ struct IsResourceManager<T, std::void_t<typename T::ResourceManagerType>> : std:
 /// Hardware interfaces by type. A robot made of several robots combines their interfaces: for a
 /// type that several of them have, it returns one interface with the handles of all.
 ///
-/// Registering and looking up are for start-up and the initialisation of controllers. Called by one
+/// Registering and looking up are for start-up and the initialization of controllers. Called by one
 /// thread at a time. Not real-time safe. Registered interfaces belong to the caller and must
 /// outlive the manager; combined ones live as long as the manager.
 class InterfaceManager {

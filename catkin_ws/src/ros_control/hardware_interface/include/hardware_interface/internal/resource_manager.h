@@ -20,7 +20,7 @@ class ResourceManagerBase {
   virtual ~ResourceManagerBase() = default;
 };
 
-/// Named handles of one kind. Filled at start-up and read while controllers are initialised. Called
+/// Named handles of one kind. Filled at start-up and read while controllers are initialized. Called
 /// by one thread at a time. Not real-time safe.
 /// @tparam ResourceHandle copyable, with `std::string getName() const`
 template <class ResourceHandle>

@@ -49,7 +49,7 @@ class PublishingThread {
   void run();
   PublishingSchedule::Clock::time_point sendAll();
 
-  std::mutex lifetime_mutex_;  ///< serialises add and remove; taken before the other
+  std::mutex lifetime_mutex_;  ///< serializes add and remove; taken before the other
   std::mutex mutex_;           ///< guards the members below
   std::condition_variable changed_;
   std::vector<Sender*> senders_;

@@ -55,8 +55,8 @@ export function endEffectorCard(robot) {
   const reset = (each) => fill(fields, each.report.end_effector);
   const element = card("End effector", [
     toggle(robot, "Power", (report) => report.end_effector.power, (on) => robot.command("end_effector_power", on ? "on" : "off")),
-    group("Mass", fields.mass), group("Centre of mass, in the flange's frame", fields.center),
-    group("Inertia about the centre of mass [kg m²]", fields.inertia),
+    group("Mass", fields.mass), group("Center of mass, in the flange's frame", fields.center),
+    group("Inertia about the center of mass [kg m²]", fields.inertia),
     group("Tool, from the flange: position", fields.translation), group("Tool, from the flange: orientation", fields.rotation),
     el("div", { class: "row" },
       actionButton(robot, "Apply", apply, { class: "primary" }),

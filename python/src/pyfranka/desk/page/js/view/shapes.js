@@ -33,7 +33,7 @@ export function setPose(object, [x, y, z, qw, qx, qy, qz]) {
   object.quaternion.set(qx, qy, qz, qw);
 }
 
-// A floor, endless or large, shows shadows only: the page draws its grid there, in its own colours.
+// A floor, endless or large, shows shadows only: the page draws its grid there, in its own colors.
 const isFloor = ({ kind, size }) => kind === "plane" && size.slice(0, 2).every((half) => !half || half >= MIN_FLOOR);
 
 function materialOf([red, green, blue, alpha]) {

@@ -4,7 +4,7 @@
 import * as THREE from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { el } from "../dom.js";
-import { colour, onColours } from "../theme.js";
+import { color, onColors } from "../theme.js";
 import { PushTool } from "./push_tool.js";
 import { addMeshes, BaseLight } from "./robot_look.js";
 import { setPose, shapeObject } from "./shapes.js";
@@ -16,7 +16,7 @@ const MIN_MOVE = 2e-4; // [m], and of a quaternion's numbers: below it nothing i
 const FRAME = 60; // [ms] between two frames of the stream, in which poses are interpolated
 const TURN = 0.08; // [rad] of the camera for a key
 const ZOOM = 1.1; // of its distance for a key
-const MEASURED = 0x2f9de0; // colour of the estimated external force
+const MEASURED = 0x2f9de0; // color of the estimated external force
 const MIN_FORCE = 2; // [N] that is drawn
 const METRES_PER_NEWTON = 0.006;
 
@@ -38,8 +38,8 @@ export class WorldView {
     new ResizeObserver(() => this.resize()).observe(this.element);
     this.isSeen = true;
     new IntersectionObserver(([entry]) => this.see(entry.isIntersecting)).observe(this.element);
-    onColours(() => this.applyColours());
-    this.applyColours();
+    onColors(() => this.applyColors());
+    this.applyColors();
   }
 
   makeScene() {
@@ -242,12 +242,12 @@ export class WorldView {
 
   // ---- drawing ----------------------------------------------------------------------------------------------
 
-  applyColours() {
-    const background = new THREE.Color(colour("--view"));
+  applyColors() {
+    const background = new THREE.Color(color("--view"));
     this.scene.background = background;
     this.scene.fog = new THREE.Fog(background, 6, 20);
     if (this.grid) this.scene.remove(this.grid);
-    this.grid = new THREE.GridHelper(10, 40, colour("--view-grid-strong"), colour("--view-grid"));
+    this.grid = new THREE.GridHelper(10, 40, color("--view-grid-strong"), color("--view-grid"));
     this.grid.rotation.x = Math.PI / 2;
     this.grid.position.z = 0.001;
     this.scene.add(this.grid);
