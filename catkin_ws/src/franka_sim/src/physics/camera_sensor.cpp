@@ -60,6 +60,10 @@ std::vector<CameraSensor> readCameras(const XMLElement& sensor, const Eigen::Iso
        camera = camera->NextSiblingElement("camera")) {
     const std::string own = several ? name + "::" + optional(*camera, "name") : name;
     cameras.push_back(readCamera(sensor, *camera, pose, own));
+    noteUnknown(*camera, "camera '" + own + "'",
+                {"pose", "horizontal_fov", "image", "clip", "save", "depth_camera",
+                 "visibility_mask", "optical_frame_id", "camera_info_topic", "trigger_topic"},
+                notes);
     if (!several) {
       break;
     }

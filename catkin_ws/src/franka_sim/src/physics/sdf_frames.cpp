@@ -18,13 +18,6 @@ using tinyxml2::XMLElement;
 /// More references in a row than frames in any world mean a circle.
 constexpr int kMaxDepth = 200;
 
-/// Text before and after the first "::".
-std::pair<std::string, std::string> split(const std::string& name) {
-  const std::size_t at = name.find("::");
-  return at == std::string::npos ? std::pair(name, std::string())
-                                 : std::pair(name.substr(0, at), name.substr(at + 2));
-}
-
 bool isScope(const std::string& frame) {
   return frame.empty() || frame == "__model__" || frame == "world";
 }
@@ -84,6 +77,11 @@ Eigen::Isometry3d writtenPose(const XMLElement& element, const std::string& wher
   return result;
 }
 
+bool isMerged(const XMLElement& model) {
+  const auto* parent = model.Parent()->ToElement();
+  return model.BoolAttribute("merge") && std::strcmp(parent->Name(), "model") == 0;
+}
+
 SdfFrames::SdfFrames(const XMLElement& scope, const std::string& title)
     : scope_(scope), title_(title) {
   for (const XMLElement* child = scope.FirstChildElement(); child != nullptr;
@@ -102,6 +100,18 @@ SdfFrames::SdfFrames(const XMLElement& scope, const std::string& title)
                                "'; names must differ.");
     }
   }
+}
+
+std::pair<std::string, std::string> SdfFrames::split(const std::string& name) const {
+  const std::size_t at = frames_.count(name) > 0 ? std::string::npos : name.find("::");
+  const std::string first = name.substr(0, at);
+  for (auto own = frames_.begin(); frames_.count(first) == 0 && own != frames_.end(); ++own) {
+    if (own->second.model != nullptr && isMerged(*own->second.element) &&
+        own->second.model->frames_.count(first) > 0) {
+      return {own->first, name};
+    }
+  }
+  return {first, at == std::string::npos ? std::string() : name.substr(at + 2)};
 }
 
 const SdfFrames::Frame& SdfFrames::find(const std::string& name) const {

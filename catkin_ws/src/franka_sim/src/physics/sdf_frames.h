@@ -8,6 +8,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
 
 namespace franka_sim::physics {
 
@@ -15,6 +16,9 @@ namespace franka_sim::physics {
 /// text says so) or a quaternion x y z w. The identity if there is none.
 /// @throws std::runtime_error with a sentence if it is not six (seven) finite numbers.
 Eigen::Isometry3d writtenPose(const tinyxml2::XMLElement& element, const std::string& where);
+
+/// Whether a model's elements belong to the model around it: `<include merge="true">`.
+bool isMerged(const tinyxml2::XMLElement& model);
 
 /// The frames of one SDF world or model, and of the models in it: SDF 1.7's pose semantics, where
 /// each pose names its reference frame. Frames of inner models are named "model::frame". Refers to
@@ -47,6 +51,8 @@ class SdfFrames {
     std::unique_ptr<SdfFrames> model;  ///< the frames of an inner model
   };
 
+  /// The own element that a name begins with, and the rest, which is a name in that inner model.
+  std::pair<std::string, std::string> split(const std::string& name) const;
   const Frame& find(const std::string& name) const;
   std::string canonicalLink() const;
 

@@ -7,7 +7,6 @@
 #include <stdexcept>
 
 #include "physics/mjcf_files.h"
-#include "physics/model_files.h"
 #include "physics/sdf_frames.h"
 #include "physics/sdf_scene.h"
 #include "physics/sdf_shapes.h"
@@ -38,7 +37,8 @@ std::array<double, 3> rgb(const std::array<double, 4>& color) {
 
 /// A model that is being read: its pose and its frames.
 struct Place {
-  std::string name;  ///< prefixed with those of the enclosing models
+  std::string name;   ///< prefixed with those of the enclosing models, except merged ones
+  std::string scope;  ///< of its frames: prefixed with all of them
   const SdfFrames& frames;
   Eigen::Isometry3d pose;  ///< in the world
   bool is_static;
@@ -46,7 +46,9 @@ struct Place {
 
 class Reader {
  public:
-  explicit Reader(std::string title) : title_(std::move(title)) {}
+  Reader(std::string title, std::set<std::string> notes) : title_(std::move(title)) {
+    scene_.unsupported = std::move(notes);
+  }
 
   SdfScene take() { return std::move(scene_); }
 
@@ -68,6 +70,16 @@ class Reader {
       note("population '" + optional(population, "name") + "'");
     });
     notePlugins(world, "the world");
+    forEach(world, "physics", [&](const XMLElement& physics) {
+      if (physics.FirstChildElement("gravity") != nullptr) {
+        note("<gravity> of <physics>");
+      }
+    });
+    noteUnknown(
+        world, "the world",
+        {"model", "light", "frame", "gravity", "scene", "actor", "population", "plugin", "wind",
+         "physics", "gui", "audio", "magnetic_field", "atmosphere", "spherical_coordinates"},
+        &scene_.unsupported);
     const XMLElement* wind = world.FirstChildElement("wind");
     if (wind != nullptr &&
         !toVector(childNumbers(*wind, "linear_velocity", {0, 0, 0}, title_)).isZero(0)) {
@@ -78,13 +90,25 @@ class Reader {
   /// @param frames of the enclosing scope
   void readTopModel(const XMLElement& model, const SdfFrames& frames) {
     const std::string name = required(model, "name", title_);
-    const Place place{name, frames.model(name), frames.pose(name), false};
+    const Place place{name, name, frames.model(name), frames.pose(name), false};
     scene_.models.push_back({name, place.pose, {}, isTrue(model, "self_collide")});
     readModel(model, place);
   }
 
  private:
   void note(const std::string& what) { scene_.unsupported.insert(what); }
+
+  void noteTrue(const XMLElement& element, const std::string& setting, const std::string& of) {
+    if (isTrue(element, setting.c_str())) {
+      note("<" + setting + "> of " + of);
+    }
+  }
+
+  void noteUnlessZero(const XMLElement& element, const std::string& number, const std::string& of) {
+    if (childNumbers(element, number.c_str(), {0}, title_ + ": " + of)[0] != 0) {
+      note("<" + number + "> in <" + element.Name() + "> of " + of);
+    }
+  }
 
   void notePlugins(const XMLElement& element, const std::string& of) {
     forEach(element, "plugin", [&](const XMLElement& plugin) {
@@ -101,14 +125,18 @@ class Reader {
     forEach(model, "link", [&](const XMLElement& link) { readLink(link, place); });
     forEach(model, "model", [&](const XMLElement& inner) {
       const std::string name = required(inner, "name", title_);
-      readModel(inner, {place.name + "::" + name, place.frames.model(name),
-                        place.pose * place.frames.pose(name), place.is_static});
+      readModel(inner,
+                {isMerged(inner) ? place.name : place.name + "::" + name, place.scope + "::" + name,
+                 place.frames.model(name), place.pose * place.frames.pose(name), place.is_static});
     });
     forEach(model, "joint", [&](const XMLElement& joint) { readJoint(joint, place); });
-    notePlugins(model, "model '" + place.name + "'");
-    if (model.FirstChildElement("gripper") != nullptr) {
-      note("<gripper> of model '" + place.name + "'");
-    }
+    const std::string what = "model '" + place.name + "'";
+    notePlugins(model, what);
+    noteTrue(model, "enable_wind", what);
+    noteUnknown(model, what,
+                {"link", "model", "joint", "frame", "pose", "static", "self_collide", "plugin",
+                 "enable_wind", "allow_auto_disable"},
+                &scene_.unsupported);
   }
 
   UrdfInertial readInertial(const XMLElement& link, const std::string& name) {
@@ -121,6 +149,11 @@ class Reader {
       return result;
     }
     const std::string where = title_ + ": link '" + name + "'";
+    if (element->BoolAttribute("auto")) {
+      note("the automatic inertia of link '" + name + "'");
+    }
+    noteUnknown(*element, "the inertia of link '" + name + "'", {"mass", "inertia", "pose"},
+                &scene_.unsupported);
     result.mass = childNumbers(*element, "mass", {1}, where)[0];
     Eigen::Matrix3d moments = Eigen::Matrix3d::Identity();
     if (const XMLElement* inertia = element->FirstChildElement("inertia")) {
@@ -146,6 +179,11 @@ class Reader {
     const std::string own_name = required(link, "name", title_);
     SdfLink result;
     result.name = place.name + "::" + own_name;
+    if (std::any_of(scene_.links.begin(), scene_.links.end(),
+                    [&result](const SdfLink& other) { return other.name == result.name; })) {
+      throw std::runtime_error(title_ + ": two links are called '" + result.name +
+                               "' after merging; names must differ.");
+    }
     result.model = scene_.models.back().name;
     result.is_static = place.is_static;
     result.pose = place.pose * place.frames.pose(own_name);
@@ -159,6 +197,8 @@ class Reader {
         shape->surface = readSurface(collision, what, &scene_.unsupported);
         result.collisions.push_back(*shape);
       }
+      noteUnknown(collision, what, {"geometry", "surface", "pose", "max_contacts", "laser_retro"},
+                  &scene_.unsupported);
     });
     forEach(link, "visual", [&](const XMLElement& visual) {
       const std::string name = optional(visual, "name");
@@ -170,11 +210,15 @@ class Reader {
         shape->opacity = 1 - childNumbers(visual, "transparency", {0}, what)[0];
         result.visuals.push_back(*shape);
       }
+      noteUnknown(visual, what,
+                  {"geometry", "material", "transparency", "pose", "cast_shadows", "laser_retro",
+                   "meta", "visibility_flags"},
+                  &scene_.unsupported);
     });
     const int index = static_cast<int>(scene_.links.size());
     scene_.links.push_back(result);
     scene_.models.back().links.push_back(index);
-    index_[result.name] = index;
+    index_[place.scope + "::" + own_name] = index;
     forEach(link, "light", [&](const XMLElement& light) {
       readLight(light, place.frames.poseIn(light, own_name), index);
     });
@@ -185,15 +229,21 @@ class Reader {
   }
 
   void noteOfLink(const XMLElement& link, const std::string& name) {
+    const std::string what = "link '" + name + "'";
     if (!isTrue(link, "gravity", true)) {
-      note("<gravity>false</gravity> of link '" + name + "'");
+      note("<gravity>false</gravity> of " + what);
     }
-    if (isTrue(link, "enable_wind")) {
-      note("wind on link '" + name + "'");
+    for (const char* setting : {"enable_wind", "kinematic", "self_collide"}) {
+      noteTrue(link, setting, what);
     }
-    if (link.FirstChildElement("particle_emitter") != nullptr) {
-      note("particle emitters of link '" + name + "'");
+    if (const XMLElement* decay = link.FirstChildElement("velocity_decay")) {
+      noteUnlessZero(*decay, "linear", what);
+      noteUnlessZero(*decay, "angular", what);
     }
+    noteUnknown(link, what,
+                {"inertial", "collision", "visual", "light", "sensor", "pose", "gravity",
+                 "enable_wind", "kinematic", "self_collide", "velocity_decay", "must_be_base_link"},
+                &scene_.unsupported);
   }
 
   /// @param pose in the link
@@ -229,6 +279,10 @@ class Reader {
     const XMLElement* spot = light.FirstChildElement("spot");
     result.cutoff = spot == nullptr ? 0 : childNumbers(*spot, "outer_angle", {0}, where)[0] / 2;
     result.shadows = isTrue(light, "cast_shadows");
+    noteUnknown(light, "light '" + result.name + "'",
+                {"pose", "direction", "diffuse", "specular", "attenuation", "spot", "cast_shadows",
+                 "intensity", "visualize", "light_on"},
+                &scene_.unsupported);
     scene_.lights.push_back(result);
   }
 
@@ -239,7 +293,7 @@ class Reader {
     }
     try {
       const std::string link = place.frames.linkOf(frame);
-      return link == "world" ? -1 : index_.at(place.name + "::" + link);
+      return link == "world" ? -1 : index_.at(place.scope + "::" + link);
     } catch (const std::exception&) {
       throw std::runtime_error(title_ + ": joint '" + joint + "' names '" + frame +
                                "', and there is no such link or frame.");
@@ -253,6 +307,11 @@ class Reader {
     result.parent = linkOf(childText(joint, "parent"), place, result.name);
     result.child = linkOf(childText(joint, "child"), place, result.name);
     result.position = (place.pose * place.frames.pose(own_name)).translation();
+    const std::string what = "joint '" + result.name + "'";
+    noteUnknown(joint, what,
+                {"parent", "child", "pose", "axis", "axis2", "physics", "thread_pitch",
+                 "gearbox_ratio", "gearbox_reference_body"},
+                &scene_.unsupported);
     const std::string kind = optional(joint, "type");
     if (kind == "revolute" || kind == "continuous") {
       result.kind = SdfJoint::Kind::kHinge;
@@ -261,20 +320,24 @@ class Reader {
     } else if (kind == "ball") {
       result.kind = SdfJoint::Kind::kBall;
     } else if (kind != "fixed") {
-      note("the type of joint '" + result.name + "' (it is held fixed)");
+      note("the type of " + what + " (it is held fixed)");
     }
     if (result.kind == SdfJoint::Kind::kHinge || result.kind == SdfJoint::Kind::kSlide) {
       const XMLElement* axis = joint.FirstChildElement("axis");
       if (axis == nullptr) {
-        throw std::runtime_error(title_ + ": joint '" + result.name + "' needs an <axis>.");
+        throw std::runtime_error(title_ + ": " + what + " needs an <axis>.");
       }
+      noteUnlessZero(*axis, "initial_position", what);
+      noteUnknown(*axis, "the axis of " + what,
+                  {"xyz", "dynamics", "limit", "initial_position", "use_parent_model_frame"},
+                  &scene_.unsupported);
       readAxis(*axis, place, own_name, &result);
       if (kind == "continuous") {
         result.limits.reset();
       }
     }
     if (result.child < 0 || isChild(result.child)) {
-      note("joint '" + result.name + "', which closes a loop");
+      note(what + ", which closes a loop");
       return;
     }
     scene_.joints.push_back(result);
@@ -332,36 +395,33 @@ bool looksLikeSdf(const std::string& text) {
   return root == "sdf" || root == "gazebo" || root == "model" || root == "world";
 }
 
-SdfScene readExpandedSdf(const std::string& text, const std::string& title, bool world) {
-  tinyxml2::XMLDocument document;
-  if (document.Parse(text.c_str(), text.size()) != tinyxml2::XML_SUCCESS) {
-    throw std::runtime_error(title + ": it is not well-formed XML: " + document.ErrorStr());
-  }
+SdfScene readSdf(const std::string& text, const std::string& folder, const std::string& title,
+                 const ResourceResolver& resolve, const std::string& model_name) {
+  const bool is_world = model_name.empty();
+  tinyxml2::XMLDocument document(true, tinyxml2::COLLAPSE_WHITESPACE);
+  std::set<std::string> notes;
+  expandSdf(text, SdfFiles(folder, resolve), title, model_name, &document, &notes);
   const XMLElement& root = *document.RootElement();
   int worlds = 0;
   forEach(root, "world", [&worlds](const XMLElement&) { ++worlds; });
   const XMLElement* model = root.FirstChildElement("model");
-  Reader reader(title);
-  if (world && worlds == 1) {
+  noteUnknown(root, "the file", {"world", "model"}, &notes);
+  if (model != nullptr && (worlds > 0 ? is_world : model->NextSiblingElement("model") != nullptr)) {
+    notes.insert(worlds > 0 ? "models outside the world" : "models after the first one");
+  }
+  Reader reader(title, std::move(notes));
+  if (is_world && worlds == 1) {
     reader.readWorld(*root.FirstChildElement("world"));
-  } else if (model != nullptr && (worlds == 0 || !world)) {
+  } else if (model != nullptr && (worlds == 0 || !is_world)) {
     const SdfFrames frames(root, title);
     reader.readTopModel(*model, frames);
-  } else if (world) {
+  } else if (is_world) {
     throw std::runtime_error(title + ": an SDF world file must hold one <world>; this one holds " +
                              std::to_string(worlds) + ".");
   } else {
     throw std::runtime_error(title + ": there is no <model> in the SDF text.");
   }
   return reader.take();
-}
-
-SdfScene readSdf(const std::string& text, const std::string& folder, const std::string& title,
-                 const ResourceResolver& resolve, const std::string& model_name) {
-  const SdfFiles files(folder, resolve);
-  return readExpandedSdf(
-      expandSdf(withStandardModels(text, files, title, model_name), files, title), title,
-      model_name.empty());
 }
 
 }  // namespace franka_sim::physics

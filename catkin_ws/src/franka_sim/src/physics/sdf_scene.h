@@ -107,22 +107,18 @@ struct SdfScene {
 /// <world> without it.
 bool looksLikeSdf(const std::string& text);
 
-/// Reads an SDF text with a world, or with one model. If Debian has sdformat (Debian 12), that
-/// library checks the text and expands includes; otherwise `expandByTinyXml` does.
+/// Reads an SDF text with a world, or with one model.
 ///
 /// Included models and meshes are searched by `resolve`, next to the file, and in the folders of
 /// GAZEBO_MODEL_PATH, SDF_PATH and GAZEBO_RESOURCE_PATH; `model://sun` and `model://ground_plane`
-/// always exist. Settings of Gazebo's own solver (<physics>, min_depth, max_vel, max_contacts and
-/// similar) have no meaning in MuJoCo and are ignored; all other elements without counterpart are
-/// listed in `unsupported`.
+/// always exist. Settings of Gazebo's own solver and user interface (<physics>, <gui>, min_depth,
+/// max_vel, max_contacts and similar) have no meaning here and are ignored; all other elements
+/// without counterpart, unknown ones too, are listed in `unsupported`.
 /// @param title names the text in errors
 /// @param model_name empty: a world (or a lone model in place of one) is read; else the text's one
 /// model, under this name
 /// @throws std::runtime_error with a sentence: an error in the text, no world in the text.
 SdfScene readSdf(const std::string& text, const std::string& folder, const std::string& title,
                  const ResourceResolver& resolve, const std::string& model_name = "");
-
-/// The same for a text of sdf_text.h. @param world whether to read a world or a model.
-SdfScene readExpandedSdf(const std::string& text, const std::string& title, bool world);
 
 }  // namespace franka_sim::physics

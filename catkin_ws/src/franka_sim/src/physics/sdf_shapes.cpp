@@ -166,6 +166,16 @@ SdfSurface readSurface(const XMLElement& collision, const std::string& what,
                        std::set<std::string>* unsupported) {
   SdfSurface surface;
   const XMLElement* element = collision.FirstChildElement("surface");
+  const auto noteOthers = [&](const XMLElement* parent, std::initializer_list<const char*> known) {
+    if (parent != nullptr) {
+      noteUnknown(*parent, what, known, unsupported);
+    }
+  };
+  noteOthers(element, {"friction", "bounce", "contact"});
+  noteOthers(descend(element, {"friction"}), {"ode", "bullet", "torsional"});
+  noteOthers(descend(element, {"contact"}),
+             {"ode", "bullet", "collide_bitmask", "collide_without_contact",
+              "collide_without_contact_bitmask", "poissons_ratio", "elastic_modulus"});
   const XMLElement* ode = descend(element, {"friction", "ode"});
   surface.mu = numberIn(ode, "mu", what).value_or(surface.mu);
   const double mu2 = numberIn(ode, "mu2", what).value_or(surface.mu);

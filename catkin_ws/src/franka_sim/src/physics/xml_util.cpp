@@ -4,6 +4,7 @@
 
 #include <franka_core/numbers.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <optional>
@@ -76,9 +77,10 @@ std::string required(const tinyxml2::XMLElement& element, const char* attribute,
                      const std::string& where) {
   std::string text = optional(element, attribute);
   if (text.empty()) {
-    throw std::runtime_error(where + ": <" + element.Name() + "> in line " +
-                             std::to_string(element.GetLineNum()) + " needs the attribute '" +
-                             attribute + "'.");
+    const int line = element.GetLineNum();  // 0 for a copied element
+    throw std::runtime_error(where + ": <" + element.Name() + ">" +
+                             (line > 0 ? " in line " + std::to_string(line) : "") +
+                             " needs the attribute '" + attribute + "'.");
   }
   return text;
 }
@@ -110,6 +112,18 @@ std::vector<double> childNumbers(const tinyxml2::XMLElement& element, const char
                              " numbers and has " + std::to_string(values.size()) + ".");
   }
   return values;
+}
+
+void noteUnknown(const tinyxml2::XMLElement& element, const std::string& what,
+                 std::initializer_list<const char*> known, std::set<std::string>* notes) {
+  for (const auto* child = element.FirstChildElement(); child != nullptr;
+       child = child->NextSiblingElement()) {
+    const std::string name = child->Name();
+    const bool is_foreign = name.find(':') != std::string::npos && name != "experimental:params";
+    if (!is_foreign && std::find(known.begin(), known.end(), name) == known.end()) {
+      notes->insert("<" + name + "> of " + what);
+    }
+  }
 }
 
 tinyxml2::XMLElement* append(tinyxml2::XMLNode* parent, const char* name) {

@@ -6,6 +6,7 @@
 
 #include <Eigen/Geometry>
 #include <initializer_list>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -42,6 +43,11 @@ bool isTrue(const tinyxml2::XMLElement& element, const char* name, bool fallback
 /// @throws std::runtime_error unless it has exactly `fallback.size()` finite numbers.
 std::vector<double> childNumbers(const tinyxml2::XMLElement& element, const char* name,
                                  const std::vector<double>& fallback, const std::string& where);
+
+/// Notes "<name> of <what>" for every child that is not `known`. Names with a prefix ("gz:x") are
+/// for other programs and not noted, except parameters of an <include>.
+void noteUnknown(const tinyxml2::XMLElement& element, const std::string& what,
+                 std::initializer_list<const char*> known, std::set<std::string>* notes);
 
 /// Appends a child element and returns it.
 tinyxml2::XMLElement* append(tinyxml2::XMLNode* parent, const char* name);

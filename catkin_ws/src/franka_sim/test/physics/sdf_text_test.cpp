@@ -1,14 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Results of our own reader, used where Debian has no sdformat. With sdformat, both readers must
-// give the same scene.
-#include "physics/sdf_text.h"
-
+// How SDF texts become scenes.
 #include <gmock/gmock.h>
 
 #include <filesystem>
-#include <fstream>
-#include <sstream>
+#include <set>
 
 #include "physics/sdf_scene.h"
 #include "sdf_test.h"
@@ -16,7 +12,6 @@
 namespace franka_sim::test {
 namespace {
 
-using physics::SdfFiles;
 using physics::SdfJoint;
 using physics::SdfScene;
 
@@ -35,116 +30,19 @@ void expectNear(const Eigen::Isometry3d& a, const Eigen::Isometry3d& b, const st
   EXPECT_LT((a.matrix() - b.matrix()).cwiseAbs().maxCoeff(), 1e-12) << what;
 }
 
-std::string contentOf(const std::string& path) {
-  std::ifstream file(path);
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 class SdfTextTest : public SdfTest {
  protected:
-  SdfScene byTinyXml(const std::string& text) const { return byTinyXml(text, folder_.path()); }
-
-  static SdfScene byTinyXml(const std::string& text, const std::string& folder) {
-    const SdfFiles files(folder, {});
-    return physics::readExpandedSdf(
-        physics::expandByTinyXml(physics::withStandardModels(text, files, "test", ""), files,
-                                 "test"),
-        "test", true);
+  SdfScene read(const std::string& text) const {
+    return physics::readSdf(text, folder_.path(), "test", {});
   }
 
   static std::string world(const std::string& content, const std::string& version) {
     return "<sdf version='" + version + "'><world name='w'>" + content + "</world></sdf>";
   }
-
-  /// The scene of our own reader, compared with sdformat's if that is available.
-  SdfScene both(const std::string& text) const { return both(text, folder_.path()); }
-
-  static SdfScene both(const std::string& text, const std::string& folder) {
-    SdfScene own = byTinyXml(text, folder);
-    const SdfScene other = physics::readSdf(text, folder, "test", {});
-    expectSame(own, other);
-    return own;
-  }
-
-  static void expectSame(const SdfScene& a, const SdfScene& b) {
-    EXPECT_EQ(a.gravity, b.gravity);
-    EXPECT_EQ(a.ambient, b.ambient);
-    EXPECT_EQ(a.background, b.background);
-    EXPECT_EQ(a.unsupported, b.unsupported);
-    ASSERT_EQ(a.models.size(), b.models.size());
-    for (std::size_t i = 0; i < a.models.size(); ++i) {
-      EXPECT_EQ(a.models[i].name, b.models[i].name);
-      EXPECT_EQ(a.models[i].links, b.models[i].links);
-      EXPECT_EQ(a.models[i].self_collide, b.models[i].self_collide);
-      expectNear(a.models[i].pose, b.models[i].pose, a.models[i].name);
-    }
-    ASSERT_EQ(a.links.size(), b.links.size());
-    for (std::size_t i = 0; i < a.links.size(); ++i) {
-      expectSameLinks(a.links[i], b.links[i]);
-    }
-    ASSERT_EQ(a.joints.size(), b.joints.size());
-    for (std::size_t i = 0; i < a.joints.size(); ++i) {
-      expectSameJoints(a.joints[i], b.joints[i]);
-    }
-    ASSERT_EQ(a.lights.size(), b.lights.size());
-    for (std::size_t i = 0; i < a.lights.size(); ++i) {
-      EXPECT_EQ(a.lights[i].kind, b.lights[i].kind);
-      EXPECT_EQ(a.lights[i].attenuation, b.lights[i].attenuation);
-      EXPECT_EQ(a.lights[i].cutoff, b.lights[i].cutoff);
-      EXPECT_EQ(a.lights[i].shadows, b.lights[i].shadows);
-      EXPECT_LT((a.lights[i].position - b.lights[i].position).norm(), 1e-12);
-      EXPECT_LT((a.lights[i].direction - b.lights[i].direction).norm(), 1e-12);
-    }
-    ASSERT_EQ(a.cameras.size(), b.cameras.size());
-    for (std::size_t i = 0; i < a.cameras.size(); ++i) {
-      EXPECT_EQ(a.cameras[i].width, b.cameras[i].width);
-      EXPECT_EQ(a.cameras[i].rate, b.cameras[i].rate);
-      expectNear(a.cameras[i].pose, b.cameras[i].pose, a.cameras[i].name);
-    }
-  }
-
-  static void expectSameLinks(const physics::SdfLink& a, const physics::SdfLink& b) {
-    EXPECT_EQ(a.name, b.name);
-    EXPECT_EQ(a.is_static, b.is_static) << a.name;
-    EXPECT_EQ(a.inertial.mass, b.inertial.mass) << a.name;
-    EXPECT_LT((a.inertial.inertia - b.inertial.inertia).norm(), 1e-15) << a.name;
-    expectNear(a.pose, b.pose, a.name);
-    ASSERT_EQ(a.collisions.size(), b.collisions.size()) << a.name;
-    for (std::size_t i = 0; i < a.collisions.size(); ++i) {
-      EXPECT_EQ(a.collisions[i].size, b.collisions[i].size) << a.name;
-      EXPECT_EQ(a.collisions[i].mesh.file, b.collisions[i].mesh.file) << a.name;
-      EXPECT_EQ(a.collisions[i].surface.mu, b.collisions[i].surface.mu) << a.name;
-      EXPECT_EQ(a.collisions[i].surface.kp, b.collisions[i].surface.kp) << a.name;
-      expectNear(a.collisions[i].pose, b.collisions[i].pose, a.name);
-    }
-    ASSERT_EQ(a.visuals.size(), b.visuals.size()) << a.name;
-    for (std::size_t i = 0; i < a.visuals.size(); ++i) {
-      EXPECT_EQ(a.visuals[i].rgba, b.visuals[i].rgba) << a.name;
-      EXPECT_EQ(a.visuals[i].opacity, b.visuals[i].opacity) << a.name;
-    }
-  }
-
-  static void expectSameJoints(const SdfJoint& a, const SdfJoint& b) {
-    EXPECT_EQ(a.name, b.name);
-    EXPECT_EQ(a.kind, b.kind) << a.name;
-    EXPECT_EQ(a.parent, b.parent) << a.name;
-    EXPECT_EQ(a.child, b.child) << a.name;
-    EXPECT_EQ(a.limits, b.limits) << a.name;
-    EXPECT_LT((a.position - b.position).norm(), 1e-12) << a.name;
-    EXPECT_LT((a.axis - b.axis).norm(), 1e-12) << a.name;
-  }
 };
 
-TEST_F(SdfTextTest, BothReadersAgreeOnShippedWorlds) {
-  const std::string folder = std::string(FRANKA_SIM_WORLDS) + "/../../franka_gazebo/world";
-  const SdfScene scene = both(contentOf(folder + "/stone.sdf"), folder);
-  EXPECT_GE(scene.models.size(), 5u);  // the ground, a table, two trays, a stone
-}
-
 TEST_F(SdfTextTest, PosesFollowTheirFrames) {
-  const SdfScene scene = both(
+  const SdfScene scene = read(
       world("<frame name='corner'><pose>1 2 0 0 0 0.5</pose></frame>"
             "<model name='m' placement_frame='grip'><pose relative_to='corner'>0 0 1 0.1 0 0</pose>"
             "<frame name='grip' attached_to='a'><pose>0 0 0.2 0 0.3 0</pose></frame>"
@@ -187,10 +85,11 @@ TEST_F(SdfTextTest, OldAxesUseTheFrameOfTheirVersion) {
   const Eigen::Vector3d of_joint =
       model * poseFrom(0, 0, 0, 0, 0.4, 0).linear() * Eigen::Vector3d::UnitX();
   const auto axis = [&](const std::string& in_axis, const std::string& version) {
-    return both(world(text(in_axis), version)).joints.at(0).axis;
+    return read(world(text(in_axis), version)).joints.at(0).axis;
   };
   EXPECT_LT((axis("", "1.4") - of_model).norm(), 1e-12);
   EXPECT_LT((axis("", "1.6") - of_joint).norm(), 1e-12);
+  EXPECT_LT((axis("", "1.11") - of_joint).norm(), 1e-12);
   const std::string old_way = "<use_parent_model_frame>true</use_parent_model_frame>";
   EXPECT_LT((axis(old_way, "1.6") - of_model).norm(), 1e-12);
 }
@@ -205,7 +104,7 @@ TEST_F(SdfTextTest, ExpandsNestedModelsAndIncludes) {
             "</collision><collision name='d'><geometry><mesh><uri>model://crate/meshes/tetra.obj"
             "</uri><scale>2 2 2</scale></mesh></geometry></collision></link></model></sdf>");
   write("crate/meshes/tetra.obj", "v 0 0 0\nv 0.1 0 0\nv 0 0.1 0\nv 0 0 0.1\nf 1 3 2\n");
-  const SdfScene scene = both(
+  const SdfScene scene = read(
       world("<include><uri>model://sun</uri></include>"
             "<include><uri>model://ground_plane</uri></include>"
             "<include><uri>model://crate</uri><name>first</name><pose>0 0 1 0 0 0</pose>"
@@ -229,8 +128,91 @@ TEST_F(SdfTextTest, ExpandsNestedModelsAndIncludes) {
   EXPECT_EQ(scene.joints.at(0).child, 3);
 }
 
+TEST_F(SdfTextTest, MergesIncludedModels) {
+  write("arm/model.sdf",
+        "<sdf version='1.9'><model name='arm'><frame name='tip'><pose>0 0 0.2 0 0.4 0</pose>"
+        "</frame><link name='base'/><link name='fore'><pose relative_to='tip'>0.3 0 0 0 0 0</pose>"
+        "</link><joint name='hinge' type='revolute'><parent>base</parent><child>fore</child><axis>"
+        "<xyz expressed_in='__model__'>0 0 1</xyz></axis></joint></model></sdf>");
+  const auto text = [](const std::string& more) {
+    return world(
+        "<model name='m'><pose>0 0 1 0.2 0 0</pose><include merge='true'><uri>model://arm</uri>"
+        "<pose>1 2 0 0 0.5 0</pose></include>" +
+            more + "</model>",
+        "1.9");
+  };
+  const SdfScene scene =
+      read(text("<link name='tool'><pose relative_to='fore'>0 0 0.1 0 0 0</pose></link>"
+                "<joint name='j' type='fixed'><parent>fore</parent><child>tool</child></joint>"));
+  EXPECT_TRUE(scene.unsupported.empty());
+  ASSERT_EQ(scene.links.size(), 3u);
+  const Eigen::Isometry3d arm = poseFrom(0, 0, 1, 0.2, 0, 0) * poseFrom(1, 2, 0, 0, 0.5, 0);
+  const Eigen::Isometry3d fore =
+      arm * poseFrom(0, 0, 0.2, 0, 0.4, 0) * poseFrom(0.3, 0, 0, 0, 0, 0);
+  for (const auto& link : scene.links) {
+    expectNear(link.pose,
+               link.name == "m::base"   ? arm
+               : link.name == "m::fore" ? fore
+                                        : fore * poseFrom(0, 0, 0.1, 0, 0, 0),
+               link.name);
+  }
+  EXPECT_EQ(scene.joints.at(0).name, "m::hinge");
+  EXPECT_LT((scene.joints.at(0).axis - arm.linear().col(2)).norm(), 1e-12);
+  const SdfJoint& fixed = scene.joints.at(1);
+  EXPECT_EQ(scene.links.at(fixed.parent).name, "m::fore");
+  EXPECT_EQ(scene.links.at(fixed.child).name, "m::tool");
+  expectSentence([&] { read(text("<link name='base'/>")); }, {"'m::base'", "merging"});
+}
+
+/// Gazebo 11 writes models of models in this way.
+TEST_F(SdfTextTest, ReadsFlattenedNames) {
+  const SdfScene scene =
+      read(world("<model name='o'><link name='p'/><frame name='i::__model__' attached_to='i::l'>"
+                 "<pose relative_to='__model__'>0 1 0 0 0 0</pose></frame><link name='i::l'>"
+                 "<pose relative_to='i::__model__'>0 0 1 0 0 0</pose></link></model>",
+                 "1.7"));
+  EXPECT_EQ(scene.links.at(1).name, "o::i::l");
+  expectNear(scene.links.at(1).pose, poseFrom(0, 1, 1, 0, 0, 0), "i::l");
+}
+
+TEST_F(SdfTextTest, GravityBelongsToThePhysicsBeforeVersionSix) {
+  const std::string text = "<physics type='ode'><gravity>0 0 -1.5</gravity></physics>";
+  const SdfScene old = read(world(text, "1.5")), later = read(world(text, "1.6"));
+  EXPECT_EQ(old.gravity[2], -1.5);
+  EXPECT_TRUE(old.unsupported.empty());
+  EXPECT_EQ(later.gravity[2], -9.8);
+  EXPECT_EQ(later.unsupported.count("<gravity> of <physics>"), 1u);
+}
+
+TEST_F(SdfTextTest, NamesWhatItDoesNotRead) {
+  write("cup.urdf", "<robot name='cup'><link name='l'/></robot>");
+  const SdfScene scene = read(world(
+      "<gui><camera name='c'/></gui><physics type='ode'/><gz:policies/><state world_name='w'/>"
+      "<include><uri>cup.urdf</uri></include>"
+      "<model name='m'><allow_auto_disable>1</allow_auto_disable><drone/><link name='l'>"
+      "<kinematic> true </kinematic><velocity_decay><linear>0.1</linear><angular>0</angular>"
+      "</velocity_decay><inertial auto='true'><density>7</density></inertial><battery/>"
+      "<collision name='c'><geometry><sphere/></geometry><max_contacts>9</max_contacts>"
+      "<surface><soft_contact/></surface></collision><visual name='v'><geometry><sphere/>"
+      "</geometry><meta/><plugin name='p'/></visual></link><link name='k'/>"
+      "<joint name='j' type='revolute'><parent>l</parent><child>k</child>"
+      "<axis><xyz>0 0 1</xyz><mimic joint='i'/><initial_position>1</initial_position></axis>"
+      "<sensor name='s' type='force_torque'/></joint></model>",
+      "1.11"));
+  EXPECT_EQ(scene.unsupported,
+            (std::set<std::string>{
+                "<state> of the world",
+                "the <include> of 'cup.urdf' (" + (folder_ / "cup.urdf") + " is a URDF)",
+                "<drone> of model 'm'", "<kinematic> of link 'm::l'",
+                "<linear> in <velocity_decay> of link 'm::l'", "<battery> of link 'm::l'",
+                "the automatic inertia of link 'm::l'", "<density> of the inertia of link 'm::l'",
+                "<soft_contact> of collision 'c' of 'm::l'", "<plugin> of visual 'v' of 'm::l'",
+                "<sensor> of joint 'm::j'", "<mimic> of the axis of joint 'm::j'",
+                "<initial_position> in <axis> of joint 'm::j'"}));
+}
+
 TEST_F(SdfTextTest, LightsCamerasAndColorsKeepTheirDefaults) {
-  const SdfScene scene = both(
+  const SdfScene scene = read(
       world("<gravity>0 0 -1.62</gravity><scene><ambient>0.1 0.2 0.3 1</ambient>"
             "<background>0.5 0.6 0.7</background></scene>"
             "<light name='lamp' type='spot'><pose>0 0 2 0 0.1 0</pose><direction>0 0 -2</direction>"
@@ -280,21 +262,25 @@ TEST_F(SdfTextTest, BitmasksAreWholeNumbers) {
             "</collide_bitmask></contact></surface></collision></link></model>",
         "1.6");
     if (cell.mask < 0) {
-      expectSentence([&] { byTinyXml(text); }, {"collide_bitmask", cell.text});
+      expectSentence([&] { read(text); }, {"collide_bitmask", cell.text});
     } else {
-      EXPECT_EQ(cell.mask, byTinyXml(text).links.at(0).collisions.at(0).surface.bitmask)
-          << cell.text;
+      EXPECT_EQ(cell.mask, read(text).links.at(0).collisions.at(0).surface.bitmask) << cell.text;
     }
   }
 }
 
 TEST_F(SdfTextTest, RefusesInvalidTexts) {
   const auto refuses = [&](const std::string& text, std::initializer_list<const char*> parts) {
-    expectSentence([&] { byTinyXml(text); }, parts);
+    expectSentence([&] { read(text); }, parts);
   };
   refuses("<sdf version='1.6'><world name='w'>", {"well-formed"});
   refuses("<sdf><world name='w'/></sdf>", {"version"});
   refuses("<sdf version='new'><world name='w'/></sdf>", {"'new'"});
+  refuses("<sdf version='1.0'><world name='w'/></sdf>", {"'1.0'", "1.2 or newer"});
+  refuses("<sdf version='1.6'><html/></sdf>", {"<world>", "0"});
+  refuses(world("<gravity>0 0 down</gravity>", "1.6"), {"<gravity>", "'down'"});
+  refuses(world("<model name='m'><static>maybe</static><link name='a'/></model>", "1.6"),
+          {"<static>", "'maybe'"});
   refuses(world("<include><uri>model://nowhere</uri></include>", "1.6"), {"nowhere"});
   refuses(world("<model name='m'/>", "1.6"), {"'m'", "link"});
   refuses(world("<model name='m'><link name='a'/><link name='a'/></model>", "1.6"), {"'a'"});

@@ -156,7 +156,7 @@ class World {
  public:
   /// @param file the world, MJCF or SDF; empty: ground, light and sky only.
   /// @param resolve finds files that SDF texts name by package:// and model://
-  /// @throws std::runtime_error naming the file and the error of MuJoCo or sdformat.
+  /// @throws std::runtime_error naming the file and the error, MuJoCo's or the SDF reader's.
   explicit World(const std::string& file = "", ResourceResolver resolve = {});
   ~World();
   World(const World&) = delete;
