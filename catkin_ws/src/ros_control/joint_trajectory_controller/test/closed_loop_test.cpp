@@ -406,11 +406,12 @@ TEST_F(ClosedLoop, AGoalRightAfterASwitchIsFollowed) {
   }
 }
 
-// Goals arrive faster than they finish, while the loop runs: each ends, and none is lost.
+// Goals arrive faster than they finish, while the loop runs: each ends, and none is lost. No more
+// than actionlib's server queues (50): of callbacks that wait for a processor it drops the oldest.
 TEST_F(ClosedLoop, ManyGoalsInSequence) {
   start();
   std::vector<Client::GoalHandle> handles;
-  for (int run = 0; run < 60; ++run) {
+  for (int run = 0; run < 40; ++run) {
     handles.push_back(send(goalTo({0.1 + 0.001 * run, -0.2, 0.3}, 0.3, 3)));
     const int count = (run * 37) % 60;
     for (int i = 0; i < count; ++i) {
@@ -554,6 +555,32 @@ TEST_F(ClosedLoop, ATrajectoryThatIsOverIsNotJumpedTo) {
     return std::abs(slow.robot_.position_[0] - 0.3) < 1e-9;
   };
   ASSERT_TRUE(ros_test::eventually(arrived, std::chrono::microseconds(20)));
+}
+
+// The other joints hold since before the loop gets the trajectory, but may still move: they stop
+// with it, and it is neither refused nor computed again.
+TEST_F(ClosedLoop, APartialGoalRightAfterACancelIsFollowed) {
+  nh_.setParam(name_ + "/allow_partial_joints_goal", true);
+  describe("position");
+  SlowController slow(ros::NodeHandle(nh_, name_));
+  slow.command(threePoints(slow.time_, 0.3, 2), 0);
+  slow.steps(150);
+  const double top = slow.robot_.largest_step_;
+  slow.command(trajectory_msgs::JointTrajectory(), 0);  // hold, replaced before the loop gets it
+  trajectory_msgs::JointTrajectory partial = threePoints(slow.time_, 0.3, 2);
+  partial.joint_names = {"j1"};
+  for (trajectory_msgs::JointTrajectoryPoint& point : partial.points) {
+    point.positions.resize(1);
+    point.velocities.resize(1);
+    point.accelerations.resize(1);
+  }
+  const closed_loop::TestRobot::Values held = slow.robot_.position_;  // up to one step further
+  slow.command(partial, 0);
+  slow.steps(301);
+  EXPECT_NEAR(0.3, slow.robot_.position_[1], 1e-9);
+  EXPECT_NEAR(held[0], slow.robot_.position_[0], top);
+  EXPECT_NEAR(held[2], slow.robot_.position_[2], top);
+  EXPECT_LT(slow.robot_.largest_step_, 1.2 * top);
 }
 
 TEST_F(ClosedLoop, PartialGoalsMoveTheirJoints) {

@@ -81,8 +81,9 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::takeCommand() {
 
 /// Prepares the passage from the present motion to a trajectory. It was computed for a tick that
 /// may be over by now, or to continue one that the loop never got: the difference then fades out
-/// until the end of each joint's segment. As splines add up, the joints move as if the trajectory
-/// had been computed in this tick.
+/// until the end of each joint's segment; of a joint that the trajectory leaves in place, until the
+/// end of the others'. As splines add up, the joints move as if the trajectory had been computed in
+/// this tick.
 /// @returns false if a joint would have to jump, because the trajectory is already over.
 template <class SegmentImpl, class HardwareInterface>
 bool JointTrajectoryController<SegmentImpl, HardwareInterface>::join(const Command& command) {
@@ -93,10 +94,14 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::join(const Comma
     deviation_.position[0] = desired_state_.position[joint] - joint_state_.position[0];
     return found == segments.end() ? segments.front().endTime() : found->endTime();
   };
+  Scalar last_end = uptime();
+  bool differs = false;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    if (differenceOf(i) <= uptime() && deviation_.position[0] != Scalar(0)) {
-      return false;
-    }
+    last_end = std::max(last_end, Scalar(differenceOf(i)));
+    differs = differs || deviation_.position[0] != Scalar(0);
+  }
+  if (differs && last_end <= uptime()) {
+    return false;
   }
   // A motion without velocities is linear, one without accelerations cubic: so is the passage.
   const trajectory_msgs::JointTrajectoryPoint& point = command.message->points.front();
@@ -110,7 +115,7 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::join(const Comma
     if (!point.accelerations.empty()) {
       deviation_.acceleration[0] = desired_state_.acceleration[i] - joint_state_.acceleration[0];
     }
-    deviations_[i].init(uptime(), deviation_, std::max(end, Scalar(uptime())), zero_);
+    deviations_[i].init(uptime(), deviation_, end > uptime() ? end : last_end, zero_);
   }
   return true;
 }
