@@ -8,18 +8,17 @@
 #include <benchmark/benchmark.h>
 #include <franka_core/arm_model.h>
 #include <franka_hw/model_kdl.h>
+#include <source_file.h>
 #include <urdf/model.h>
 
 #include <Eigen/Dense>
 #include <array>
 #include <ctime>
-#include <fstream>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/chainjnttojacsolver.hpp>
 #include <kdl/tree.hpp>
 #include <kdl_parser/kdl_parser.hpp>
 #include <random>
-#include <sstream>
 #include <string>
 #include <vector>
 
@@ -34,12 +33,7 @@ constexpr std::array<double, 3> kGravity{{0.0, 0.0, -9.81}};
 constexpr std::array<double, 16> kF_T_EE{
     {0.7071, -0.7071, 0, 0, 0.7071, 0.7071, 0, 0, 0, 0, 1, 0, 0, 0, 0.1034, 1}};
 
-std::string urdfText() {
-  std::ifstream file(std::string(FRANKA_HW_TEST_DATA) + "/panda_hand.urdf");
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
+std::string urdfText() { return franka_test::readSource("libfranka/test/data/panda_hand.urdf"); }
 
 urdf::Model urdfModel() {
   urdf::Model model;

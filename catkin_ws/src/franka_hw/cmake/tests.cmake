@@ -1,6 +1,8 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 
+include(${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/source_file.cmake)
+
 catkin_add_gtest(franka_hw_test
   test/arm_connection_test.cpp
   test/arm_state_test.cpp
@@ -14,17 +16,12 @@ catkin_add_gtest(franka_hw_test
   test/trigger_rate_test.cpp
 )
 target_compile_options(franka_hw_test PRIVATE -Wall -Wextra)
-target_compile_definitions(franka_hw_test PRIVATE
-  FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test/data")
-target_link_libraries(franka_hw_test franka_hw)
+target_link_libraries(franka_hw_test franka_hw franka_source_file)
 
 # A separate executable, because the guard against allocations replaces malloc.
 catkin_add_gtest(model_kdl_test test/model_kdl_test.cpp)
 target_compile_options(model_kdl_test PRIVATE -Wall -Wextra)
-target_compile_definitions(model_kdl_test PRIVATE
-  FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test/data")
-target_include_directories(model_kdl_test PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
-target_link_libraries(model_kdl_test franka_hw Franka::Core ${CMAKE_DL_LIBS})
+target_link_libraries(model_kdl_test franka_hw franka_source_file Franka::Core ${CMAKE_DL_LIBS})
 
 # FrankaHW and its environment, with the fake robot of the libfranka tests.
 find_package(rostest REQUIRED)
@@ -44,10 +41,8 @@ add_rostest_gtest(franka_hw_robot_test test/franka_hw_robot.test
 )
 # Unoptimized, because compilation takes most of the time of these tests.
 target_compile_options(franka_hw_robot_test PRIVATE -Wall -Wextra -O0)
-target_compile_definitions(franka_hw_robot_test PRIVATE
-  FRANKA_HW_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test/data")
 target_include_directories(franka_hw_robot_test PRIVATE
-  ${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
+  ${CMAKE_CURRENT_SOURCE_DIR}/../libfranka/test)
 target_include_directories(franka_hw_robot_test SYSTEM PRIVATE ${controller_manager_INCLUDE_DIRS})
 target_link_libraries(franka_hw_robot_test
-  franka_hw Franka::Core ${controller_manager_LIBRARIES} ${CMAKE_DL_LIBS})
+  franka_hw franka_source_file Franka::Core ${controller_manager_LIBRARIES} ${CMAKE_DL_LIBS})

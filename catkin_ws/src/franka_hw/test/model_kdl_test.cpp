@@ -4,17 +4,16 @@
 #include <franka_hw/model_kdl.h>
 #include <gtest/gtest.h>
 #include <rt_guard/rt_guard.h>
+#include <source_file.h>
 #include <urdf/model.h>
 
 #include <Eigen/Dense>
 #include <cmath>
-#include <fstream>
 #include <kdl/chaindynparam.hpp>
 #include <kdl/tree.hpp>
 #include <kdl_parser/kdl_parser.hpp>
 #include <memory>
 #include <random>
-#include <sstream>
 #include <stdexcept>
 #include <string>
 
@@ -29,10 +28,7 @@ using Array16 = std::array<double, 16>;
 constexpr int kStates = 1000;
 
 std::string readUrdf(const std::string& robot) {
-  std::ifstream file(std::string(FRANKA_HW_TEST_DATA) + "/" + robot + "_hand.urdf");
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
+  return franka_test::readSource("libfranka/test/data/" + robot + "_hand.urdf");
 }
 
 std::string replaced(std::string text, const std::string& from, const std::string& to) {

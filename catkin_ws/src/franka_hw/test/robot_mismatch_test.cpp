@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_hw/robot_mismatch.h>
 #include <gtest/gtest.h>
-
-#include <fstream>
-#include <sstream>
+#include <source_file.h>
 
 namespace {
 
@@ -22,10 +20,7 @@ void replaceAll(std::string& text, const std::string& from, const std::string& t
 /// replaced.
 urdf::Model describe(const std::string& robot, const std::string& arm_id,
                      const std::string& from = "@", const std::string& to = "") {
-  std::ifstream file(FRANKA_HW_TEST_DATA "/" + robot + "_hand.urdf");
-  std::stringstream text;
-  text << file.rdbuf();
-  std::string urdf = text.str();
+  std::string urdf = franka_test::readSource("libfranka/test/data/" + robot + "_hand.urdf");
   replaceAll(urdf, robot + "_", arm_id + "_");
   replaceAll(urdf, from, to);
   urdf::Model model;

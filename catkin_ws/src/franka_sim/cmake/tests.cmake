@@ -4,6 +4,8 @@
 # rt_guard.h proves that loops do not allocate or lock.
 set(FRANKA_TEST_INCLUDE_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
 
+include(${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/source_file.cmake)
+
 # Under catkin the tests use the workspace's gtest; a plain build uses the system's gtest and ctest.
 function(sim_test name)
   cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES" ${ARGN})
@@ -18,12 +20,8 @@ function(sim_test name)
     set_tests_properties(${test} PROPERTIES TIMEOUT 240)
   endif()
   target_include_directories(${test} PRIVATE ${FRANKA_TEST_INCLUDE_DIR} src ${MUJOCO_INCLUDE_DIR})
-  target_link_libraries(${test} ${ARG_LIBRARIES} ${CMAKE_DL_LIBS} Threads::Threads)
-  target_compile_definitions(${test} PRIVATE
-    FRANKA_SIM_TEST_DATA="${CMAKE_CURRENT_SOURCE_DIR}/test/physics/data"
-    FRANKA_SIM_PHYSICS="${CMAKE_CURRENT_SOURCE_DIR}/../franka_description/config/physics.yaml"
-    FRANKA_SIM_ROBOTS="${CMAKE_CURRENT_SOURCE_DIR}/robots"
-    FRANKA_SIM_WORLDS="${CMAKE_CURRENT_SOURCE_DIR}/worlds")
+  target_link_libraries(${test} ${ARG_LIBRARIES} franka_source_file ${CMAKE_DL_LIBS}
+                        Threads::Threads)
 endfunction()
 
 if(NOT catkin_FOUND)

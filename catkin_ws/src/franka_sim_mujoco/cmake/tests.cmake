@@ -21,11 +21,9 @@ endif()
 
 find_package(rostest REQUIRED)
 add_rostest_gtest(arm_parameters_test test/arm_parameters.test test/arm_parameters_test.cpp)
-target_include_directories(arm_parameters_test PRIVATE
-  src ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
-target_compile_definitions(arm_parameters_test PRIVATE
-  FRANKA_SIM_ROBOTS="${CMAKE_CURRENT_SOURCE_DIR}/../franka_sim/robots")
-target_link_libraries(arm_parameters_test franka_sim_ros)
+include(${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/source_file.cmake)
+target_include_directories(arm_parameters_test PRIVATE src)
+target_link_libraries(arm_parameters_test franka_sim_ros franka_source_file)
 add_rostest_gtest(shutdown_request_test test/shutdown_request.test test/shutdown_request_test.cpp)
 target_include_directories(shutdown_request_test PRIVATE
   src ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)

@@ -10,12 +10,11 @@
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <ros_test/log_catcher.h>
+#include <source_file.h>
 #include <transform_sweep.h>
 #include <urdf/model.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -24,10 +23,7 @@
 namespace franka_sim_mujoco {
 namespace {
 
-std::string pandaUrdf() {
-  std::ifstream file(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
-  return {std::istreambuf_iterator<char>(file), {}};
-}
+std::string pandaUrdf() { return franka_test::readSource("franka_sim/robots/panda.urdf"); }
 
 class ArmParameters : public testing::Test {
  protected:

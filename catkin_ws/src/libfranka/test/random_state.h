@@ -5,13 +5,11 @@
 #include <franka_core/arm_model.h>
 #include <franka_core/limits.h>
 #include <gtest/gtest.h>
+#include <source_file.h>
 
 #include <Eigen/Geometry>
 #include <array>
-#include <fstream>
 #include <random>
-#include <sstream>
-#include <stdexcept>
 #include <string>
 
 namespace franka_test {
@@ -19,13 +17,7 @@ namespace franka_test {
 constexpr int kStates = 1000;
 
 inline std::string readData(const std::string& name) {
-  std::ifstream file(std::string(LIBFRANKA_TEST_DATA) + "/" + name);
-  if (!file) {
-    throw std::runtime_error("no test data " + name);
-  }
-  std::ostringstream text;
-  text << file.rdbuf();
-  return text.str();
+  return readSource("libfranka/test/data/" + name);
 }
 
 /// A state with all inputs of the arm's model.

@@ -3,10 +3,10 @@
 #include "support.h"
 
 #include <gtest/gtest.h>
+#include <source_file.h>
 
 #include <cctype>
 #include <chrono>
-#include <fstream>
 #include <limits>
 #include <sstream>
 #include <stdexcept>
@@ -25,10 +25,7 @@ std::string nameOf(std::string claims) {
 }
 
 std::string urdfOf(const std::string& arm_id, const std::string& robot) {
-  std::ifstream file(FRANKA_HW_TEST_DATA "/" + robot + "_hand.urdf");
-  std::stringstream text;
-  text << file.rdbuf();
-  std::string urdf = text.str();
+  std::string urdf = franka_test::readSource("libfranka/test/data/" + robot + "_hand.urdf");
   for (size_t at = 0; (at = urdf.find(robot + "_", at)) != std::string::npos; at += arm_id.size()) {
     urdf.replace(at, robot.size(), arm_id);
   }

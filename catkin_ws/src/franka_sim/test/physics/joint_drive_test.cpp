@@ -1,5 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <source_file.h>
+
 #include <cmath>
 #include <limits>
 
@@ -15,7 +17,7 @@ class JointDriveTest : public ::testing::Test {
   JointDriveTest() {
     RobotDescription description;
     description.name = "lift_and_wheel";
-    description.urdf = readFile(std::string(FRANKA_SIM_TEST_DATA) + "/lift_and_wheel.urdf");
+    description.urdf = franka_test::readSource("franka_sim/test/physics/data/lift_and_wheel.urdf");
     description.initial_positions["lift"] = 0.5;
     world_.addRobot(description);
     lift_ = &world_.drive("lift_and_wheel", "lift");

@@ -6,13 +6,11 @@
 #include <franka_sim/physics/world.h>
 #include <franka_sim/robot/control_unit.h>
 #include <mujoco/mujoco.h>
+#include <source_file.h>
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <memory>
-#include <stdexcept>
 #include <string>
 
 namespace {
@@ -24,18 +22,10 @@ using franka_sim::World;
 
 constexpr std::array<double, 7> kHome{0, -0.785, 0, -2.356, 0, 1.571, 0.785};
 
-std::string readFile(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) {
-    throw std::runtime_error(file + " is missing");
-  }
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 RobotDescription panda(const franka_sim::RobotPhysics& physics = {}) {
   RobotDescription description;
   description.name = "panda";
-  description.urdf = readFile(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
+  description.urdf = franka_test::readSource("franka_sim/robots/panda.urdf");
   description.base.position = {-0.5, 0, 0};
   setInitialPositions(kHome, "panda", description);
   applyPhysics(physics, "panda", description);
@@ -43,8 +33,8 @@ RobotDescription panda(const franka_sim::RobotPhysics& physics = {}) {
 }
 
 std::unique_ptr<World> makeWorld(bool stone) {
-  auto world = std::make_unique<World>(std::string(FRANKA_SIM_WORLDS) +
-                                       (stone ? "/stone.xml" : "/empty.xml"));
+  auto world = std::make_unique<World>(franka_test::sourceFile(
+      stone ? "franka_sim/worlds/stone.xml" : "franka_sim/worlds/empty.xml"));
   world->addRobot(panda());
   return world;
 }
@@ -107,11 +97,12 @@ void bareSteps(benchmark::State& state) {
 /// A tick of control unit and world under torque control, with a profile of realism.
 void tickOfRobot(benchmark::State& state, const char* realism) {
   const franka_sim::RobotPhysics physics = franka_sim::readRobotPhysics(
-      FRANKA_SIM_PHYSICS, "panda", franka_sim::readRealism(realism, "ideal"));
+      franka_test::sourceFile("franka_description/config/physics.yaml"), "panda",
+      franka_sim::readRealism(realism, "ideal"));
   World world;
   world.addRobot(panda(physics));
   ArmPlant& arm = world.arm("panda", "panda");
-  const std::string urdf = readFile(std::string(FRANKA_SIM_ROBOTS) + "/panda.urdf");
+  const std::string urdf = franka_test::readSource("franka_sim/robots/panda.urdf");
   franka_sim::ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdf, "panda")};
   parameters.end_effector = franka_core::endEffectorFromUrdf(urdf, "panda");
   applyPhysics(physics, parameters);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SDF worlds and models against closed forms: MuJoCo moves what the text describes.
 #include <gmock/gmock.h>
+#include <source_file.h>
 
 #include <Eigen/Eigenvalues>
 #include <cmath>
@@ -38,8 +39,8 @@ std::string ground(double mu) {
 class SdfWorldTest : public SdfTest {};
 
 TEST_F(SdfWorldTest, MjcfAndSdfStoneWorldsAgree) {
-  World sdf(std::string(FRANKA_SIM_WORLDS) + "/../../franka_gazebo/world/stone.sdf");
-  World mjcf(std::string(FRANKA_SIM_WORLDS) + "/stone.xml");
+  World sdf(franka_test::sourceFile("franka_gazebo/world/stone.sdf"));
+  World mjcf(world("stone"));
   EXPECT_EQ(sdf.unsupported(), "");
   for (const char* name : {"table", "pick_tray", "place_tray", "stone"}) {
     const mjModel &a = *implOf(sdf).model, &b = *implOf(mjcf).model;

@@ -7,11 +7,10 @@
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world.h>
 #include <gtest/gtest.h>
+#include <source_file.h>
 
 #include <array>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <string>
 
@@ -20,21 +19,13 @@ namespace franka_sim::test {
 constexpr std::array<double, 7> kHome{0, -0.785, 0, -2.356, 0, 1.571, 0.785};
 constexpr double kRotorInertia = 0.1;
 
-inline std::string readFile(const std::string& file) {
-  std::ifstream stream(file);
-  if (!stream) {
-    throw std::runtime_error("test data " + file + " is missing");
-  }
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 /// `panda` or `fr3`, with hand, root `<arm_id>_link0`.
 inline std::string urdfOf(const std::string& arm_id) {
-  return readFile(std::string(FRANKA_SIM_ROBOTS) + "/" + arm_id + ".urdf");
+  return franka_test::readSource("franka_sim/robots/" + arm_id + ".urdf");
 }
 
 inline std::string world(const std::string& name) {
-  return std::string(FRANKA_SIM_WORLDS) + "/" + name + ".xml";
+  return franka_test::sourceFile("franka_sim/worlds/" + name + ".xml");
 }
 
 inline std::string replaceAll(std::string text, const std::string& from, const std::string& to) {

@@ -3,6 +3,7 @@
 // The profiles of realism against the figures of recordings and publications (docs/fidelity.md).
 #include <franka_sim/physics/physics_config.h>
 #include <franka_sim/robot/control_unit.h>
+#include <source_file.h>
 
 #include <algorithm>
 #include <array>
@@ -22,7 +23,8 @@ using franka_core::RobotState;
 using Array7 = std::array<double, 7>;
 
 RobotPhysics physicsOf(const std::string& robot, const std::string& realism) {
-  return readRobotPhysics(FRANKA_SIM_PHYSICS, robot, readRealism(realism, "ideal"));
+  return readRobotPhysics(franka_test::sourceFile("franka_description/config/physics.yaml"), robot,
+                          readRealism(realism, "ideal"));
 }
 
 class RealismTest : public ::testing::TestWithParam<const char*> {
