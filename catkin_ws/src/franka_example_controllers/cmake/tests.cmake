@@ -1,18 +1,16 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 
+include(${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/source_file.cmake)
+
 catkin_add_gtest(cartesian_impedance_test
   test/cartesian_impedance_test.cpp
   test/command_claims_test.cpp
   test/pseudo_inversion_test.cpp
 )
 target_compile_options(cartesian_impedance_test PRIVATE -Wall -Wextra)
-target_include_directories(cartesian_impedance_test PRIVATE
-  ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
-target_compile_definitions(cartesian_impedance_test PRIVATE
-  WRITE_YOUR_OWN="${CMAKE_CURRENT_SOURCE_DIR}/../../../docs/write_your_own.md")
-target_link_libraries(cartesian_impedance_test franka_example_controllers ${GTEST_MAIN_LIBRARIES}
-  ${CMAKE_DL_LIBS})
+target_link_libraries(cartesian_impedance_test franka_example_controllers franka_source_file
+  ${GTEST_MAIN_LIBRARIES} ${CMAKE_DL_LIBS})
 
 find_package(rostest REQUIRED)
 add_rostest_gtest(cartesian_impedance_example_controller_test

@@ -7,6 +7,7 @@ add_executable(control_unit_bench test/robot/control_unit_bench.cpp)
 target_link_libraries(control_unit_bench franka_sim_robot benchmark::benchmark)
 
 add_executable(motion_bench test/robot/motion/motion_bench.cpp)
+target_include_directories(motion_bench PRIVATE src)
 target_link_libraries(motion_bench franka_sim_robot benchmark::benchmark)
 
 include(${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/source_file.cmake)
