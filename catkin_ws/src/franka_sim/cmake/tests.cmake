@@ -4,7 +4,11 @@
 # rt_guard.h proves that loops do not allocate or lock.
 set(FRANKA_TEST_INCLUDE_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
 
-include(${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/source_file.cmake)
+# A package that was copied out of the project has no tests.
+include(${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/source_file.cmake OPTIONAL RESULT_VARIABLE found)
+if(NOT found)
+  return()
+endif()
 
 # Under catkin the tests use the workspace's gtest; a plain build uses the system's gtest and ctest.
 function(sim_test name)

@@ -1,6 +1,12 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 
+# A package that was copied out of the project has no tests.
+include(${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/source_file.cmake OPTIONAL RESULT_VARIABLE found)
+if(NOT found)
+  return()
+endif()
+
 catkin_add_gtest(${PROJECT_NAME}_parts_test
   test/command_shaper_test.cpp
   test/controller_check_test.cpp
@@ -21,7 +27,6 @@ endif()
 
 find_package(rostest REQUIRED)
 add_rostest_gtest(arm_parameters_test test/arm_parameters.test test/arm_parameters_test.cpp)
-include(${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/source_file.cmake)
 target_include_directories(arm_parameters_test PRIVATE src)
 target_link_libraries(arm_parameters_test franka_sim_ros franka_source_file)
 add_rostest_gtest(shutdown_request_test test/shutdown_request.test test/shutdown_request_test.cpp)
