@@ -12,6 +12,16 @@
 
 namespace franka_hw {
 
+namespace {
+
+// How many states in a row a robot leaves without a command before it ends the motion; as many
+// repeat a command that nobody renews.
+constexpr int kMaxRepetitions = 20;
+// Much longer than a robot waits. The limit is for a simulation whose time stands still meanwhile.
+constexpr std::chrono::seconds kMaxWait{1};
+
+}  // namespace
+
 FrankaCombinableHW::~FrankaCombinableHW() {
   ending_ = true;
   controller_active_ = false;
@@ -108,6 +118,7 @@ void FrankaCombinableHW::control(
     return;
   }
   response_times_.motionBegins();
+  repetitions_ = 0;
   try {
     run_function_(*robot_, Callback());
   } catch (const MotionInterrupted&) {
@@ -118,10 +129,10 @@ void FrankaCombinableHW::control(
 franka::Torques FrankaCombinableHW::torqueCallback(const franka::RobotState& robot_state) {
   response_times_.stateArrived(robot_state.time, ResponseTimes::Clock::now());
   states_.write({robot_state, response_times_.lastArrival()});
-  if (!controllerActive() || hasError() || ending_) {
+  const Answer& answer = awaitAnswer();
+  if (!mayMove()) {
     return finished(effort_joint_command_libfranka_, robot_state);
   }
-  const Answer& answer = answers_.read();
   // Commands computed before the last motion ended do not belong to this one.
   effort_joint_command_libfranka_ =
       answer.since > motion_ended_ ? answer.torques : franka::Torques(std::array<double, 7>{});
@@ -133,6 +144,27 @@ franka::Torques FrankaCombinableHW::torqueCallback(const franka::RobotState& rob
   }
   response_times_.commandReady(answer.since, ResponseTimes::Clock::now());
   return effort_joint_command_libfranka_;
+}
+
+bool FrankaCombinableHW::mayMove() const noexcept {
+  return controllerActive() && !hasError() && !ending_;
+}
+
+/// The latest answer of the controllers' loop; a new one if it was repeated often enough.
+const FrankaCombinableHW::Answer& FrankaCombinableHW::awaitAnswer() {
+  const auto latest = [this] { return answers_.read().number; };
+  ++repetitions_;
+  if (repetitions_ > kMaxRepetitions) {
+    const auto deadline = ResponseTimes::Clock::now() + kMaxWait;
+    while (latest() == last_number_ && mayMove() && ResponseTimes::Clock::now() < deadline) {
+      std::this_thread::sleep_for(std::chrono::microseconds(50));
+    }
+  }
+  if (latest() != last_number_) {
+    last_number_ = answers_.held().number;
+    repetitions_ = 0;
+  }
+  return answers_.held();
 }
 
 bool FrankaCombinableHW::setRunFunction(const ControlMode& requested_control_mode, bool limit_rate,
@@ -210,7 +242,7 @@ void FrankaCombinableHW::write(const ros::Time& /*time*/, const ros::Duration& p
     error_recovered_ = false;
   }
   enforceLimits(period);
-  answers_.write({effort_joint_command_ros_, read_arrival_});
+  answers_.write({effort_joint_command_ros_, read_arrival_, ++cycles_});
 }
 
 void FrankaCombinableHW::checkJointLimits() { FrankaHW::checkJointLimits(); }

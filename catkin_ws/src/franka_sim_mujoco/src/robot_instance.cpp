@@ -3,7 +3,7 @@
 #include "robot_instance.h"
 
 #include <franka_sim/physics/urdf_text.h>
-#include <franka_sim/robot/errors.h>
+#include <franka_sim/robot/control_unit.h>
 #include <ros/console.h>
 
 #include <algorithm>

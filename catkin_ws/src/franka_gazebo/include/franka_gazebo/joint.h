@@ -5,7 +5,7 @@
 #include <control_toolbox/pid.h>
 #include <franka/robot_state.h>
 #include <franka_gazebo/controller_verifier.h>
-#include <franka_sim/physics/joint_drive.h>
+#include <franka_sim/robot/plant.h>
 #include <joint_limits_interface/joint_limits.h>
 #include <ros/duration.h>
 

@@ -6,6 +6,7 @@
 #include <realtime_tools/latest_value.h>
 
 #include <atomic>
+#include <cstdint>
 #include <functional>
 #include <list>
 #include <string>
@@ -16,8 +17,10 @@ namespace franka_hw {
 /// One of several arms that run under one controller manager, with torque control only.
 ///
 /// Each arm has a thread of its own that communicates with its robot. read() and write(), called by
-/// the thread of the controllers' loop, exchange states and commands with it without waiting. An
-/// error of this arm is published on `has_error` and ends its motion; error_recovery, or
+/// the thread of the controllers' loop, exchange states and commands with it without waiting. The
+/// latest torques answer the next states, too, but at most 20 of them: while the loop stalls for
+/// longer, the robot gets no answer and ends the motion by itself, as that of one arm's node does.
+/// An error of this arm is published on `has_error` and ends its motion; error_recovery, or
 /// resetError(), clears it, and the controllers are then reset.
 ///
 /// The loss of a robot is an error, too: the other arms wait until it recovers or is given up. The
@@ -76,6 +79,7 @@ class FrankaCombinableHW : public FrankaHW {
   struct Answer {
     franka::Torques torques{std::array<double, 7>{}};
     ResponseTimes::Clock::time_point since{};
+    std::uint64_t number{0};  ///< of the cycle of the controllers' loop
   };
   struct ArrivedState {
     franka::RobotState state{};
@@ -83,6 +87,8 @@ class FrankaCombinableHW : public FrankaHW {
   };
 
   franka::Torques torqueCallback(const franka::RobotState& robot_state);
+  bool mayMove() const noexcept;
+  const Answer& awaitAnswer();
   void controlLoop();
   void watchRobot();
   bool lossIsError() const override { return true; }
@@ -90,8 +96,13 @@ class FrankaCombinableHW : public FrankaHW {
 
   realtime_tools::LatestValue<ArrivedState> states_;
   realtime_tools::LatestValue<Answer> answers_;
+  // Of the controllers' loop.
   ResponseTimes::Clock::time_point read_arrival_{};  // of the state that the controllers read
-  ResponseTimes::Clock::time_point motion_ended_{};  // written by the arm's thread
+  std::uint64_t cycles_{0};
+  // Of the arm's thread.
+  ResponseTimes::Clock::time_point motion_ended_{};
+  std::uint64_t last_number_{0};  // of the last answer
+  int repetitions_{0};            // of it
 
   std::atomic_bool error_recovered_{false};
   std::atomic_bool controller_needs_reset_{false};

@@ -3,14 +3,18 @@
 //
 // Simulated robots on the network, without ROS.
 #include <franka_sim/physics/world.h>
-#include <franka_sim/robot/errors.h>
+#include <franka_sim/robot/control_unit.h>
+#include <franka_sim/robot/realism.h>
+#include <franka_sim/serve/host.h>
 #include <franka_sim/serve/operator_commands.h>
 #include <franka_sim/serve/scene_commands.h>
+#include <franka_sim/serve/sim_robot.h>
 #include <franka_sim/simulation/files.h>
 #include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
@@ -19,6 +23,7 @@
 #include <cstring>
 #include <deque>
 #include <exception>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -27,8 +32,6 @@
 
 #include "desk_process.h"
 #include "options.h"
-#include "served_arm.h"
-#include "shutdown.h"
 #include "viewer.h"
 
 namespace franka_sim {
@@ -94,6 +97,42 @@ class WorldWatch {
   bool stopped_{false};
 };
 
+/// Delays the end of the program until its clients have disconnected. roslaunch ends a robot and
+/// its clients at the same time; without the delay the clients would report a lost robot.
+class Shutdown : public fci::Service {
+ public:
+  /// @param requested true once the end was requested
+  /// @param ended is set when no client is left, or `patience` after the request
+  Shutdown(const std::atomic<bool>& requested, std::atomic<bool>& ended,
+           std::chrono::duration<double> patience, const std::vector<fci::SimRobot*>& robots)
+      : requested_(requested), ended_(ended), patience_(patience), robots_(robots) {}
+
+  void serve() override {
+    if (!requested_) {
+      return;
+    }
+    const Clock::time_point now = Clock::now();
+    requested_at_ = requested_at_.value_or(now);
+    ended_ = !hasClients() || now - *requested_at_ >= patience_;
+  }
+  bool idle() const override { return !requested_; }
+  void addDescriptors(std::vector<pollfd>& /*fds*/) const override {}
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  bool hasClients() const {
+    return std::any_of(robots_.begin(), robots_.end(),
+                       [](const fci::SimRobot* robot) { return robot->hasClients(); });
+  }
+
+  const std::atomic<bool>& requested_;
+  std::atomic<bool>& ended_;
+  std::chrono::duration<double> patience_;
+  const std::vector<fci::SimRobot*>& robots_;
+  std::optional<Clock::time_point> requested_at_;
+};
+
 std::vector<SceneRobot> sceneRobots(const std::vector<ArmOptions>& arms) {
   std::vector<SceneRobot> robots;
   for (const ArmOptions& arm : arms) {
@@ -102,16 +141,60 @@ std::vector<SceneRobot> sceneRobots(const std::vector<ArmOptions>& arms) {
   return robots;
 }
 
+ProtocolRange servedProtocols(const ArmOptions& options) {
+  return options.protocol != 0 ? ProtocolRange{options.protocol, options.protocol}
+                               : protocolsOf(options.robot);
+}
+
+/// Protocol versions for the user, for example "3 to 5".
+std::string protocolText(const ArmOptions& options) {
+  const ProtocolRange range = servedProtocols(options);
+  const std::string newest = std::to_string(range.newest);
+  return range.oldest == range.newest ? newest : std::to_string(range.oldest) + " to " + newest;
+}
+
+// Adds the arm to the world.
+fci::SimRobot makeRobot(const ArmOptions& options, World& world) {
+  const RobotInWorld robot = addRobot(options, kServedProfile, world);
+  std::optional<fci::SimRobot::Vacuum> vacuum;
+  if (options.tool == Tool::kVacuum) {
+    vacuum.emplace();
+  }
+  std::optional<fci::SimRobot::Hand> hand;
+  if (robot.hand != nullptr && options.tool == Tool::kGripper) {
+    hand = fci::makeHand(*robot.hand, robot.physics.gripper);
+  }
+  return fci::makeSimRobot(options.ip, servedProtocols(options), robot.unit, *robot.arm, hand,
+                           vacuum, robot.physics.command_delay);
+}
+
+/// An arm of the command line, in the world and on the network.
+struct Arm {
+  const ArmOptions& options;
+  fci::SimRobot robot;
+};
+
+std::unique_ptr<Arm> addArm(const ArmOptions& options, bool locked, World& world) {
+  std::unique_ptr<Arm> arm(new Arm{options, makeRobot(options, world)});
+  const auto report = [name = options.arm_id + " at " + options.ip](const std::string& what) {
+    std::fprintf(stderr, "franka_sim: %s: %s\n", name.c_str(), what.c_str());
+  };
+  arm->robot.onCollision(report);
+  arm->robot.onRefusal(report);
+  if (locked) {
+    arm->robot.whole().start(SafetyRules::kDesk);
+    arm->robot.serve(true);  // closes its ports before a client can connect
+  }
+  return arm;
+}
+
 void serve(const Options& options) {
   World world(worldFile(options.world), resolveUri);
-  std::deque<ServedArm> arms;
+  std::vector<std::unique_ptr<Arm>> arms;
   std::vector<fci::SimRobot*> robots;
   for (const ArmOptions& arm : options.arms) {
-    robots.push_back(&arms.emplace_back(arm, world).robot());
-    if (options.locked) {
-      robots.back()->whole().start(SafetyRules::kDesk);
-      robots.back()->serve(true);  // closes its ports before a client can connect
-    }
+    arms.push_back(addArm(arm, options.locked, world));
+    robots.push_back(&arms.back()->robot);
   }
   WorldWatch watch(world, robots);
   fci::Host host([&watch] { watch.step(); }, options.pace, [&world] { world.prepareStep(); });
@@ -121,12 +204,12 @@ void serve(const Options& options) {
   host.add(shutdown);
   SceneText scene(world, [&options] { return sceneRobots(options.arms); });
   std::deque<fci::LineServer> lines;
-  for (ServedArm& arm : arms) {
-    host.add(arm.robot());
-    if (arm.options().control_port != 0) {
-      lines.emplace_back(arm.options().ip, arm.options().control_port);
+  for (const auto& arm : arms) {
+    host.add(arm->robot);
+    if (arm->options.control_port != 0) {
+      lines.emplace_back(arm->options.ip, arm->options.control_port);
       addOperatorCommands(lines.back(),
-                          {arm.robot(), arm.options().arm_id, host, world,
+                          {arm->robot, arm->options.arm_id, host, world,
                            [&] { resetWorld(world, robots, host); }, [&ended] { ended = true; }});
       addSceneCommands(lines.back(), world, scene);
       host.add(lines.back());
@@ -140,8 +223,8 @@ void serve(const Options& options) {
   if (options.viewer) {
     host.add(viewer.emplace(world, [&arms] {
       std::vector<std::string> lines;
-      for (ServedArm& arm : arms) {
-        lines.push_back(conditionText(arm.options().arm_id, arm.robot().unit().state()));
+      for (const auto& arm : arms) {
+        lines.push_back(conditionText(arm->options.arm_id, arm->robot.unit().state()));
       }
       return lines;
     }));
@@ -150,13 +233,13 @@ void serve(const Options& options) {
   if (!options.pace.standsStill()) {
     preferThisThread();
   }
-  for (const ServedArm& arm : arms) {
-    std::printf("A simulated %s waits for clients at %s (protocol %s).\n",
-                arm.options().robot.c_str(), arm.options().ip.c_str(), arm.protocols().c_str());
+  for (const ArmOptions& arm : options.arms) {
+    std::printf("A simulated %s waits for clients at %s (protocol %s).\n", arm.robot.c_str(),
+                arm.ip.c_str(), protocolText(arm).c_str());
   }
   std::fflush(stdout);
-  for (const ServedArm& arm : arms) {
-    const std::string overlaps = world.describeOverlaps(arm.options().arm_id);
+  for (const ArmOptions& arm : options.arms) {
+    const std::string overlaps = world.describeOverlaps(arm.arm_id);
     if (!overlaps.empty()) {
       std::fprintf(stderr, "franka_sim: %s Put it elsewhere with --base.\n", overlaps.c_str());
     }

@@ -19,7 +19,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "physics/model_files.h"
+#include "physics/model_compiler.h"
 #include "physics/xml_util.h"
 
 namespace franka_sim::physics {

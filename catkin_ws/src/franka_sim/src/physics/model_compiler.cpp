@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "physics/model_compiler.h"
 
+#include <franka_core/fnv_hash.h>
 #include <mujoco/mujoco.h>
 #include <sys/mman.h>
 #include <unistd.h>
@@ -10,10 +11,11 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <map>
+#include <mutex>
+#include <set>
 #include <stdexcept>
 #include <string>
-
-#include "physics/model_files.h"
 
 namespace franka_sim::physics {
 namespace {
@@ -34,6 +36,59 @@ void onError(const char* message) {
 /// MuJoCo's own handler prints and writes MUJOCO_LOG.TXT into the current folder, from inside the
 /// loop.
 void ignoreWarning(const char* /*message*/) {}
+
+/// An absolute path below which no real file can exist.
+constexpr const char* kPlace = "/dev/null/";
+
+/// Texts are passed between threads (stepping, drawing) and outlive their worlds, so the files must
+/// too.
+struct Store {
+  std::mutex mutex;
+  std::map<std::string, std::string> files;
+};
+
+Store& store() {
+  static Store store;
+  return store;
+}
+
+std::uint64_t hashOf(const std::string& content) {
+  franka_core::FnvHash hash;
+  for (const char c : content) {
+    hash.addByte(static_cast<std::uint8_t>(c));
+  }
+  return hash.value();
+}
+
+std::set<std::string> namedIn(const std::string& text) {
+  std::set<std::string> names;
+  for (std::size_t at = text.find(kPlace); at != std::string::npos; at = text.find(kPlace, at)) {
+    const std::size_t end = text.find_first_of("\"'", at);
+    names.insert(text.substr(at, end - at));
+    at = end;
+  }
+  return names;
+}
+
+/// Gives MuJoCo access to the kept files that a text names, while it compiles that text.
+/// @throws std::runtime_error with a sentence when there are too many or memory is short
+void addRegisteredFiles(const std::string& mjcf, mjVFS* files) {
+  Store& kept = store();
+  const std::lock_guard<std::mutex> lock(kept.mutex);
+  for (const std::string& name : namedIn(mjcf)) {
+    const auto found = kept.files.find(name);
+    if (found == kept.files.end()) {
+      continue;  // MuJoCo reports the missing file
+    }
+    const std::string& content = found->second;
+    if (mj_makeEmptyFileVFS(files, name.c_str(), static_cast<int>(content.size())) != 0) {
+      throw std::runtime_error("its meshes are more than " + std::to_string(mjMAXVFS - 1) +
+                               " or there is not enough memory for them.");
+    }
+    std::memcpy(files->filedata[mj_findFileVFS(files, name.c_str())], content.data(),
+                content.size());
+  }
+}
 
 }  // namespace
 
@@ -95,6 +150,19 @@ void releaseDualMatrix(const mjModel& model, mjData* data) noexcept {
 }
 
 }  // namespace
+
+std::string registerFile(const std::string& content, const std::string& extension) {
+  Store& kept = store();
+  const std::lock_guard<std::mutex> lock(kept.mutex);
+  for (std::uint64_t hash = hashOf(content);; ++hash) {
+    char number[17];
+    std::snprintf(number, sizeof number, "%016llx", static_cast<unsigned long long>(hash));
+    const auto [entry, is_new] = kept.files.emplace(kPlace + (number + extension), content);
+    if (is_new || entry->second == content) {
+      return entry->first;
+    }
+  }
+}
 
 ModelPtr compile(const std::string& mjcf, const std::string& what) {
   installEngineHandlers();

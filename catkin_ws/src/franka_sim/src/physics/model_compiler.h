@@ -41,6 +41,11 @@ struct DataDeleter {
 using ModelPtr = std::unique_ptr<mjModel, ModelDeleter>;
 using DataPtr = std::unique_ptr<mjData, DataDeleter>;
 
+/// Keeps a file's content in memory until the process ends and returns the name for MJCF texts. The
+/// same content is stored once and always has the same name. Thread-safe.
+/// @param extension with its dot, e.g. ".msh": MuJoCo derives the file's kind from it
+std::string registerFile(const std::string& content, const std::string& extension);
+
 /// Compiles an MJCF text whose files are all named by absolute paths.
 /// @param what names the text in errors, e.g. "World file /tmp/x.xml".
 /// @throws std::runtime_error "<what>: MuJoCo refuses it: ...".

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/physics/joint_drive.h>
 #include <franka_sim/robot/plant.h>
 #include <mujoco/mujoco.h>
 

@@ -8,7 +8,6 @@
 
 #include "physics/rotations.h"
 #include "physics/scene_model.h"
-#include "physics/state_carry.h"
 
 namespace franka_sim {
 

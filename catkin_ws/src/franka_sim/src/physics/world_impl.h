@@ -59,6 +59,10 @@ using Robots = std::vector<std::shared_ptr<const RobotModel>>;
 void placeInitially(const mjModel& model, mjData* data, const Robots& robots);
 /// Per MuJoCo body the index of its robot, or -1.
 std::vector<int> robotOfBody(const mjModel& model, const Robots& robots);
+/// Copies positions, velocities, warm starts and applied forces of all joints, motion-capture
+/// bodies and actuators that both models have, by name (joints without a name: by the name of their
+/// body).
+void carryState(const mjModel& from, const mjData& from_data, const mjModel& to, mjData* to_data);
 
 }  // namespace physics
 

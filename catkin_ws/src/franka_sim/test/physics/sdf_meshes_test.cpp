@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "physics/meshes.h"
-#include "physics/model_files.h"
+#include "physics/model_compiler.h"
 #include "sdf_test.h"
 
 namespace franka_sim::test {

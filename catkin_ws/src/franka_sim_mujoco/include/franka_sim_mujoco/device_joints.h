@@ -3,7 +3,7 @@
 #pragma once
 
 #include <control_toolbox/pid.h>
-#include <franka_sim/physics/joint_drive.h>
+#include <franka_sim/robot/plant.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <franka_core/tick.h>
-#include <franka_sim/physics/joint_drive.h>
 #include <franka_sim/robot/plant.h>
 
 #include <array>

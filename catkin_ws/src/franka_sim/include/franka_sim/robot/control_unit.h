@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 #include <variant>
 
 /// @file
@@ -207,5 +208,9 @@ class ControlUnit {
   struct Parts;
   std::unique_ptr<Parts> parts_;
 };
+
+/// One line for the user that describes a robot's mode and errors: `panda: Reflex,
+/// cartesian_reflex`. Not real-time safe.
+std::string conditionText(const std::string& name, const franka_core::RobotState& state);
 
 }  // namespace franka_sim

@@ -3,12 +3,10 @@
 #pragma once
 
 #include <franka_core/robot_error.h>
-#include <franka_core/robot_state.h>
 
 #include <array>
 #include <bitset>
 #include <cstddef>
-#include <string>
 
 namespace franka_sim {
 
@@ -42,9 +40,5 @@ class ErrorSet {
  private:
   std::bitset<franka_core::kErrorCount> flags_;
 };
-
-/// One line for the user that describes a robot's mode and errors: `panda: Reflex,
-/// cartesian_reflex`. Not real-time safe.
-std::string conditionText(const std::string& name, const franka_core::RobotState& state);
 
 }  // namespace franka_sim
