@@ -173,6 +173,15 @@ def test_a_launch_without_a_robot_is_reported(tmp_path):
     assert "states had no message within 1 s" in done.stderr
 
 
+def test_nodes_that_roslaunch_leaves_are_ended(tmp_path):
+    roslaunch = tmp_path / "roslaunch"
+    roslaunch.write_text("#!/bin/sh\nsetsid sleep 1000 &\nexec sleep 1000\n")
+    roslaunch.chmod(0o755)
+    (tmp_path / "rostopic").symlink_to("/bin/false")
+    done = run("--launch=a b.launch", "--start-timeout=1", "--", "true", PATH=f"{tmp_path}:/usr/bin:/bin")
+    assert done.returncode == 125 and "no message within 1 s" in done.stderr
+
+
 def test_without_ros_a_launch_is_refused(tmp_path):
     done = run("--launch=franka_gazebo panda.launch", "--", "/bin/true", PATH=str(tmp_path))
     assert done.returncode == 125 and "no program roslaunch on PATH" in done.stderr

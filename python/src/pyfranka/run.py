@@ -41,6 +41,7 @@ SIGNALLED = 128
 TO_START, TO_END = 120.0, 20.0  # [s], on a busy machine (chosen here)
 TO_REAP = 1.0  # [s] for init to reap killed children; some containers have no init that does (chosen here)
 PAUSE = 0.05  # [s] between two looks (chosen here)
+MARK = "PYFRANKA_RUN"  # a variable of roslaunch and of all that it starts
 TOPIC = "/franka_state_controller/franka_states"
 ENDING = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
@@ -121,13 +122,14 @@ class LaunchedRobot:
             "ROS_HOSTNAME": os.environ.get("ROS_HOSTNAME", "localhost"),
         }
         self.name = options.launch
+        self._mark = f"{os.getpid()}.{port}"
         self._log = tempfile.TemporaryFile(prefix="roslaunch.")
         started = None
         try:
             with held():
                 started = self._process = subprocess.Popen(
                     ["roslaunch", f"--port={port}", *shlex.split(options.launch)],
-                    env={**os.environ, **self.variables},
+                    env={**os.environ, **self.variables, MARK: self._mark},
                     stdin=subprocess.DEVNULL,
                     stdout=self._log,
                     stderr=subprocess.STDOUT,
@@ -136,7 +138,7 @@ class LaunchedRobot:
             self._wait_for(options.ready_topic, options.start_timeout)
         except BaseException:
             if started is not None:
-                end_group(started, signal.SIGINT)
+                self.stop()
             raise
 
     def log(self) -> str:
@@ -147,8 +149,9 @@ class LaunchedRobot:
         return "" if code is None else f"roslaunch has ended with status {code}."
 
     def stop(self) -> None:
-        # Its own way to end its nodes.
+        # Its own way to end its nodes. Those that it starts meanwhile can remain, in groups of their own.
         end_group(self._process, signal.SIGINT)
+        end_marked(f"{MARK}={self._mark}")
 
     def _wait_for(self, topic: str, seconds: float) -> None:
         deadline = time.monotonic() + seconds
@@ -202,6 +205,27 @@ def end_group(process: subprocess.Popen, number: int) -> None:
             os.killpg(process.pid, 0)
             time.sleep(PAUSE)
     process.wait()
+
+
+def end_marked(variable: str) -> None:
+    """Ends all processes with this variable, and waits for their end."""
+    for number in (signal.SIGINT, signal.SIGKILL):
+        deadline = time.monotonic() + TO_END
+        for pid in marked(variable):
+            with suppress(ProcessLookupError):
+                os.kill(pid, number)
+        while time.monotonic() < deadline and marked(variable):
+            time.sleep(PAUSE)
+
+
+def marked(variable: str) -> list[int]:
+    """The processes with this variable."""
+    found = []
+    for folder in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):  # it has ended, or is another user's
+            if variable.encode() in (folder / "environ").read_bytes().split(b"\0"):
+                found.append(int(folder.name))
+    return found
 
 
 def run_command(words: Sequence[str], variables: dict[str, str], seconds: float) -> int:
