@@ -220,14 +220,18 @@ class Diagnosis:
 
 
 def go_to_height(arm: Arm, publisher: rospy.Publisher, height: float) -> None:
-    """Moves the target of the Cartesian impedance controller, and waits for a third of the way."""
+    """Moves the target of the Cartesian impedance controller, and waits for a third of the way.
+
+    Not if it is nearer than 2 cm: the joints' friction holds an arm at rest against 200 N/m. Measured:
+    at 12 mm it does not move at all, and from 30 mm it comes as near as 16 to 19 mm.
+    """
     wait_for(publisher.get_num_connections, "The controller's subscription")
     target = PoseStamped()
     target.header.frame_id = f"{arm.name}_link0"
     x, y, z = arm.state.O_T_EE[12:15]
     target.pose.position.x, target.pose.position.y, target.pose.position.z = x, y, height
     target.pose.orientation.x = 1.0
-    rest = max(abs(height - z) * 2 / 3, 0.005)
+    rest = max(abs(height - z) * 2 / 3, 0.02)
 
     def gets_near():
         publisher.publish(target)  # again: a controller that restarts after a recovery forgets its target

@@ -509,7 +509,19 @@ TEST_F(Datagrams, InvalidOneStopsAMotionThatStarts) {
   });
   EXPECT_THROW(robot->control(endlessTorques()), franka::ProtocolException);
   EXPECT_EQ(1, fake.count(Command::kStopMove));
-  EXPECT_NO_THROW(robot->readOnce());
+  const auto reads = [this] {
+    try {
+      robot->readOnce();
+      return true;
+    } catch (const franka::ProtocolException&) {
+      return false;
+    }
+  };
+  int invalid = 0;  // some may still be in transit
+  while (!reads() && invalid < 100) {
+    invalid++;
+  }
+  EXPECT_LT(invalid, 100);
 }
 
 }  // namespace
