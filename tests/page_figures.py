@@ -162,7 +162,7 @@ def fidelity():
         constant(ROBOT + "laws/control_laws.cpp", f"kGuiding{what} = #;")
         for what in ("Translation", "Rotation", "Nullspace")
     ]
-    yielding = constant(ROBOT + "motion/rest_sequence.cpp", "kYieldTicks = #;") * tick
+    yielding = constant(ROBOT + "motion/motion_generator.cpp", "kYieldTicks = #;") * tick
     rate_test = TESTS + "robot/modes_and_requests_test.cpp"
     rate_in_move = constant(rate_test, "EXPECT_EQ(#, run(5, &zero).control_command_success_rate)")
     rate_in_idle = constant(rate_test, "EXPECT_EQ(#, run(5).control_command_success_rate)")
@@ -245,7 +245,7 @@ def fidelity():
         ("and # % raises an error", 100 * constant(LIMITS_TEST, FAILS)),
         ("stop within # ms", 1000 * tick),
         ("yields for # s", yielding),
-        ("rate is # Hz", round(1000 / constant(HEADERS + "fci/hand_server.h", "kStatePeriod{#};"))),
+        ("rate is # Hz", round(1000 / constant("franka_sim/src/fci/hand_server.h", "kStatePeriod{#};"))),
         (
             "# degrees Celsius at rest, up to # more under # N",
             [

@@ -3,7 +3,6 @@
 // Worlds with robots in this process; pyfranka/sim gives them their Python interface.
 #include <franka_core/numbers.h>
 #include <franka_sim/robot/control_unit_parameters.h>
-#include <franka_sim/simulation/files.h>
 #include <franka_sim/simulation/robot_setup.h>
 #include <pybind11/stl.h>
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <franka_sim/physics/renderer.h>
-#include <franka_sim/simulation/simulation_server.h>
+#include <franka_sim/simulation/simulation.h>
 
 #include <atomic>
 #include <functional>

@@ -503,7 +503,7 @@ class Remote:
             self._connection = None
             keep = False
             try:
-                answer = connection.ask(line, deadline, limit)
+                answer = connection.exchange(line, deadline, limit)
                 refused = FULL.match(answer) is not None
                 keep = self._held and not refused
             finally:
@@ -535,7 +535,7 @@ class _Connection:
     def close(self) -> None:
         self._socket.close()
 
-    def ask(self, line: str, deadline: float, limit: float) -> str:
+    def exchange(self, line: str, deadline: float, limit: float) -> str:
         try:
             self._socket.settimeout(_left(deadline))
             self._socket.sendall(line.encode() + b"\n")

@@ -238,13 +238,13 @@ def run_command(words: Sequence[str], variables: dict[str, str], seconds: float)
             )
         code = process.wait(seconds or None)
     except FileNotFoundError:
-        say(f"there is no program {words[0]}.")
+        print_line(f"there is no program {words[0]}.")
         return NOT_FOUND
     except OSError as error:
-        say(f"{words[0]} cannot be run: {error.strerror}.")
+        print_line(f"{words[0]} cannot be run: {error.strerror}.")
         return NOT_RUN
     except subprocess.TimeoutExpired:
-        say(f"the command did not end within {seconds:g} s.")
+        print_line(f"the command did not end within {seconds:g} s.")
         return TIMED_OUT
     finally:
         if process is not None:  # also what the command has left running
@@ -252,7 +252,7 @@ def run_command(words: Sequence[str], variables: dict[str, str], seconds: float)
     return code if code >= 0 else SIGNALLED - code
 
 
-def say(sentence: str) -> None:
+def print_line(sentence: str) -> None:
     print(f"pyfranka-run: {sentence}", file=sys.stderr, flush=True)
 
 
@@ -266,15 +266,15 @@ def with_robot(options: argparse.Namespace) -> int:
         else:
             with held():
                 robot = ServedRobot(options)
-        say(f"the robot is ready: {robot.name}")
+        print_line(f"the robot is ready: {robot.name}")
         status = run_command(options.command, robot.variables, options.timeout)
         if message := robot.ended():
-            say(f"the robot ended before the command. {message}")
+            print_line(f"the robot ended before the command. {message}")
             status = status or NO_ROBOT
     except RobotError as error:
-        say(f"the robot did not start:\n{error}")
+        print_line(f"the robot did not start:\n{error}")
     except Interrupted as error:
-        say(f"ended by {signal.Signals(error.number).name}.")
+        print_line(f"ended by {signal.Signals(error.number).name}.")
         status = SIGNALLED + error.number
     if robot is not None:
         status = stop(robot, status)
@@ -287,7 +287,7 @@ def stop(robot: ServedRobot | LaunchedRobot, status: int) -> int:
     try:
         robot.stop()
     except RobotError as error:
-        say(str(error))
+        print_line(str(error))
         return status or NO_ROBOT
     return status
 
@@ -297,9 +297,9 @@ def report(robot: ServedRobot | LaunchedRobot, status: int, file: Path | None) -
         try:
             file.write_text(robot.log(), encoding="utf-8")
         except OSError as error:
-            say(f"the log cannot be written to {file}: {error.strerror}.")
+            print_line(f"the log cannot be written to {file}: {error.strerror}.")
     if status != 0:
-        say(f"status {status}; the robot's last lines:\n{last_lines(robot.log())}")
+        print_line(f"status {status}; the robot's last lines:\n{last_lines(robot.log())}")
 
 
 def seconds(text: str) -> float:

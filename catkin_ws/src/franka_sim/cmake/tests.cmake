@@ -1,9 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 
-# rt_guard.h proves that loops do not allocate or lock.
-set(FRANKA_TEST_INCLUDE_DIR ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include)
-
 # A package that was copied out of the project has no tests.
 include(${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/source_file.cmake OPTIONAL RESULT_VARIABLE found)
 if(NOT found)
@@ -23,7 +20,7 @@ function(sim_test name)
     add_test(NAME ${test} COMMAND ${test})
     set_tests_properties(${test} PROPERTIES TIMEOUT 240)
   endif()
-  target_include_directories(${test} PRIVATE ${FRANKA_TEST_INCLUDE_DIR} src ${MUJOCO_INCLUDE_DIR})
+  target_include_directories(${test} PRIVATE src ${MUJOCO_INCLUDE_DIR})
   target_link_libraries(${test} ${ARG_LIBRARIES} franka_source_file ${CMAKE_DL_LIBS}
                         Threads::Threads)
 endfunction()

@@ -18,9 +18,10 @@ catkin_add_gtest(${PROJECT_NAME}_parts_test
   test/sim_arm_test.cpp
   TIMEOUT 240)
 if(TARGET ${PROJECT_NAME}_parts_test)
-  # Test helpers of franka_sim, which only the source space has.
+  # Test helpers and parts of franka_sim, which only the source space has.
   target_include_directories(${PROJECT_NAME}_parts_test PRIVATE
-    src ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include ${CMAKE_CURRENT_SOURCE_DIR}/../franka_sim/test)
+    src ${CMAKE_CURRENT_SOURCE_DIR}/../../../tests/include ${CMAKE_CURRENT_SOURCE_DIR}/../franka_sim/test
+    ${CMAKE_CURRENT_SOURCE_DIR}/../franka_sim/src)
   target_link_libraries(${PROJECT_NAME}_parts_test
     franka_sim_ros gtest_main ${CMAKE_DL_LIBS} Threads::Threads)
 endif()

@@ -6,7 +6,6 @@
 #include <franka_core/joint_limiter.h>
 #include <franka_core/transform.h>
 #include <franka_sim/robot/plant.h>
-#include <franka_sim/robot/transforms.h>
 #include <franka_sim_mujoco/command_shaper.h>
 
 #include <algorithm>
@@ -94,9 +93,9 @@ Joints shapeVelocities(const ShapingOptions& options, Joints dq,
   return dq;
 }
 
-franka_sim::Transform shapePose(const ShapingOptions& options, franka_sim::Transform pose,
-                                const franka_core::RobotState& state,
-                                const franka_sim::MotionLimits& limits) {
+std::array<double, 16> shapePose(const ShapingOptions& options, std::array<double, 16> pose,
+                                 const franka_core::RobotState& state,
+                                 const franka_sim::MotionLimits& limits) {
   if (isFiltered(options)) {
     pose = franka::cartesianLowpassFilter(kTick, pose, state.O_T_EE_c, options.cutoff_frequency);
   }

@@ -4,8 +4,8 @@
 /// @file
 /// SimServices: Gazebo's services for lights.
 
-#include <franka_sim/physics/lights.h>
 #include <franka_sim/physics/pose_conversions.h>
+#include <franka_sim/physics/world_properties.h>
 #include <gazebo_msgs/DeleteLight.h>
 #include <gazebo_msgs/GetLightProperties.h>
 #include <gazebo_msgs/SetLightProperties.h>

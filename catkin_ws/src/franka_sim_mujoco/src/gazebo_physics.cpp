@@ -6,8 +6,8 @@
 /// What a running simulation cannot change is refused with a sentence.
 
 #include <franka_core/numbers.h>
-#include <franka_sim/physics/body_properties.h>
 #include <franka_sim/physics/pose_conversions.h>
+#include <franka_sim/physics/world_properties.h>
 #include <gazebo_msgs/ApplyBodyWrench.h>
 #include <gazebo_msgs/ApplyJointEffort.h>
 #include <gazebo_msgs/BodyRequest.h>

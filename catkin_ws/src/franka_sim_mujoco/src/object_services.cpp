@@ -4,7 +4,7 @@
 /// @file
 /// SimServices: objects, states, gravity and snapshots.
 
-#include <franka_sim/physics/body_properties.h>
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim_mujoco/DeleteObject.h>
 #include <franka_sim_mujoco/GetBodyState.h>
 #include <franka_sim_mujoco/GetJointStates.h>

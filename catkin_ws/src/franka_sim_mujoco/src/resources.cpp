@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "resources.h"
 
-#include <franka_sim/simulation/files.h>
+#include <franka_sim/simulation/robot_setup.h>
 #include <ros/package.h>
 
 #include <cstdlib>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot_instance.h"
 
-#include <franka_sim/physics/urdf_text.h>
+#include <franka_sim/physics/world.h>
 #include <franka_sim/robot/control_unit.h>
 #include <ros/console.h>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/numbers.h>
 #include <franka_sim/physics/physics_config.h>
-#include <franka_sim/physics/urdf_text.h>
+#include <franka_sim/physics/world.h>
 #include <franka_sim/robot/realism.h>
 #include <ros/console.h>
 #include <transmission_interface/transmission_parser.h>

@@ -53,7 +53,7 @@ void fill(franka_sim::fci::SimRobot& robot, GetServedRobot::Response& response) 
   const franka_core::RobotState& state = robot.unit().state();
   response.text = franka_sim::fci::describe(robot);
   response.mode = static_cast<std::uint8_t>(state.robot_mode);
-  response.protocol = robot.server().version();
+  response.protocol = robot.clientVersion();
   for (std::size_t i = 0; i < state.errors.size(); ++i) {
     if (state.errors[i]) {
       response.errors.emplace_back(franka_core::kErrorNames[i]);

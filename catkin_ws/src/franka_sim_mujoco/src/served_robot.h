@@ -4,7 +4,7 @@
 
 #include <franka_sim/serve/host.h>
 #include <franka_sim/serve/line_server.h>
-#include <franka_sim/serve/scene_commands.h>
+#include <franka_sim/serve/operator_commands.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 

@@ -67,23 +67,23 @@ void SimArm::read(const ros::Time& time) noexcept {
   if (options_.filter_alpha < 1.0) {
     filter();
   }
-  show();
-  watch();
+  updateState();
+  reportCondition();
 }
 
-void SimArm::show() noexcept {
+void SimArm::updateState() noexcept {
   franka_core::toFranka(unit_.state(), state_);
   state_.time = time_;
   if (options_.filter_alpha < 1.0) {
     state_.tau_ext_hat_filtered = tau_ext_filtered_;
     state_.O_F_ext_hat_K = O_F_ext_filtered_;
     state_.K_F_ext_hat_K = K_F_ext_filtered_;
-    showContacts();
+    updateContacts();
   }
 }
 
 // The manual's formulas use the published values; reflexes have a different rule.
-void SimArm::showContacts() noexcept {
+void SimArm::updateContacts() noexcept {
   if (hasReflexes(unit_.configuration().rules)) {
     return;
   }
@@ -122,7 +122,7 @@ const franka_core::RobotCommand* SimArm::command() noexcept {
 }
 
 // Passes the condition of the arm to other threads.
-void SimArm::watch() noexcept {
+void SimArm::reportCondition() noexcept {
   const bool faulty = unit_.state().robot_mode == RobotMode::kReflex;
   if (faulty && !faulty_.load(std::memory_order_relaxed)) {
     ++last_abort_.count;
@@ -195,7 +195,7 @@ void SimArm::tryToStart() noexcept {
   resetCommands();
   // Controllers that start in this tick read the start of the new motion, not the end of the old
   // one: a step in the first position would make every rate limiter oscillate.
-  show();
+  updateState();
 }
 
 void SimArm::stopMotion() noexcept { unit_.request(franka_core::fci::StopMoveRequest{}); }

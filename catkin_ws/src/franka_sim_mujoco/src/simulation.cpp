@@ -3,8 +3,7 @@
 #include "simulation.h"
 
 #include <franka_core/numbers.h>
-#include <franka_sim/physics/bare_steps.h>
-#include <franka_sim/physics/urdf_text.h>
+#include <franka_sim/physics/world.h>
 #include <ros/console.h>
 
 #include <algorithm>

@@ -4,7 +4,6 @@
 /// @file
 /// Commands of controllers on their way to the control unit.
 
-#include <franka_sim/robot/motion/joint_motion.h>
 #include <franka_sim/robot/plant.h>
 #include <franka_sim_mujoco/command_shaper.h>
 #include <franka_sim_mujoco/sim_arm.h>
@@ -16,6 +15,7 @@
 #include <cmath>
 
 #include "robot/arm_fixture.h"
+#include "robot/motion/joint_motion.h"
 
 namespace franka_sim_mujoco {
 namespace {

@@ -91,7 +91,7 @@ class Live:
         if number not in self.worlds:
             robot = self.desks[number].robot
             async with Connection(robot.address, robot.port) as connection:
-                text = await connection.ask("scene", LINE_LIMIT)
+                text = await connection.exchange("scene", LINE_LIMIT)
             if number not in self.worlds:  # another request may have been faster
                 self._add_to_world(number, text)
         return self.worlds[number]
@@ -177,7 +177,7 @@ class Live:
                 connection = Connection(robot.address, robot.port)
                 await connection.open()
                 world.connection = connection
-            text = await world.connection.ask("poses", LINE_LIMIT)
+            text = await world.connection.exchange("poses", LINE_LIMIT)
         except (Refused, RobotGone):
             if world.connection is not None:
                 world.connection.close()
@@ -233,7 +233,7 @@ def control_of(desk: Desk) -> dict:
 async def _read_mesh(connection: Connection, name: str) -> bytes:
     parts, offset, size = [], 0, 0
     while offset is not None:
-        chunk = json.loads(await connection.ask(f"mesh {name} {offset}", LINE_LIMIT))
+        chunk = json.loads(await connection.exchange(f"mesh {name} {offset}", LINE_LIMIT))
         if not parts:
             parts.append(struct.pack("<II", chunk["vertices"], chunk["faces"]))
         parts.append(base64.b64decode(chunk["data"]))

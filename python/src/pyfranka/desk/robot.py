@@ -115,7 +115,7 @@ class Robot:
         async with self._urgent if urgent else self._lines:
             async with Connection(self.address, self.port) as connection:
                 try:
-                    return await connection.ask(line, LINE_LIMIT)
+                    return await connection.exchange(line, LINE_LIMIT)
                 finally:
                     with contextlib.suppress(RobotGone):
                         await self._ask_report(connection)
@@ -138,7 +138,7 @@ class Robot:
         self._asked += 1
         number = self._asked
         try:
-            text = await connection.ask("report", REPORT_LIMIT)
+            text = await connection.exchange("report", REPORT_LIMIT)
         except Refused as refused:
             raise RobotGone(
                 f"The robot at {self.place} gives no reports: {refused.sentence} Use franka_sim and "
@@ -204,7 +204,7 @@ class Connection:
         """Ends the connection."""
         self._writer.close()
 
-    async def ask(self, line: str, limit: float) -> str:
+    async def exchange(self, line: str, limit: float) -> str:
         """Sends a line; returns the text after `ok` in its answer, which must arrive within that time [s].
         Raises Refused or RobotGone; after the latter the connection cannot be used."""
         try:

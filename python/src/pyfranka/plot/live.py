@@ -47,15 +47,15 @@ class Window:
         # Tk swallows exceptions of its callbacks, also KeyboardInterrupt.
         before = signal.signal(signal.SIGINT, lambda number, _: asked.append(number))
 
-        def look() -> None:
+        def poll() -> None:
             if asked:
                 self.root.quit()
             else:
-                self.root.after(PERIOD, look)
+                self.root.after(PERIOD, poll)
 
         try:
             self.canvas.draw()
-            look()
+            poll()
             self.root.mainloop()
             self.root.destroy()
         finally:

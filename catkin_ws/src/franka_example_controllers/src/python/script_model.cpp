@@ -28,7 +28,7 @@ class ScriptModel {
 
   /// Result of `compute` for the handle, as an array of a shape.
   template <typename Compute>
-  py::array_t<double> ask(Shape shape, Compute compute) const {
+  py::array_t<double> evaluate(Shape shape, Compute compute) const {
     if (!gate_->enter()) {
       throw std::runtime_error(
           "The model may be used only within starting() and update(), by the thread that runs "
@@ -49,7 +49,7 @@ void bindDynamics(py::class_<ScriptModel>& type) {
   type.def(
           "mass",
           [](const ScriptModel& self) {
-            return self.ask(Shape::kMass, [](const auto& model) { return model.getMass(); });
+            return self.evaluate(Shape::kMass, [](const auto& model) { return model.getMass(); });
           },
           "Mass matrix, 7x7 [kg m^2].")
       .def(
@@ -59,7 +59,7 @@ void bindDynamics(py::class_<ScriptModel>& type) {
             const auto q_values = arrayOf<7>(q, "q");
             const auto inertia = arrayOf<9>(total_inertia, "total_inertia");
             const auto center = arrayOf<3>(F_x_Ctotal, "F_x_Ctotal");
-            return self.ask(Shape::kMass, [&](const auto& model) {
+            return self.evaluate(Shape::kMass, [&](const auto& model) {
               return model.getMass(q_values, inertia, total_mass, center);
             });
           },
@@ -68,7 +68,8 @@ void bindDynamics(py::class_<ScriptModel>& type) {
       .def(
           "coriolis",
           [](const ScriptModel& self) {
-            return self.ask(Shape::kVector, [](const auto& model) { return model.getCoriolis(); });
+            return self.evaluate(Shape::kVector,
+                                 [](const auto& model) { return model.getCoriolis(); });
           },
           "Coriolis torques C(q, dq) dq, 7 [Nm].")
       .def(
@@ -79,7 +80,7 @@ void bindDynamics(py::class_<ScriptModel>& type) {
             const auto dq_values = arrayOf<7>(dq, "dq");
             const auto inertia = arrayOf<9>(total_inertia, "total_inertia");
             const auto center = arrayOf<3>(F_x_Ctotal, "F_x_Ctotal");
-            return self.ask(Shape::kVector, [&](const auto& model) {
+            return self.evaluate(Shape::kVector, [&](const auto& model) {
               return model.getCoriolis(q_values, dq_values, inertia, total_mass, center);
             });
           },
@@ -90,8 +91,8 @@ void bindDynamics(py::class_<ScriptModel>& type) {
           [](const ScriptModel& self, const py::object& gravity_earth) {
             const auto gravity =
                 gravity_earth.is_none() ? kGravity : arrayOf<3>(gravity_earth, "gravity_earth");
-            return self.ask(Shape::kVector,
-                            [&](const auto& model) { return model.getGravity(gravity); });
+            return self.evaluate(Shape::kVector,
+                                 [&](const auto& model) { return model.getGravity(gravity); });
           },
           py::arg("gravity_earth") = py::none(),
           "Gravity torques, 7 [Nm], for gravity in O, 3 [m/s^2], by default (0, 0, -9.81).")
@@ -103,7 +104,7 @@ void bindDynamics(py::class_<ScriptModel>& type) {
             const auto center = arrayOf<3>(F_x_Ctotal, "F_x_Ctotal");
             const auto gravity =
                 gravity_earth.is_none() ? kGravity : arrayOf<3>(gravity_earth, "gravity_earth");
-            return self.ask(Shape::kVector, [&](const auto& model) {
+            return self.evaluate(Shape::kVector, [&](const auto& model) {
               return model.getGravity(q_values, total_mass, center, gravity);
             });
           },
@@ -118,7 +119,7 @@ void bindFrame(py::class_<ScriptModel>& type, const char* name, Shape shape, Get
   type.def(
           name,
           [=](const ScriptModel& self, Frame frame) {
-            return self.ask(shape, [&](const auto& model) { return get(model, frame); });
+            return self.evaluate(shape, [&](const auto& model) { return get(model, frame); });
           },
           py::arg("frame"), doc)
       .def(
@@ -128,8 +129,8 @@ void bindFrame(py::class_<ScriptModel>& type, const char* name, Shape shape, Get
             const auto q_values = arrayOf<7>(q, "q");
             const auto ee = arrayOf<16>(F_T_EE, "F_T_EE");
             const auto k = arrayOf<16>(EE_T_K, "EE_T_K");
-            return self.ask(shape,
-                            [&](const auto& model) { return get(model, frame, q_values, ee, k); });
+            return self.evaluate(
+                shape, [&](const auto& model) { return get(model, frame, q_values, ee, k); });
           },
           py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"),
           "The same for joint positions, 7 [rad], and the poses of EE and K, 4x4.");

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/fci/sockets.h>
 #include <franka_sim/serve/host.h>
 #include <sys/types.h>
 
 #include <chrono>
 
+#include "fci/sockets.h"
 #include "options.h"
 
 namespace franka_sim {

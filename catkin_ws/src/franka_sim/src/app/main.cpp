@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // Simulated robots on the network, without ROS.
+#include <franka_sim/physics/window.h>
 #include <franka_sim/physics/world.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/realism.h>
 #include <franka_sim/serve/host.h>
 #include <franka_sim/serve/operator_commands.h>
-#include <franka_sim/serve/scene_commands.h>
 #include <franka_sim/serve/sim_robot.h>
-#include <franka_sim/simulation/files.h>
+#include <franka_sim/simulation/robot_setup.h>
 #include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
@@ -23,16 +23,19 @@
 #include <cstring>
 #include <deque>
 #include <exception>
+#include <functional>
+#include <future>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
 #include "desk_process.h"
 #include "options.h"
-#include "viewer.h"
 
 namespace franka_sim {
 namespace {
@@ -44,6 +47,115 @@ std::atomic<bool> end_requested{false};  // set by a signal
 constexpr std::chrono::milliseconds kIdleInterval{10};
 
 void requestEnd(int /*signal*/) { end_requested = true; }
+
+constexpr std::chrono::milliseconds kFrame{33};
+
+/// A window with the world, in its own thread. If it is closed, the simulation continues. As a
+/// service of the host it copies what the window shows, and pushes what the mouse pulls at, in the
+/// thread that runs the world.
+class Viewer final : public fci::Service {
+ public:
+  /// One line per robot for the user: its mode and errors.
+  using Lines = std::function<std::vector<std::string>()>;
+
+  /// Returns when the window is open.
+  /// @param world, lines used by the host's thread
+  /// @throws std::runtime_error if there is no display
+  Viewer(World& world, Lines lines);
+  ~Viewer() override;
+  Viewer(const Viewer&) = delete;
+  Viewer& operator=(const Viewer&) = delete;
+
+  void serve() override;
+  bool idle() const override { return closed_; }
+  void addDescriptors(std::vector<pollfd>&) const override {}
+
+ private:
+  /// What a frame shows.
+  struct View {
+    Scene scene;
+    std::vector<std::string> texts;
+  };
+
+  void loop(std::promise<void> opened);
+
+  World& world_;
+  Lines lines_;
+  PushByMouse push_;
+  std::chrono::steady_clock::time_point next_view_;
+  std::mutex mutex_;          ///< of the next two
+  std::optional<View> view_;  ///< not drawn yet
+  std::optional<BodyPush> pull_;
+  std::atomic<bool> stop_{false}, closed_{false};
+  std::thread thread_;
+};
+
+Viewer::Viewer(World& world, Lines lines) : world_(world), lines_(std::move(lines)) {
+  std::promise<void> opened;
+  std::future<void> open = opened.get_future();
+  thread_ =
+      std::thread([this, promise = std::move(opened)]() mutable { loop(std::move(promise)); });
+  try {
+    open.get();
+  } catch (...) {
+    thread_.join();
+    throw;
+  }
+}
+
+Viewer::~Viewer() {
+  stop_ = true;
+  thread_.join();
+}
+
+void Viewer::serve() {
+  const auto now = std::chrono::steady_clock::now();
+  if (closed_ || now < next_view_) {
+    return;
+  }
+  next_view_ = now + kFrame;
+  std::optional<BodyPush> pull;
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    pull = pull_;
+  }
+  push_.act(world_, pull);
+  View view{captureScene(world_), lines_()};
+  const std::lock_guard<std::mutex> lock(mutex_);
+  view_ = std::move(view);
+}
+
+void Viewer::loop(std::promise<void> opened) {
+  std::optional<Window> window;
+  try {
+    window.emplace("franka_sim");
+  } catch (...) {
+    opened.set_exception(std::current_exception());
+    return;
+  }
+  opened.set_value();
+  try {
+    bool open = true;
+    std::optional<View> shown;
+    while (open && !stop_) {
+      const auto next = std::chrono::steady_clock::now() + kFrame;
+      {
+        const std::lock_guard<std::mutex> lock(mutex_);
+        if (view_) {
+          shown = std::exchange(view_, std::nullopt);
+        }
+        pull_ = window->push();
+      }
+      if (shown) {
+        open = window->draw(shown->scene, shown->texts);
+      }
+      std::this_thread::sleep_until(next);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "franka_sim runs without its window: %s\n", error.what());
+  }
+  closed_ = true;
+}
 
 // Gives the ticks priority over other processes, or reports why the system does not allow it: their
 // punctuality then depends on the load of the machine. Memory stays in place from its first use on:

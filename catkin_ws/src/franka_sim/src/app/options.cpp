@@ -5,8 +5,7 @@
 #include <franka_core/fci/protocol.h>
 #include <franka_core/numbers.h>
 #include <franka_core/spin_rule.h>
-#include <franka_sim/fci/sockets.h>
-#include <franka_sim/physics/body_properties.h>
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/robot/realism.h>
 
 #include <CLI/CLI.hpp>
@@ -19,6 +18,8 @@
 #include <stdexcept>
 #include <utility>
 #include <vector>
+
+#include "fci/sockets.h"
 
 namespace franka_sim {
 

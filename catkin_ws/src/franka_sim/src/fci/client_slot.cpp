@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "fci/client_slot.h"
+
 #include <arpa/inet.h>
-#include <franka_sim/fci/client_slot.h>
 
 #include <algorithm>
 #include <utility>

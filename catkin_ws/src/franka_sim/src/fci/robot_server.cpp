@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "fci/robot_server.h"
+
 #include <arpa/inet.h>
-#include <franka_sim/fci/robot_server.h>
 
 #include <iterator>
 #include <type_traits>

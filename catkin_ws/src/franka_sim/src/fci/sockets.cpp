@@ -1,8 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "fci/sockets.h"
+
 #include <arpa/inet.h>
 #include <fcntl.h>
-#include <franka_sim/fci/sockets.h>
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>

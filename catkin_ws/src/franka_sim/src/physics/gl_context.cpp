@@ -12,8 +12,6 @@
 #include <stdexcept>
 #include <vector>
 
-#include "physics/run_time_library.h"
-
 namespace franka_sim::physics {
 namespace {
 

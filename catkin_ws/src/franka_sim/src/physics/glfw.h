@@ -4,7 +4,10 @@
 
 #include <GLFW/glfw3.h>
 
-#include "physics/run_time_library.h"
+#include <stdexcept>
+#include <string>
+
+#include "physics/gl_context.h"
 
 namespace franka_sim::physics {
 
@@ -53,6 +56,18 @@ struct Glfw {
 
 /// Loads the library at the first call. Thread-safe.
 /// @throws std::runtime_error with the package to install if the machine does not have it
-const Glfw& glfw();
+inline const Glfw& glfw() {
+  static const Glfw functions = [] {
+    try {
+      return Glfw();
+    } catch (const std::runtime_error& error) {
+      throw std::runtime_error("The simulation's window cannot be opened (" +
+                               std::string(error.what()) +
+                               "); install the package libglfw3, or start without the window "
+                               "(without --viewer; in ROS headless:=true).");
+    }
+  }();
+  return functions;
+}
 
 }  // namespace franka_sim::physics

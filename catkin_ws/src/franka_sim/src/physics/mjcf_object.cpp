@@ -3,7 +3,7 @@
 #include "physics/mjcf_object.h"
 
 #include <franka_sim/physics/pose_conversions.h>
-#include <franka_sim/physics/urdf_text.h>
+#include <franka_sim/physics/world.h>
 
 #include <stdexcept>
 
@@ -20,7 +20,7 @@ namespace {
 
 using tinyxml2::XMLElement;
 
-/// An SDF scene of one model from an URDF.
+/// An SDF scene of one model from a URDF.
 class SceneBuilder {
  public:
   SceneBuilder(const UrdfRobot& urdf, const std::string& name, const ResourceResolver& resolve)

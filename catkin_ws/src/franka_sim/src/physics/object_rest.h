@@ -8,7 +8,6 @@
 
 #include "physics/contacts.h"
 #include "physics/joint_dynamics.h"
-#include "physics/ownership.h"
 
 namespace franka_sim::physics {
 

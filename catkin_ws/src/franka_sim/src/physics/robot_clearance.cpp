@@ -175,9 +175,9 @@ class RobotClearance::Margins {
 };
 
 /// Checks one pose with several margins. Restores positions and contacts at its end.
-class RobotClearance::Look {
+class RobotClearance::Scan {
  public:
-  Look(RobotClearance& clearance, mjModel* model, mjData* data) noexcept
+  Scan(RobotClearance& clearance, mjModel* model, mjData* data) noexcept
       : clearance_(clearance),
         model_(model),
         data_(data),
@@ -188,14 +188,14 @@ class RobotClearance::Look {
     std::copy_n(data->contact, contacts_, clearance.kept_contacts_.begin());
     mj_kinematics(model, data);
   }
-  ~Look() {
+  ~Scan() {
     copyQuaternions(*model_, clearance_.kept_qpos_.data(), data_->qpos);
     std::copy_n(clearance_.kept_contacts_.begin(), contacts_, data_->contact);
     data_->ncon = contacts_;
     data_->warning[mjWARN_CONTACTFULL] = full_;
   }
-  Look(const Look&) = delete;
-  Look& operator=(const Look&) = delete;
+  Scan(const Scan&) = delete;
+  Scan& operator=(const Scan&) = delete;
 
   /// Whether nothing is within a margin of a robot.
   bool isFree(std::size_t margin) {
@@ -298,24 +298,24 @@ double RobotClearance::maxDisplacement(const double* qpos, const double* others)
 
 // From wide to narrow, beginning with the last free margin.
 void RobotClearance::check(mjModel* model, mjData* data) {
-  Look look(*this, model, data);
+  Scan scan(*this, model, data);
   std::size_t margin = state_.margin;
-  bool free = look.isFree(margin);
-  if (free && margin > 0 && look.isFree(margin - 1)) {
+  bool free = scan.isFree(margin);
+  if (free && margin > 0 && scan.isFree(margin - 1)) {
     --margin;
   }
   while (!free && margin + 1 < kMargins.size()) {
     ++margin;
-    free = look.isFree(margin);
+    free = scan.isFree(margin);
   }
   state_.margin = margin;
-  state_.way = kAllowed * look.free();
-  state_.objects_way = kAllowed * look.freeOfObjects();
-  state_.until_check = look.free() > 0.0 ? ticksOfCreep(look.free()) : kRetry;
+  state_.way = kAllowed * scan.free();
+  state_.objects_way = kAllowed * scan.freeOfObjects();
+  state_.until_check = scan.free() > 0.0 ? ticksOfCreep(scan.free()) : kRetry;
 }
 
 // The motion of robots since the last check, and in this tick.
-void RobotClearance::judge(double way, const mjData& data) noexcept {
+void RobotClearance::updateClear(double way, const mjData& data) noexcept {
   const double ahead = way + franka_core::kTick * largestSum([&](const Joint& joint) {
                                return data.qvel[joint.dof];
                              });
@@ -332,7 +332,7 @@ void RobotClearance::startTick(mjModel* model, mjData* data) {
   const double way = maxDisplacement(data->qpos, state_.checked_qpos.data());
   const bool was_clear = state_.clear;
   const bool were_objects_clear = state_.objects_clear;
-  judge(way, *data);
+  updateClear(way, *data);
   const bool ends = (was_clear && !state_.clear) || (were_objects_clear && !state_.objects_clear);
   if (ends || state_.until_check <= 0) {
     state_.until_check = kRetry;
@@ -340,7 +340,7 @@ void RobotClearance::startTick(mjModel* model, mjData* data) {
     if (owners_->objectsRest(*data) && way < kNoWay) {
       std::copy_n(data->qpos, model->nq, state_.checked_qpos.begin());
       check(model, data);
-      judge(0.0, *data);
+      updateClear(0.0, *data);
       state_.until_check = state_.clear ? state_.until_check : kRetry;
     }
   }

@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <vector>
 
-#include "physics/ownership.h"
+#include "physics/contacts.h"
 
 namespace franka_sim::physics {
 
@@ -98,12 +98,12 @@ class RobotClearance {
     double reach;  ///< [m/rad], 1 for a joint that slides
   };
   class Margins;
-  class Look;
+  class Scan;
 
   void fitJoints(const mjModel& model);
   template <typename Change>
   double largestSum(const Change& change) noexcept;
-  void judge(double way, const mjData& data) noexcept;
+  void updateClear(double way, const mjData& data) noexcept;
   void check(mjModel* model, mjData* data);
 
   bool used_{true};

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/physics/lights.h>
 #include <franka_sim/physics/renderer.h>
+#include <franka_sim/physics/world_properties.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/physics/lights.h>
 #include <franka_sim/physics/pose_conversions.h>
 #include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_properties.h>
 
 #include <Eigen/Geometry>
 #include <array>
@@ -22,7 +22,6 @@
 #include "physics/mjcf_world.h"
 #include "physics/model_compiler.h"
 #include "physics/object_rest.h"
-#include "physics/ownership.h"
 #include "physics/plants.h"
 #include "physics/robot_clearance.h"
 #include "physics/scene_model.h"

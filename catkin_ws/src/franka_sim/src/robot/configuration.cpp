@@ -3,7 +3,8 @@
 #include "robot/configuration.h"
 
 #include <franka_sim/robot/control_unit_parameters.h>
-#include <franka_sim/robot/transforms.h>
+
+#include "robot/transforms.h"
 
 namespace franka_sim {
 
@@ -79,7 +80,7 @@ Status Configuration::apply(const SetProtocolVersion& request) noexcept {
   return assign(known, parameters_.protocol_version, request.version);
 }
 
-void Configuration::show(franka_core::RobotState& state) const noexcept {
+void Configuration::writeTo(franka_core::RobotState& state) const noexcept {
   const franka_core::Payload& ee = parameters_.end_effector;
   const franka_core::Payload& load = parameters_.load;
   state.F_T_NE = parameters_.F_T_NE;

@@ -41,7 +41,7 @@ class Configuration {
   Status apply(const SetEndEffector& request) noexcept;
 
   /// Writes frames, payloads and gravity into the state.
-  void show(franka_core::RobotState& state) const noexcept;
+  void writeTo(franka_core::RobotState& state) const noexcept;
 
  private:
   ControlUnitParameters parameters_;

@@ -45,7 +45,7 @@ struct ControlUnit::Parts {
         estimator(configuration, state),
         supervisor(configuration, estimator, state),
         laws(configuration) {
-    configuration.show(state);
+    configuration.writeTo(state);
   }
 
   template <typename Request>
@@ -77,7 +77,7 @@ struct ControlUnit::Parts {
     }
     const Status status = configuration.apply(setter);
     if (kChangesFrames<Setter> && status == Status::kSuccess) {
-      configuration.show(state);
+      configuration.writeTo(state);
       supervisor.framesChange();
     }
     return status;
@@ -109,7 +109,7 @@ ControlUnit& ControlUnit::operator=(const ControlUnit& other) noexcept {
 
 const franka_core::RobotState& ControlUnit::observe(const ArmMeasurement& measurement) noexcept {
   parts_->estimator.update(measurement, parts_->supervisor.beginTick());
-  parts_->supervisor.judge(parts_->laws.motorTorques());
+  parts_->supervisor.checkState(parts_->laws.motorTorques());
   return parts_->state;
 }
 

@@ -5,7 +5,6 @@
 #include <franka_core/numbers.h>
 #include <franka_core/transform.h>
 #include <franka_sim/robot/control_unit_parameters.h>
-#include <franka_sim/robot/transforms.h>
 
 #include <Eigen/Core>
 #include <Eigen/LU>
@@ -14,6 +13,8 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+
+#include "robot/transforms.h"
 
 namespace franka_sim {
 
@@ -48,7 +49,7 @@ bool isInertia(const std::array<double, 9>& inertia) noexcept {
   return I.determinant() >= -tolerance * scale * scale;
 }
 
-constexpr double kMaxGravity = 100.0;  // [m/s^2], as the world's (physics/body_properties.h)
+constexpr double kMaxGravity = 100.0;  // [m/s^2], as the world's (physics/world_properties.h)
 
 // Not std::hypot of three: it may return 0 for a number that is not finite.
 double distance(double x, double y, double z) noexcept { return std::sqrt(x * x + y * y + z * z); }
@@ -113,12 +114,12 @@ std::string payloadFault(const franka_core::Payload& payload) {
 }
 
 bool isFrame(const std::array<double, 16>& transform) noexcept {
-  return isTransform(transform) &&
+  return franka_core::isRigidTransform(transform) &&
          distance(transform[12], transform[13], transform[14]) <= kMaxFrameDistance;
 }
 
 std::string frameFault(const std::array<double, 16>& transform) {
-  if (!isTransform(transform)) {
+  if (!franka_core::isRigidTransform(transform)) {
     return franka_core::transformFault(transform);
   }
   const double away = distance(transform[12], transform[13], transform[14]);
@@ -165,6 +166,44 @@ void checkParameters(const ControlUnitParameters& parameters) {
   require(areThresholds(parameters.nominal), "collision_config (nominal thresholds)", thresholds);
   require(areThresholds(parameters.acceleration), "collision_config (acceleration thresholds)",
           thresholds);
+}
+
+namespace {
+
+std::string against(const Collision& collision, const char* quantity, const char* unit) {
+  const std::string value = franka_core::numberText(collision.value, 4);
+  const std::string threshold = franka_core::numberText(collision.threshold, 4);
+  return std::string("external ") + quantity + " " + value + " " + unit + ", upper threshold " +
+         threshold + " " + unit;
+}
+
+}  // namespace
+
+template <std::size_t N>
+std::array<double, N> above(const std::array<double, N>& values,
+                            const std::array<double, N>& thresholds) noexcept {
+  std::array<double, N> flags{};
+  for (std::size_t i = 0; i < N; i++) {
+    flags[i] = std::abs(values[i]) > thresholds[i] ? 1.0 : 0.0;
+  }
+  return flags;
+}
+
+template std::array<double, 6> above(const std::array<double, 6>&,
+                                     const std::array<double, 6>&) noexcept;
+template std::array<double, 7> above(const std::array<double, 7>&,
+                                     const std::array<double, 7>&) noexcept;
+
+std::string describeJointCollision(const Collision& collision) {
+  return "joint " + std::to_string(collision.index + 1) + ": " + against(collision, "torque", "Nm");
+}
+
+std::string describeCartesianCollision(const Collision& collision, InterfaceRules rules) {
+  static constexpr const char* kAxes[] = {"x", "y", "z"};
+  const std::string axis =
+      std::string(kAxes[collision.index % 3]) + (checksWrenchInBase(rules) ? " of O" : " of K");
+  return collision.index < 3 ? "along " + axis + ": " + against(collision, "force", "N")
+                             : "about " + axis + ": " + against(collision, "torque", "Nm");
 }
 
 }  // namespace franka_sim

@@ -4,10 +4,11 @@
 #include "robot/motion_supervisor.h"
 
 #include <franka_core/finite.h>
-#include <franka_sim/robot/transforms.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "robot/transforms.h"
 
 namespace franka_sim {
 
@@ -60,7 +61,7 @@ const CollisionThresholds& MotionSupervisor::beginTick() noexcept {
   return thresholds();
 }
 
-void MotionSupervisor::judge(const std::array<double, 7>& motor_torques) noexcept {
+void MotionSupervisor::checkState(const std::array<double, 7>& motor_torques) noexcept {
   const Estimate& estimate = estimator_->estimate();
   if (estimate.first) {
     initializeFromMeasurement();

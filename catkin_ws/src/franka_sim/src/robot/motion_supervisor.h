@@ -14,7 +14,6 @@
 #include "robot/laws/control_laws.h"
 #include "robot/mode_machine.h"
 #include "robot/motion/motion_generator.h"
-#include "robot/motion/rest_sequence.h"
 #include "robot/safety/safety_monitor.h"
 
 namespace franka_sim {
@@ -37,7 +36,7 @@ class MotionSupervisor {
   const CollisionThresholds& beginTick() noexcept;
   /// First half: checks the state that the estimator has just updated.
   /// @param motor_torques of the tick that led to it [Nm]
-  void judge(const std::array<double, 7>& motor_torques) noexcept;
+  void checkState(const std::array<double, 7>& motor_torques) noexcept;
   /// Second half: takes the command that answers the state, or nullptr if none arrived.
   void advance(const franka_core::RobotCommand* command) noexcept;
   /// The task of the control laws; a switch of the law is returned once.

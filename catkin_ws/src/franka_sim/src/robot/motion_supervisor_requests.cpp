@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // The supervisor's requests, and its transitions between modes.
 #include <franka_sim/robot/limits.h>
-#include <franka_sim/robot/transforms.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "robot/motion_supervisor.h"
+#include "robot/transforms.h"
 
 namespace franka_sim {
 

@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "robot/transforms.h"
+
 #include <franka_core/transform.h>
-#include <franka_sim/robot/transforms.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -24,8 +25,6 @@ std::array<double, 6> twist(const std::array<double, 42>& jacobian,
           .lazyProduct(Eigen::Map<const Eigen::Matrix<double, 7, 1>>(dq.data()));
   return result;
 }
-
-bool isTransform(const Transform& matrix) noexcept { return franka_core::isRigidTransform(matrix); }
 
 bool isDeviation(const franka_core::fci::Deviation& deviation) noexcept {
   for (const double bound : {deviation.translation, deviation.rotation, deviation.elbow}) {

@@ -7,18 +7,16 @@
 #include <algorithm>
 #include <charconv>
 #include <exception>
+#include <list>
+#include <map>
 #include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <utility>
 
+#include "fci/sockets.h"
+
 namespace franka_sim::fci {
-
-namespace {
-
-constexpr std::size_t kMaxLineLength = 4000;
-
-}  // namespace
 
 Reply Reply::when(std::function<bool()> done) {
   return Reply(
@@ -38,6 +36,67 @@ std::optional<std::string> Reply::line() {
     return std::string("error: ") + error.what();
   }
 }
+
+namespace {
+
+constexpr std::size_t kMaxLineLength = 4000;
+
+/// @returns false once the peer has vanished.
+bool sendLine(Connection& connection, const std::string& text) {
+  const std::string line = text + "\n";
+  return connection.send({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
+}
+
+}  // namespace
+
+/// One client of a LineServer: its connection, its line and the answer to it. One line is in
+/// progress; the next one is read once the answer to it has been sent. Used by the server's thread.
+class LineClient {
+ public:
+  using Clock = std::chrono::steady_clock;
+
+  explicit LineClient(std::unique_ptr<Connection> connection);
+
+  /// Reads and sends what the socket allows. @param arrival number of the line, if one is new
+  /// @returns whether one is new.
+  bool receive(std::uint64_t arrival);
+  /// The line that waits to be executed.
+  const std::optional<std::string>& line() const noexcept { return line_; }
+  /// Number of that line, or of the one before it; 0 as long as none has come.
+  std::uint64_t arrival() const noexcept { return arrival_; }
+  /// That line has been executed.
+  void answerWith(Reply reply);
+  /// Sends the answer, if there is one that need not wait.
+  void sendAnswer();
+
+  /// Whether it has sent no line until now, since before this time.
+  bool isSilentSince(Clock::time_point time) const noexcept {
+    return arrival_ == 0 && accepted_at_ <= time;
+  }
+  bool lineIsTooLong() const noexcept;
+  /// Whether there is nothing to do until its socket reports something.
+  bool isQuiet() const noexcept;
+  /// Whether it sends no more; it may still wait for answers.
+  bool hasEnded() const noexcept { return has_ended_; }
+  /// Whether it has been released or has vanished, or has ended and has all its answers.
+  bool isGone() const noexcept;
+  void addDescriptor(std::vector<pollfd>& fds) const;
+  /// For a last sentence; the client is not used any more.
+  std::unique_ptr<Connection> releaseConnection() noexcept { return std::move(connection_); }
+
+ private:
+  bool isIdle() const noexcept { return !line_ && !reply_; }
+  /// Of the next line in the buffer, without its end.
+  std::optional<std::size_t> lineSize() const noexcept;
+
+  std::unique_ptr<Connection> connection_;
+  Clock::time_point accepted_at_{Clock::now()};
+  std::uint64_t arrival_{0};
+  bool has_ended_{false};
+  bool is_broken_{false};
+  std::optional<std::string> line_;
+  std::optional<Reply> reply_;  ///< to its last line; kept until states have been sent
+};
 
 LineClient::LineClient(std::unique_ptr<Connection> connection)
     : connection_(std::move(connection)) {}
@@ -98,15 +157,6 @@ void LineClient::addDescriptor(std::vector<pollfd>& fds) const {
   }
 }
 
-bool sendLine(Connection& connection, const std::string& text) {
-  const std::string line = text + "\n";
-  return connection.send({reinterpret_cast<const std::uint8_t*>(line.data()), line.size()});
-}
-
-}  // namespace franka_sim::fci
-
-namespace franka_sim::fci {
-
 namespace {
 
 /// Time for a refused client to read the reason; and how many such clients are kept at most.
@@ -140,11 +190,56 @@ Reply error(const std::string& sentence) {
 
 }  // namespace
 
-void LineServer::add(const std::string& usage, Handler handler, Ready ready) {
+class LineServer::Impl {
+ public:
+  Impl(const std::string& address, std::uint16_t port, std::chrono::seconds first_line)
+      : listener_(address, port), first_line_(first_line) {}
+
+  std::uint16_t port() const noexcept { return listener_.port(); }
+  void add(const std::string& usage, Handler handler, Ready ready);
+  void serve();
+  bool idle() const;
+  void published();
+  void addDescriptors(std::vector<pollfd>& fds) const;
+
+ private:
+  using Clock = LineClient::Clock;
+  struct Entry {
+    std::string usage;
+    Handler handler;
+    Ready ready;
+  };
+  /// A refused connection: it is closed once its peer has read the reason.
+  struct Refused {
+    std::unique_ptr<Connection> connection;
+    Clock::time_point until;
+  };
+
+  void receiveAll();
+  /// @returns whether a client is new.
+  bool accept();
+  void freeSlot();
+  void executeLines();
+  Reply execute(const std::string& line) const;
+  bool isReady(const std::string& line) const;
+  std::string help() const;
+  void dismiss(std::unique_ptr<Connection> connection, const std::string& sentence);
+  void closeRefused();
+
+  Listener listener_;
+  Clock::duration first_line_;
+  std::list<LineClient> clients_;
+  std::uint64_t arrivals_{0};  ///< lines until now
+  Clock::duration busy_{};     ///< with lines, since states were sent
+  std::vector<Refused> refused_;
+  std::map<std::string, Entry> entries_;
+};
+
+void LineServer::Impl::add(const std::string& usage, Handler handler, Ready ready) {
   entries_[usage.substr(0, usage.find(' '))] = {usage, std::move(handler), std::move(ready)};
 }
 
-std::string LineServer::help() const {
+std::string LineServer::Impl::help() const {
   std::string text;
   for (const auto& entry : entries_) {
     text += (text.empty() ? "" : "; ") + entry.second.usage;
@@ -152,7 +247,7 @@ std::string LineServer::help() const {
   return text;
 }
 
-Reply LineServer::execute(const std::string& line) const {
+Reply LineServer::Impl::execute(const std::string& line) const {
   std::vector<std::string> words = split(line);
   if (words.empty() || words.front() == "help") {
     return help();
@@ -173,20 +268,12 @@ Reply LineServer::execute(const std::string& line) const {
   }
 }
 
-bool LineServer::isReady(const std::string& line) const {
+bool LineServer::Impl::isReady(const std::string& line) const {
   const auto entry = entries_.find(nameIn(line));
   return entry == entries_.end() || entry->second.ready();
 }
 
-LineServer::~LineServer() {
-  try {
-    published();
-  } catch (const std::exception&) {
-    // The end of the server is the answer then.
-  }
-}
-
-void LineServer::serve() {
+void LineServer::Impl::serve() {
   receiveAll();
   if (accept()) {
     receiveAll();
@@ -195,12 +282,12 @@ void LineServer::serve() {
   closeRefused();
 }
 
-bool LineServer::idle() const {
+bool LineServer::Impl::idle() const {
   return refused_.empty() && std::all_of(clients_.begin(), clients_.end(),
                                          [](const LineClient& client) { return client.isQuiet(); });
 }
 
-void LineServer::receiveAll() {
+void LineServer::Impl::receiveAll() {
   for (LineClient& client : clients_) {
     arrivals_ += client.receive(arrivals_ + 1) ? 1 : 0;
     if (client.lineIsTooLong()) {
@@ -210,7 +297,7 @@ void LineServer::receiveAll() {
   clients_.remove_if([](const LineClient& client) { return client.isGone(); });
 }
 
-bool LineServer::accept() {
+bool LineServer::Impl::accept() {
   bool any = false;
   for (int accepted = 0; accepted < kAcceptedAtOnce; ++accepted) {
     sockaddr_in peer{};
@@ -236,7 +323,7 @@ bool LineServer::accept() {
 
 // Closes a connection for the newest one, if there are too many: first clients that have just left,
 // or have ended and wait for an answer, then the one that has been silent for longest.
-void LineServer::freeSlot() {
+void LineServer::Impl::freeSlot() {
   if (clients_.size() < kMaxClients) {
     return;
   }
@@ -264,7 +351,7 @@ void LineServer::freeSlot() {
   }
 }
 
-void LineServer::executeLines() {
+void LineServer::Impl::executeLines() {
   clients_.sort([](const LineClient& a, const LineClient& b) { return a.arrival() < b.arrival(); });
   for (LineClient& client : clients_) {
     if (!client.line() || busy_ > kMaxBusyTime || !isReady(*client.line())) {
@@ -276,14 +363,15 @@ void LineServer::executeLines() {
   }
 }
 
-void LineServer::published() {
+void LineServer::Impl::published() {
   busy_ = {};
   for (LineClient& client : clients_) {
     client.sendAnswer();
   }
 }
 
-void LineServer::dismiss(std::unique_ptr<Connection> connection, const std::string& sentence) {
+void LineServer::Impl::dismiss(std::unique_ptr<Connection> connection,
+                               const std::string& sentence) {
   sendLine(*connection, sentence);
   // Closing at once, with unread lines of the peer, would discard the sentence.
   ::shutdown(connection->descriptor(), SHUT_WR);
@@ -292,7 +380,7 @@ void LineServer::dismiss(std::unique_ptr<Connection> connection, const std::stri
   }
 }
 
-void LineServer::closeRefused() {
+void LineServer::Impl::closeRefused() {
   const auto gone = [](Refused& leaving) {
     const bool open = leaving.connection->receive();
     leaving.connection->consume(leaving.connection->received().size);
@@ -301,12 +389,38 @@ void LineServer::closeRefused() {
   refused_.erase(std::remove_if(refused_.begin(), refused_.end(), gone), refused_.end());
 }
 
-void LineServer::addDescriptors(std::vector<pollfd>& fds) const {
+void LineServer::Impl::addDescriptors(std::vector<pollfd>& fds) const {
   fds.push_back({listener_.descriptor(), POLLIN, 0});
   for (const LineClient& client : clients_) {
     client.addDescriptor(fds);
   }
 }
+
+LineServer::LineServer(const std::string& address, std::uint16_t port,
+                       std::chrono::seconds first_line)
+    : impl_(std::make_unique<Impl>(address, port, first_line)) {}
+
+LineServer::~LineServer() {
+  try {
+    impl_->published();
+  } catch (const std::exception&) {
+    // The end of the server is the answer then.
+  }
+}
+
+std::uint16_t LineServer::port() const noexcept { return impl_->port(); }
+
+void LineServer::add(const std::string& usage, Handler handler, Ready ready) {
+  impl_->add(usage, std::move(handler), std::move(ready));
+}
+
+void LineServer::serve() { impl_->serve(); }
+
+bool LineServer::idle() const { return impl_->idle(); }
+
+void LineServer::published() { impl_->published(); }
+
+void LineServer::addDescriptors(std::vector<pollfd>& fds) const { impl_->addDescriptors(fds); }
 
 double toNumber(const std::string& word) {
   if (const std::optional<double> value = franka_core::readNumber(word)) {

@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/numbers.h>
-#include <franka_sim/physics/body_properties.h>
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/serve/operator_commands.h>
 #include <franka_sim/serve/sim_robot.h>
 

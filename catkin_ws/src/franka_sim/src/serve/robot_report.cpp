@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "fci/robot_server.h"
+
 namespace franka_sim::fci {
 
 namespace {

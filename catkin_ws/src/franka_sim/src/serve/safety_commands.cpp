@@ -12,6 +12,7 @@
 #include <string>
 #include <string_view>
 
+#include "fci/robot_server.h"
 #include "serve/robot_report.h"
 
 namespace franka_sim {

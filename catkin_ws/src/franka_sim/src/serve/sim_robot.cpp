@@ -10,6 +10,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "fci/hand_server.h"
+#include "fci/robot_server.h"
 #include "fci/served_models.h"
 
 namespace franka_sim::fci {
@@ -33,6 +35,16 @@ std::optional<std::uint16_t> portOf(const std::optional<Tool>& tool) {
 
 }  // namespace
 
+struct SimRobot::Servers {
+  Servers(WholeRobot& units, const RobotServerParameters& parameters)
+      : handler(units.unit()), arm(parameters, handler) {}
+
+  UnitRequestHandler handler;
+  RobotServer arm;
+  std::optional<GripperServer> hand;
+  std::optional<VacuumServer> vacuum;
+};
+
 SimRobot::SimRobot(const ControlUnitParameters& unit, ArmPlant& arm, RobotServerParameters server,
                    const std::optional<Hand>& hand, const std::optional<Vacuum>& vacuum,
                    unsigned command_delay)
@@ -46,13 +58,41 @@ SimRobot::SimRobot(std::unique_ptr<WholeRobot> units, RobotServerParameters serv
 }
 
 SimRobot::SimRobot(WholeRobot& units, RobotServerParameters server, const ToolPorts& tools)
-    : units_(units), handler_(units.unit()), server_(server, handler_) {
+    : units_(units), servers_(std::make_unique<Servers>(units, server)) {
   if (tools.hand) {
-    hand_ = std::make_unique<GripperServer>(server.address, *tools.hand, *units_.hand());
+    servers_->hand.emplace(server.address, *tools.hand, *units_.hand());
   }
   if (tools.vacuum) {
-    vacuum_ = std::make_unique<VacuumServer>(server.address, *tools.vacuum, *units_.vacuum());
+    servers_->vacuum.emplace(server.address, *tools.vacuum, *units_.vacuum());
   }
+}
+
+SimRobot::~SimRobot() = default;
+
+const RobotServer& SimRobot::server() const noexcept { return servers_->arm; }
+
+std::uint16_t SimRobot::clientVersion() const noexcept { return servers_->arm.version(); }
+
+std::uint16_t SimRobot::gripperPort() const noexcept {
+  return servers_->hand ? servers_->hand->port() : 0;
+}
+
+std::uint16_t SimRobot::vacuumPort() const noexcept {
+  return servers_->vacuum ? servers_->vacuum->port() : 0;
+}
+
+bool SimRobot::hasPendingState() const { return servers_->arm.hasPendingState(); }
+
+bool SimRobot::receiveCommand() { return servers_->arm.receiveCommand(); }
+
+bool SimRobot::expectsCommand() const { return servers_->arm.expectsCommands(); }
+
+bool SimRobot::asynchronous() const { return servers_->arm.asynchronous(); }
+
+bool SimRobot::motionHasBegun() const { return servers_->arm.motionHasBegun(); }
+
+void SimRobot::addCommandDescriptor(std::vector<pollfd>& fds) const {
+  servers_->arm.addCommandDescriptor(fds);
 }
 
 void SimRobot::observe() {
@@ -74,64 +114,66 @@ void SimRobot::observe() {
 }
 
 const franka_core::RobotCommand* SimRobot::takeCommand() noexcept {
-  if (!server_.motionHasBegun()) {
+  if (!servers_->arm.motionHasBegun()) {
     units_.link().clear();
   }
-  return server_.takeCommand();
+  return servers_->arm.takeCommand();
 }
 
 void SimRobot::actuate() { units_.actuate(takeCommand()); }
 
 void SimRobot::serve(bool stops_only) {
-  server_.serve(stops_only);
+  servers_->arm.serve(stops_only);
   const bool tools = units_.safety().handServed();
-  if (hand_) {
-    hand_->setOpen(tools);
-    hand_->serve(stops_only);
+  if (servers_->hand) {
+    servers_->hand->setOpen(tools);
+    servers_->hand->serve(stops_only);
   }
-  if (vacuum_) {
-    vacuum_->setOpen(tools);
-    vacuum_->serve(stops_only);
+  if (servers_->vacuum) {
+    servers_->vacuum->setOpen(tools);
+    servers_->vacuum->serve(stops_only);
   }
 }
 
 void SimRobot::publish(std::uint64_t ticks, bool same_tick, bool keep_end) {
-  server_.publish(ticks, same_tick, keep_end);
+  servers_->arm.publish(ticks, same_tick, keep_end);
   publishTools(ticks);
 }
 
 void SimRobot::publishTools(std::uint64_t ticks) {
-  if (hand_) {
-    hand_->publish(ticks);
+  if (servers_->hand) {
+    servers_->hand->publish(ticks);
   }
-  if (vacuum_) {
-    vacuum_->publish(ticks);
+  if (servers_->vacuum) {
+    servers_->vacuum->publish(ticks);
   }
 }
 
 void SimRobot::repeat() {
-  if (server_.asynchronous() || server_.receiveCommand()) {
-    server_.repeat();
+  if (servers_->arm.asynchronous() || servers_->arm.receiveCommand()) {
+    servers_->arm.repeat();
   }
   publishTools(0);
 }
 
-void SimRobot::onRefusal(const ClientSlot::Report& report) {
-  server_.onRefusal(report);
-  if (hand_) {
-    hand_->onRefusal(report);
+void SimRobot::onRefusal(const std::function<void(const std::string&)>& report) {
+  servers_->arm.onRefusal(report);
+  if (servers_->hand) {
+    servers_->hand->onRefusal(report);
   }
-  if (vacuum_) {
-    vacuum_->onRefusal(report);
+  if (servers_->vacuum) {
+    servers_->vacuum->onRefusal(report);
   }
 }
 
 bool SimRobot::hasClients() const {
-  return server_.hasClient() || (hand_ && hand_->hasClient()) || (vacuum_ && vacuum_->hasClient());
+  return servers_->arm.hasClient() || (servers_->hand && servers_->hand->hasClient()) ||
+         (servers_->vacuum && servers_->vacuum->hasClient());
 }
 
 bool SimRobot::idle() const {
-  return server_.idle() && (!hand_ || hand_->idle()) && (!vacuum_ || vacuum_->idle());
+  return servers_->arm.idle() && (!servers_->hand || servers_->hand->idle()) &&
+         (!servers_->vacuum || servers_->vacuum->idle());
 }
 
 bool SimRobot::settling() const {
@@ -140,20 +182,23 @@ bool SimRobot::settling() const {
     return false;  // nothing brakes an arm in Guiding: it may never come to rest
   }
   const bool abandoned =
-      state.robot_mode == franka_core::RobotMode::kMove && !server_.expectsCommands();
+      state.robot_mode == franka_core::RobotMode::kMove && !servers_->arm.expectsCommands();
   const UnitStatus status = units_.unit().status();
   return status.settling || abandoned || !status.resting || units_.safety().busy();
 }
 
-bool SimRobot::handBusy() const { return (hand_ && hand_->busy()) || (vacuum_ && vacuum_->busy()); }
+bool SimRobot::handBusy() const {
+  return (servers_->hand && servers_->hand->busy()) ||
+         (servers_->vacuum && servers_->vacuum->busy());
+}
 
 void SimRobot::addDescriptors(std::vector<pollfd>& fds) const {
-  server_.addDescriptors(fds);
-  if (hand_) {
-    hand_->addDescriptors(fds);
+  servers_->arm.addDescriptors(fds);
+  if (servers_->hand) {
+    servers_->hand->addDescriptors(fds);
   }
-  if (vacuum_) {
-    vacuum_->addDescriptors(fds);
+  if (servers_->vacuum) {
+    servers_->vacuum->addDescriptors(fds);
   }
 }
 
@@ -220,7 +265,7 @@ SimRobot makeSimRobot(const std::string& address, const ProtocolRange& protocols
                   command_delay);
 }
 
-std::string linksOf(const SelfCollision::Pair& pair) {
+std::string linksOf(const LinkPair& pair) {
   const auto name = [](int link) {
     return link == kHandLink ? std::string("hand") : "link" + std::to_string(link);
   };
@@ -247,7 +292,7 @@ std::string collisionOf(const ControlUnit& unit, RobotError error) {
 std::string describe(SimRobot& robot) {
   const franka_core::RobotState& state = robot.unit().state();
   return std::string(franka_core::fci::modeName(state.robot_mode)) + ", client of protocol " +
-         std::to_string(robot.server().version()) + ", errors" + errorNames(robot.unit()) + ", q" +
+         std::to_string(robot.clientVersion()) + ", errors" + errorNames(robot.unit()) + ", q" +
          toText(state.q);
 }
 

@@ -7,9 +7,186 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <stdexcept>
 
 namespace franka_sim {
+namespace {
+
+using franka_core::RobotState;
+
+template <std::size_t size>
+constexpr std::size_t sizeOf(std::array<double, size> RobotState::* /*field*/) {
+  return size;
+}
+
+template <auto field>
+void readField(const SimulatedRobot& robot, double* values) {
+  const auto& array = robot.state().*field;
+  std::copy(array.begin(), array.end(), values);
+}
+
+void readMode(const SimulatedRobot& robot, double* values) {
+  *values = static_cast<double>(robot.state().robot_mode);
+}
+
+void readWidth(const SimulatedRobot& robot, double* values) {
+  *values = robot.units().hand()->width();
+}
+
+struct Field {
+  const char* name;
+  std::size_t size;
+  void (*read)(const SimulatedRobot&, double*);
+};
+
+template <auto field>
+constexpr Field arrayField(const char* name) {
+  return {name, sizeOf(field), &readField<field>};
+}
+
+const std::array kFields{
+    arrayField<&RobotState::q>("q"),
+    arrayField<&RobotState::dq>("dq"),
+    arrayField<&RobotState::q_d>("q_d"),
+    arrayField<&RobotState::dq_d>("dq_d"),
+    arrayField<&RobotState::tau_J>("tau_J"),
+    arrayField<&RobotState::tau_J_d>("tau_J_d"),
+    arrayField<&RobotState::dtau_J>("dtau_J"),
+    arrayField<&RobotState::tau_ext_hat_filtered>("tau_ext_hat_filtered"),
+    arrayField<&RobotState::O_T_EE>("O_T_EE"),
+    arrayField<&RobotState::O_T_EE_d>("O_T_EE_d"),
+    arrayField<&RobotState::elbow>("elbow"),
+    arrayField<&RobotState::O_F_ext_hat_K>("O_F_ext_hat_K"),
+    arrayField<&RobotState::K_F_ext_hat_K>("K_F_ext_hat_K"),
+    Field{"robot_mode", 1, &readMode},
+    Field{"width", 1, &readWidth},
+};
+
+constexpr std::size_t kPoseSize = 7;
+constexpr std::size_t kTwistSize = 6;
+
+std::string listOfFields() {
+  std::string names;
+  for (const Field& field : kFields) {
+    names += (names.empty() ? "" : ", ") + std::string(field.name);
+  }
+  return names;
+}
+
+}  // namespace
+
+Observer::Observer(Simulation& simulation, const std::vector<std::string>& names)
+    : simulation_(&simulation) {
+  for (const std::string& name : names) {
+    add(name);
+  }
+}
+
+std::vector<std::string> Observer::defaultNames(Simulation& simulation) {
+  std::vector<std::string> names{"time"};
+  for (const SimulatedRobot& robot : simulation.robots()) {
+    for (const char* field : {"q", "dq", "O_T_EE", "robot_mode"}) {
+      names.push_back(robot.setup().arm_id + "." + field);
+    }
+    if (robot.units().hand() != nullptr) {
+      names.push_back(robot.setup().arm_id + ".width");
+    }
+  }
+  const std::vector<std::string> robots = simulation.world().robots();
+  for (const WorldModel& model : simulation.world().models()) {
+    const bool is_robot = std::find(robots.begin(), robots.end(), model.name) != robots.end();
+    if (!is_robot && !model.is_static) {
+      names.push_back(model.body + ".pose");
+    }
+  }
+  return names;
+}
+
+std::vector<std::string> Observer::names() const {
+  std::vector<std::string> names;
+  for (const Value& value : layout_) {
+    names.push_back(value.name);
+  }
+  return names;
+}
+
+std::size_t Observer::size() const noexcept {
+  std::size_t sum = 0;
+  for (const Value& value : layout_) {
+    sum += value.size;
+  }
+  return sum;
+}
+
+void Observer::add(const std::string& name) {
+  for (const Value& value : layout_) {
+    if (value.name == name) {
+      throw std::invalid_argument("The value '" + name + "' is named twice.");
+    }
+  }
+  const std::size_t at = size();
+  const std::size_t dot = name.rfind('.');
+  const std::string owner = name.substr(0, dot);
+  const std::string field = dot == std::string::npos ? "" : name.substr(dot + 1);
+  const std::vector<std::string> bodies = simulation_->world().bodies();
+  if (name == "time") {
+    times_.push_back(at);
+    layout_.push_back({name, 1});
+  } else if ((field == "pose" || field == "twist") &&
+             std::find(bodies.begin(), bodies.end(), owner) != bodies.end()) {
+    bodies_.push_back({field == "twist", at});
+    body_names_.push_back(owner);
+    layout_.push_back({name, field == "twist" ? kTwistSize : kPoseSize});
+  } else if (!addOfRobot(owner, field)) {
+    throw std::invalid_argument("There is no value '" + name +
+                                "'. Known are time, a body with .pose or .twist, and a robot with "
+                                "one of: " +
+                                listOfFields() + ".");
+  }
+}
+
+bool Observer::addOfRobot(const std::string& owner, const std::string& field) {
+  const auto& robots = simulation_->robots();
+  const auto robot = std::find_if(robots.begin(), robots.end(), [&](const SimulatedRobot& one) {
+    return one.setup().arm_id == owner;
+  });
+  const auto known = std::find_if(kFields.begin(), kFields.end(),
+                                  [&](const Field& one) { return field == one.name; });
+  if (robot == robots.end() || known == kFields.end()) {
+    return false;
+  }
+  if (known->read == &readWidth && robot->units().hand() == nullptr) {
+    throw std::invalid_argument("The robot '" + owner + "' has no hand whose width can be read.");
+  }
+  robots_.push_back({&*robot, known->read, size()});
+  layout_.push_back({owner + "." + field, known->size});
+  return true;
+}
+
+void Observer::read(double* values) const {
+  for (const std::size_t at : times_) {
+    values[at] = simulation_->world().time();
+  }
+  for (const RobotValue& value : robots_) {
+    value.read(*value.robot, values + value.at);
+  }
+  if (bodies_.empty()) {
+    return;
+  }
+  const std::vector<BodyState> states = simulation_->world().bodyStates(body_names_);
+  for (std::size_t i = 0; i < bodies_.size(); i++) {
+    double* to = values + bodies_[i].at;
+    const auto put = [&to](const auto& array) { to = std::copy(array.begin(), array.end(), to); };
+    if (bodies_[i].twist) {
+      put(states[i].twist.linear);
+      put(states[i].twist.angular);
+    } else {
+      put(states[i].pose.position);
+      put(states[i].pose.orientation);
+    }
+  }
+}
 
 namespace {
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The whole simulated robot over real sockets, in lock-step.
+#include <franka_core/fci/gripper_codec.h>
 #include <ros_test/eventually.h>
 
 #include <optional>

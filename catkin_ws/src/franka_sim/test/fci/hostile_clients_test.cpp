@@ -3,7 +3,6 @@
 //
 // Effect of one client, or of a stranger, on the clients of another robot in the same process.
 #include <fcntl.h>
-#include <franka_sim/fci/hand_server.h>
 #include <franka_sim/serve/host.h>
 #include <franka_sim/serve/line_server.h>
 #include <sys/resource.h>
@@ -15,6 +14,7 @@
 #include <memory>
 #include <thread>
 
+#include "fci/hand_server.h"
 #include "robot_server_fixture.h"
 
 namespace franka_sim::fci {

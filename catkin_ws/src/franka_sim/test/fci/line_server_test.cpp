@@ -13,6 +13,8 @@
 #include <thread>
 #include <vector>
 
+#include "fci/sockets.h"
+
 namespace franka_sim::fci {
 namespace {
 

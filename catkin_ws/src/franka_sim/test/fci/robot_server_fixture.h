@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/fci/robot_server.h>
 #include <ros_test/eventually.h>
 
 #include <cstdint>
 #include <functional>
 #include <optional>
 
+#include "fci/robot_server.h"
 #include "test_client.h"
 
 namespace franka_sim::fci {

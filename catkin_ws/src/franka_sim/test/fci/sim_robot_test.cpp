@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "../robot/arm_fixture.h"
+#include "fci/robot_server.h"
 #include "fci/served_models.h"
 #include "test_client.h"
 

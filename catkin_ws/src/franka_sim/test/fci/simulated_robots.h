@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "../physics/test_support.h"
+#include "fci/robot_server.h"
 #include "fci/served_models.h"
 
 namespace franka_sim::fci {

@@ -4,7 +4,6 @@
 // The vacuum gripper alone, and through our own client.
 #include <franka/exception.h>
 #include <franka/vacuum_gripper.h>
-#include <franka_sim/fci/hand_server.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <ros_test/eventually.h>
@@ -18,6 +17,8 @@
 #include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "fci/hand_server.h"
 
 namespace franka_sim {
 namespace {

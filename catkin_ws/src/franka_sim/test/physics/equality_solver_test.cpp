@@ -1,11 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Equalities that are solved directly, against MuJoCo's own solver.
-#include "physics/equality_solver.h"
-
 #include <cmath>
 #include <vector>
 
+#include "physics/step_preparation.h"
 #include "physics/world_impl.h"
 #include "stone_in_hand.h"
 

@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "physics/run_time_library.h"
+#include "physics/gl_context.h"
 #include "test_support.h"
 
 namespace franka_sim::test {

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/physics/shapes.h>
+#include <franka_sim/physics/renderer.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -5,7 +5,7 @@
 /// Numbers beyond any robot are refused; a world that diverges nevertheless stops, reports why, and
 /// can be reset; overlaps of a new robot are reported.
 
-#include <franka_sim/physics/body_properties.h>
+#include <franka_sim/physics/world_properties.h>
 
 #include <limits>
 #include <string>

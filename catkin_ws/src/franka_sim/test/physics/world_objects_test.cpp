@@ -1,8 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Objects that are added and removed, states that are set, snapshots that continue to the last bit.
-#include <franka_sim/physics/lights.h>
-#include <franka_sim/physics/urdf_text.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_properties.h>
 #include <gmock/gmock.h>
 
 #include <atomic>

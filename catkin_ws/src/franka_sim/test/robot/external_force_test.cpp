@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "arm_fixture.h"
+#include "robot/safety/collisions.h"
 #include "sine_driver.h"
 
 namespace franka_sim::test {

@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The external wrench at K, and products of transforms.
-#include <franka_sim/robot/transforms.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -9,6 +8,7 @@
 #include <cmath>
 
 #include "robot/estimator/state_estimator.h"
+#include "robot/transforms.h"
 
 namespace franka_sim::test {
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <franka_sim/robot/limits.h>
-#include <franka_sim/robot/safety/collisions.h>
 
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
@@ -15,6 +14,7 @@
 #include "limit_profile.h"
 #include "motion/motion_fixture.h"
 #include "robot/motion/cartesian_motion.h"
+#include "robot/safety/collisions.h"
 
 namespace franka_sim::test {
 

@@ -1,9 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // How an arm comes to rest: it brakes, and yields after a reflex.
-#include "robot/motion/rest_sequence.h"
-
 #include "fci_fixture.h"
+#include "robot/motion/motion_generator.h"
 
 namespace franka_sim::test {
 

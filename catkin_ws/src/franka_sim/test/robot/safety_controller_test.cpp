@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 //
 // The rules of Desk: what is refused when, and what stops and errors do to brakes, FCI and motions.
-#include <franka_sim/robot/operator_motion.h>
 #include <franka_sim/robot/safety/safety_controller.h>
+#include <franka_sim/robot/whole_robot.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

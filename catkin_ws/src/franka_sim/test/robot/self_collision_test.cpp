@@ -6,6 +6,7 @@
 #include <random>
 
 #include "fci_fixture.h"
+#include "robot/safety/collisions.h"
 
 namespace franka_sim::test {
 

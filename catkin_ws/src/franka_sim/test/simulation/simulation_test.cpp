@@ -15,6 +15,7 @@
 
 #include "../physics/test_support.h"
 #include "../robot/arm_fixture.h"
+#include "fci/robot_server.h"
 
 namespace franka_sim::test {
 namespace {

@@ -118,12 +118,12 @@ class SimArm {
   void stopMotion() noexcept;
   void refuse(Refusal why) noexcept;
   void resetCommands() noexcept;
-  void watch() noexcept;
+  void reportCondition() noexcept;
   const franka_core::RobotCommand* command() noexcept;
   void filter() noexcept;
   /// Updates the state that controllers read.
-  void show() noexcept;
-  void showContacts() noexcept;
+  void updateState() noexcept;
+  void updateContacts() noexcept;
 
   franka_sim::ControlUnit unit_;
   franka_sim::ArmPlant& plant_;

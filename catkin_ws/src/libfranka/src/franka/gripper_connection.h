@@ -146,13 +146,13 @@ class GripperConnection {
 
   network::CommandChannel::Message await(const Request& request, Deadline deadline,
                                          std::chrono::milliseconds bound) {
-    struct Forget {
+    struct ReplyEraser {
       network::CommandChannel& channel;
       std::uint32_t id;
-      ~Forget() { channel.forget(id); }
+      ~ReplyEraser() { channel.discardReplies(id); }
     };
     const std::uint32_t id = channel_->expect();
-    const Forget forget_at_end{*channel_, id};
+    const ReplyEraser eraser{*channel_, id};
     typename Protocol::RequestMessage message;
     Protocol::encodeRequest(id, request, message);
     channel_->send(message.bytes());

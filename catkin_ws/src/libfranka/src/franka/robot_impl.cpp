@@ -156,7 +156,7 @@ std::optional<std::uint16_t> Robot::Impl::offer(const network::Endpoint& endpoin
   version_ = version;
   const std::uint32_t id = send(fci::ConnectRequest{version, datagrams_.port()});
   const auto message = channel_->receive(id, deadline);
-  channel_->forget(id);
+  channel_->discardReplies(id);
   if (!message) {
     throw NetworkException(std::string(fci::kConnectionTimeout) + " " + endpoint.host +
                            " accepted the connection but "
@@ -194,10 +194,10 @@ void Robot::Impl::readDescription() {
 namespace {
 
 // Replies to a request are kept only while a caller waits for them.
-struct Forget {
+struct ReplyEraser {
   Robot::Impl& robot;
   std::uint32_t id;
-  ~Forget() { robot.forget(id); }
+  ~ReplyEraser() { robot.discardReplies(id); }
 };
 
 }  // namespace
@@ -207,7 +207,7 @@ Robot::Impl::Reply Robot::Impl::execute(const Request& request) {
   const bool takes_long =
       command == Command::kAutomaticErrorRecovery || command == Command::kStopMove;
   const std::uint32_t id = send(request);
-  const Forget forget_at_end{*this, id};
+  const ReplyEraser eraser{*this, id};
   const Reply reply =
       receive(command, id, takes_long ? timeouts_.long_command : timeouts_.command, false);
   if (reply.status != fci::Status::kSuccess) {
@@ -220,7 +220,7 @@ std::vector<std::uint8_t> Robot::Impl::download(const Request& request,
                                                 std::chrono::milliseconds bound) {
   const Command command = fci::commandOf(request);
   const std::uint32_t id = send(request);
-  const Forget forget_at_end{*this, id};
+  const ReplyEraser eraser{*this, id};
   const auto message = receiveMessage(command, id, bound, false);
   fci::Bytes model;
   const Reply reply = decode(command, message, model);
@@ -239,7 +239,7 @@ std::uint32_t Robot::Impl::send(const Request& request) {
   fci::RequestMessage message;
   const fci::CodecError error = fci::encodeRequest(version_, id, request, message);
   if (error != fci::CodecError::kNone) {
-    channel_->forget(id);
+    channel_->discardReplies(id);
     throw CommandException(std::string("libfranka: ") + fci::commandName(command) +
                            " command rejected: this robot speaks protocol version " +
                            std::to_string(version_) + ", which has no such command or mode.");

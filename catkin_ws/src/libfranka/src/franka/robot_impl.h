@@ -79,7 +79,7 @@ class Robot::Impl {
   /// Sends a request; its replies are kept until forget. @throws CommandException if this version
   /// of the protocol has no such request.
   std::uint32_t send(const Request& request);
-  void forget(std::uint32_t id) noexcept { channel_->forget(id); }
+  void discardReplies(std::uint32_t id) noexcept { channel_->discardReplies(id); }
   /// The next reply if it has arrived.
   std::optional<Reply> tryReceive(Command command, std::uint32_t id);
   /// Waits for the next reply. @param owns_states whether the caller holds an Operation.

@@ -40,12 +40,12 @@ void RunningMotion::cancelStart() noexcept {
     cancel();
   }
   robot_.endMotion();
-  robot_.forget(id_);
+  robot_.discardReplies(id_);
 }
 
 RunningMotion::~RunningMotion() {
   robot_.endMotion();
-  robot_.forget(id_);
+  robot_.discardReplies(id_);
 }
 
 void RunningMotion::requireRunning() const {
@@ -197,7 +197,7 @@ void RunningMotion::cancel() noexcept {
     // The first failure is reported; a missing reply to the stop follows from it.
   }
   if (id) {
-    robot_.forget(*id);
+    robot_.discardReplies(*id);
   }
 }
 

@@ -102,7 +102,7 @@ std::uint32_t CommandChannel::expect() {
   return id;
 }
 
-void CommandChannel::forget(std::uint32_t id) noexcept {
+void CommandChannel::discardReplies(std::uint32_t id) noexcept {
   const std::lock_guard<std::mutex> lock(receive_mutex_);
   replies_.erase(id);
 }

@@ -46,7 +46,7 @@ class CommandChannel {
   /// A new request's id, starting at 0; its replies are kept from now on.
   std::uint32_t expect();
   /// Drops all present and future replies to this id.
-  void forget(std::uint32_t id) noexcept;
+  void discardReplies(std::uint32_t id) noexcept;
   /// Sends one request.
   /// @throws NetworkException if the connection is lost or takes no bytes for kSendTimeout.
   void send(franka_core::fci::Bytes request);

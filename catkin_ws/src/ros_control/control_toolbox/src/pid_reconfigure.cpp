@@ -27,7 +27,7 @@ Pid::Reconfigure::Reconfigure(const ros::NodeHandle& node, const ParametersConfi
   });
 }
 
-void Pid::Reconfigure::show(const ParametersConfig& config) { server_.updateConfig(config); }
+void Pid::Reconfigure::update(const ParametersConfig& config) { server_.updateConfig(config); }
 
 void Pid::initDynamicReconfig(ros::NodeHandle& node) {
   // The old server must withdraw its service before the new one offers it.
@@ -39,13 +39,13 @@ void Pid::updateDynamicReconfig() { updateDynamicReconfig(getGains()); }
 
 void Pid::updateDynamicReconfig(Gains gains_config) {
   if (reconfigure_) {
-    reconfigure_->show(configOf(gains_config));
+    reconfigure_->update(configOf(gains_config));
   }
 }
 
 void Pid::updateDynamicReconfig(ParametersConfig config) {
   if (reconfigure_) {
-    reconfigure_->show(config);
+    reconfigure_->update(config);
   }
 }
 

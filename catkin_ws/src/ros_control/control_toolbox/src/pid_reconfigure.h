@@ -17,7 +17,7 @@ class Pid::Reconfigure {
   Reconfigure(const ros::NodeHandle& node, const ParametersConfig& config, Pid* pid);
 
   /// Shows values that were not set through the server.
-  void show(const ParametersConfig& config);
+  void update(const ParametersConfig& config);
 
  private:
   // The server keeps a reference: the mutex is declared first and destroyed last.

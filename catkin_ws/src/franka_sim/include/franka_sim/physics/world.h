@@ -261,7 +261,7 @@ class World {
   /// @throws std::runtime_error if the robots or objects differ; nothing has changed
   void restore(const Snapshot& snapshot);
 
-  // Limits of these arguments: physics/body_properties.h.
+  // Limits of these arguments: physics/world_properties.h.
   std::array<double, 3> gravity() const;                  ///< [m/s^2]
   void setGravity(const std::array<double, 3>& gravity);  ///< [m/s^2]; a reset does not change it
   Pose bodyPose(const std::string& body) const;           ///< in the world frame
@@ -282,7 +282,7 @@ class World {
                         double position);  ///< teleport; velocity becomes 0
   void setJointVelocity(const std::string& joint, double velocity);  ///< [rad/s] or [m/s]
   /// A force and torque on a body at its origin or at `point` (world), for `ticks` ticks from now.
-  /// @throws std::runtime_error with a sentence beyond the limits of body_properties.h
+  /// @throws std::runtime_error with a sentence beyond the limits of world_properties.h
   void push(const std::string& body, const std::array<double, 3>& force,
             const std::array<double, 3>& torque, std::uint64_t ticks);
   /// The same force at a point, without a torque of its own.
@@ -321,5 +321,20 @@ class World {
 
   Access impl_;
 };
+
+/// Time of the bare mj_step calls of a tick [us], with the same model and substeps, from the
+/// present state with the present torques held: the reference of the simulation's benchmark. Works
+/// on copies of the state; the world does not change. Allocates.
+double bareTickMicroseconds(World& world, std::uint32_t ticks);
+
+/// Whether a URDF describes an object that is free to move, as Gazebo's spawner takes it: it has
+/// neither a Franka arm, nor transmissions, nor a plugin of ros_control, nor a link `world`.
+/// Thread-safe. Not real-time safe. @returns false for a text that is not a URDF
+bool isUrdfOfObject(const std::string& urdf);
+
+/// The URDF with the joints fixed that have no range (as physics does), so that parsers that refuse
+/// a revolute joint without limits read it. The same text if there are none.
+/// Thread-safe. Not real-time safe. @throws std::runtime_error for limits that are not numbers
+std::string withHeldJoints(const std::string& urdf);
 
 }  // namespace franka_sim

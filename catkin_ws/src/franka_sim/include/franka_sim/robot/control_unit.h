@@ -7,7 +7,6 @@
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/robot/limits.h>
 #include <franka_sim/robot/plant.h>
-#include <franka_sim/robot/safety/collisions.h>
 
 #include <array>
 #include <cstdint>
@@ -117,7 +116,7 @@ struct UnitStatus {
   /// The causes of joint_reflex and cartesian_reflex, until their recovery.
   Collision joint_collision, cartesian_collision;
   /// The links that came too close; valid after self_collision_avoidance_violation.
-  SelfCollision::Pair self_collision;
+  LinkPair self_collision;
 };
 
 /// The functions of Franka's control cabinet, once per millisecond.

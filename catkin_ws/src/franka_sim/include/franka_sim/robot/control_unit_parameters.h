@@ -120,4 +120,32 @@ inline ProtocolRange protocolsOf(const std::string& robot) noexcept {
   return robot == "fr3" ? ProtocolRange{6, 10} : ProtocolRange{3, 5};
 }
 
+/// The cause of a collision reflex: the joint or axis that was farthest beyond its upper threshold
+/// in the tick of the reflex.
+struct Collision {
+  bool happened{false};   ///< whether there was one
+  std::size_t index{0};   ///< of the joint, or of x, y, z, R, P, Y
+  double value{0.0};      ///< external torque [Nm] or force [N], not filtered
+  double threshold{0.0};  ///< the upper one in effect [Nm, N]
+};
+
+/// Which magnitudes are above their thresholds: 1 or 0, as the flags of RobotState. Real-time safe.
+template <std::size_t N>
+std::array<double, N> above(const std::array<double, N>& values,
+                            const std::array<double, N>& thresholds) noexcept;
+
+/// "joint 4: external torque 23.4 Nm, upper threshold 20 Nm". Not real-time safe.
+std::string describeJointCollision(const Collision& collision);
+/// "along z of O: external force -25.1 N, upper threshold 20 N", or about it, or of K.
+/// Not real-time safe.
+std::string describeCartesianCollision(const Collision& collision, InterfaceRules rules);
+
+constexpr int kHandLink = 8;  ///< its frame: the flange turned by -45 degrees about z
+
+/// Two parts of an arm that are close to each other: links 0 to 7, or kHandLink.
+struct LinkPair {
+  int first{0}, second{0};  ///< the two parts
+  double distance{0.0};     ///< between their surfaces, negative inside each other [m]
+};
+
 }  // namespace franka_sim

@@ -2,15 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/fci/sockets.h>
 #include <franka_sim/serve/host.h>
 #include <poll.h>
 
 #include <chrono>
 #include <cstdint>
 #include <functional>
-#include <list>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -41,62 +38,6 @@ class Reply {
   std::optional<std::string> value_;
   Later later_;
 };
-
-/// One client of a LineServer: its connection, its line and the answer to it. One line is in
-/// progress; the next one is read once the answer to it has been sent. Used by the server's thread.
-class LineClient {
- public:
-  using Clock = std::chrono::steady_clock;
-
-  explicit LineClient(std::unique_ptr<Connection> connection);
-
-  /// Reads and sends what the socket allows. @param arrival number of the line, if one is new
-  /// @returns whether one is new.
-  bool receive(std::uint64_t arrival);
-  /// The line that waits to be executed.
-  const std::optional<std::string>& line() const noexcept { return line_; }
-  /// Number of that line, or of the one before it; 0 as long as none has come.
-  std::uint64_t arrival() const noexcept { return arrival_; }
-  /// That line has been executed.
-  void answerWith(Reply reply);
-  /// Sends the answer, if there is one that need not wait.
-  void sendAnswer();
-
-  /// Whether it has sent no line until now, since before this time.
-  bool isSilentSince(Clock::time_point time) const noexcept {
-    return arrival_ == 0 && accepted_at_ <= time;
-  }
-  bool lineIsTooLong() const noexcept;
-  /// Whether there is nothing to do until its socket reports something.
-  bool isQuiet() const noexcept;
-  /// Whether it sends no more; it may still wait for answers.
-  bool hasEnded() const noexcept { return has_ended_; }
-  /// Whether it has been released or has vanished, or has ended and has all its answers.
-  bool isGone() const noexcept;
-  void addDescriptor(std::vector<pollfd>& fds) const;
-  /// For a last sentence; the client is not used any more.
-  std::unique_ptr<Connection> releaseConnection() noexcept { return std::move(connection_); }
-
- private:
-  bool isIdle() const noexcept { return !line_ && !reply_; }
-  /// Of the next line in the buffer, without its end.
-  std::optional<std::size_t> lineSize() const noexcept;
-
-  std::unique_ptr<Connection> connection_;
-  Clock::time_point accepted_at_{Clock::now()};
-  std::uint64_t arrival_{0};
-  bool has_ended_{false};
-  bool is_broken_{false};
-  std::optional<std::string> line_;
-  std::optional<Reply> reply_;  ///< to its last line; kept until states have been sent
-};
-
-/// @returns false once the peer has vanished.
-bool sendLine(Connection& connection, const std::string& text);
-
-}  // namespace franka_sim::fci
-
-namespace franka_sim::fci {
 
 /// The control interface, which represents the operator beside the robot: commands of one line each
 /// over TCP, answered by one line, "ok", "ok <value>" or "error: <sentence>". `nc` suffices as a
@@ -137,13 +78,14 @@ class LineServer final : public Service {
   /// @param first_line a client that has sent no line for this time may be replaced by a new one
   /// @throws std::runtime_error with a sentence when the port cannot be opened.
   LineServer(const std::string& address, std::uint16_t port,
-             std::chrono::seconds first_line = std::chrono::seconds(5))
-      : listener_(address, port), first_line_(first_line) {}
+             std::chrono::seconds first_line = std::chrono::seconds(5));
   /// Sends the answers that are still due, such as that to the line that ended the host; none where
   /// the effect has not come about.
   ~LineServer() override;
+  LineServer(const LineServer&) = delete;
+  LineServer& operator=(const LineServer&) = delete;
 
-  std::uint16_t port() const noexcept { return listener_.port(); }
+  std::uint16_t port() const noexcept;
   /// @param usage the command as the user types it, for example "user_stop on|off"; its first word
   /// is the name.
   /// @param ready lines wait until it returns true
@@ -155,36 +97,9 @@ class LineServer final : public Service {
   void addDescriptors(std::vector<pollfd>& fds) const override;
 
  private:
-  using Clock = LineClient::Clock;
-  struct Entry {
-    std::string usage;
-    Handler handler;
-    Ready ready;
-  };
-  /// A refused connection: it is closed once its peer has read the reason.
-  struct Refused {
-    std::unique_ptr<Connection> connection;
-    Clock::time_point until;
-  };
+  class Impl;
 
-  void receiveAll();
-  /// @returns whether a client is new.
-  bool accept();
-  void freeSlot();
-  void executeLines();
-  Reply execute(const std::string& line) const;
-  bool isReady(const std::string& line) const;
-  std::string help() const;
-  void dismiss(std::unique_ptr<Connection> connection, const std::string& sentence);
-  void closeRefused();
-
-  Listener listener_;
-  Clock::duration first_line_;
-  std::list<LineClient> clients_;
-  std::uint64_t arrivals_{0};  ///< lines until now
-  Clock::duration busy_{};     ///< with lines, since states were sent
-  std::vector<Refused> refused_;
-  std::map<std::string, Entry> entries_;
+  std::unique_ptr<Impl> impl_;
 };
 
 /// A word as a number. @throws std::invalid_argument with a sentence.

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim/physics/renderer.h>
 #include <franka_sim/physics/world.h>
 #include <franka_sim/robot/whole_robot.h>
 #include <franka_sim/serve/line_server.h>
 #include <franka_sim/serve/sim_robot.h>
 
+#include <cstddef>
+#include <cstdint>
 #include <functional>
+#include <future>
 #include <string>
 #include <vector>
 
@@ -51,5 +55,53 @@ void addHandCommands(fci::LineServer& lines, WholeRobot& robot);
 /// Adds the commands of the robot's safety controller: stops, brakes, FCI, operating mode, guiding,
 /// self-test, errors, the end effector and motions by Desk; and the report of its state.
 void addSafetyCommands(fci::LineServer& lines, const OperatorContext& context);
+
+/// A robot, as programs that draw the world need it.
+struct SceneRobot {
+  std::string arm_id;  ///< prefix of its links
+  std::string type;    ///< "panda" or "fr3"
+};
+
+/// The world's shapes as text, for several LineServers. They are read in a thread of their own,
+/// since that takes seconds, once for each set of robots and objects. All functions are called by
+/// the stepping thread.
+class SceneText {
+ public:
+  using Robots = std::function<std::vector<SceneRobot>()>;  ///< returns the robots of the world
+
+  /// Writes the model's text in advance, so that no tick has to.
+  /// @param world outlives this @param robots of the world, now
+  SceneText(World& world, Robots robots);
+
+  /// Answers the line `scene`: a JSON object with bodies, shapes and robots.
+  /// @throws std::runtime_error (the reply does) with a sentence when the model does not compile
+  fci::Reply describe();
+  /// Answers the line `mesh`: a JSON object with the part of a mesh that begins at this byte.
+  /// @throws std::invalid_argument (the reply does) with a sentence
+  fci::Reply mesh(const std::string& name, std::size_t offset);
+
+ private:
+  struct Content {
+    std::string bodies_and_shapes;  ///< members of a JSON object, which is not closed
+    /// A triangle mesh.
+    struct Mesh {
+      std::size_t vertices, faces;  ///< counts
+      std::string bytes;            ///< vertices as float32 x, y, z; faces as three uint32
+    };
+    std::vector<Mesh> meshes;
+  };
+
+  static Content contentOf(const WorldShapes& shapes);
+  const Content* content();
+
+  World& world_;
+  Robots robots_;
+  std::uint64_t generation_{0};  ///< of the world that is read
+  std::shared_future<Content> reading_;
+};
+
+/// Adds the lines `scene`, `mesh` and `poses` (docs/franka_sim.md). World and scene outlive the
+/// server.
+void addSceneCommands(fci::LineServer& lines, const World& world, SceneText& scene);
 
 }  // namespace franka_sim

@@ -3,8 +3,7 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
-#include <franka_sim/fci/hand_server.h>
-#include <franka_sim/fci/robot_server.h>
+#include <franka_core/fci/protocol.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/robot/whole_robot.h>
 #include <franka_sim/serve/host.h>
@@ -17,6 +16,9 @@
 #include <utility>
 
 namespace franka_sim::fci {
+
+class RobotServer;
+struct RobotServerParameters;
 
 /// One robot on the network: its units, or those of a robot that also this process moves, with
 /// their servers. Called by one thread.
@@ -47,6 +49,9 @@ class SimRobot : public HostedRobot {
   /// @param units outlive this; they have the tools whose ports are given
   /// @throws std::runtime_error if a port cannot be opened
   SimRobot(WholeRobot& units, RobotServerParameters server, const ToolPorts& tools);
+  ~SimRobot() override;
+  SimRobot(const SimRobot&) = delete;
+  SimRobot& operator=(const SimRobot&) = delete;
 
   WholeRobot& whole() noexcept { return units_; }
   ControlUnit& unit() noexcept { return units_.unit(); }
@@ -59,18 +64,21 @@ class SimRobot : public HostedRobot {
   void restart() noexcept { units_.restart(); }
   void halt() noexcept { units_.halt(); }
 
-  const RobotServer& server() const noexcept { return server_; }
-  std::uint16_t gripperPort() const noexcept { return hand_ ? hand_->port() : 0; }
-  std::uint16_t vacuumPort() const noexcept { return vacuum_ ? vacuum_->port() : 0; }
+  const RobotServer& server() const noexcept;
+  /// Protocol of the connected client; 0 without one.
+  std::uint16_t clientVersion() const noexcept;
+  std::uint16_t gripperPort() const noexcept;
+  std::uint16_t vacuumPort() const noexcept;
 
   /// Sets the function that reports a self-collision or a contact reflex, once each time the error
   /// appears. Its argument is the text after the robot's name and a colon. It is called within
   /// `observe`.
   void onCollision(std::function<void(const std::string&)> report) { report_ = std::move(report); }
 
-  /// Sets the function that reports why connections were ended (ClientSlot::onRefusal). Its
-  /// argument is the text after the robot's name and a colon. It is called within `serve`.
-  void onRefusal(const ClientSlot::Report& report);
+  /// Sets the function that reports why connections were ended, of each kind at most once in ten
+  /// seconds. Its argument is the text after the robot's name and a colon. It is called within
+  /// `serve`.
+  void onRefusal(const std::function<void(const std::string&)>& report);
 
   void observe() override;
   void actuate() override;
@@ -78,20 +86,18 @@ class SimRobot : public HostedRobot {
   bool idle() const override;
   void publish(std::uint64_t ticks, bool same_tick, bool keep_end) override;
   void repeat() override;
-  bool hasPendingState() const override { return server_.hasPendingState(); }
-  bool receiveCommand() override { return server_.receiveCommand(); }
-  bool expectsCommand() const override { return server_.expectsCommands(); }
-  bool asynchronous() const override { return server_.asynchronous(); }
-  bool motionHasBegun() const override { return server_.motionHasBegun(); }
+  bool hasPendingState() const override;
+  bool receiveCommand() override;
+  bool expectsCommand() const override;
+  bool asynchronous() const override;
+  bool motionHasBegun() const override;
   bool settling() const override;
   bool settlesInKnownTime() const override { return units_.safety().busy(); }
   bool handBusy() const override;
   /// Whether a client is connected to the arm or to the hand.
   bool hasClients() const;
   void addDescriptors(std::vector<pollfd>& fds) const override;
-  void addCommandDescriptor(std::vector<pollfd>& fds) const override {
-    server_.addCommandDescriptor(fds);
-  }
+  void addCommandDescriptor(std::vector<pollfd>& fds) const override;
 
  protected:
   /// The client's answer to the last state; null if there is none. Between motions it drops the
@@ -99,16 +105,15 @@ class SimRobot : public HostedRobot {
   const franka_core::RobotCommand* takeCommand() noexcept;
 
  private:
+  struct Servers;
+
   SimRobot(std::unique_ptr<WholeRobot> units, RobotServerParameters server, const ToolPorts& tools);
 
   void publishTools(std::uint64_t ticks);
 
   std::unique_ptr<WholeRobot> owned_;  ///< null if the units are another one's
   WholeRobot& units_;
-  UnitRequestHandler handler_;
-  RobotServer server_;
-  std::unique_ptr<GripperServer> hand_;
-  std::unique_ptr<VacuumServer> vacuum_;
+  std::unique_ptr<Servers> servers_;
   std::function<void(const std::string&)> report_;
 };
 
@@ -139,7 +144,7 @@ SimRobot makeSimRobot(const std::string& address, const ProtocolRange& protocols
 
 /// The two links that came too close, named as in the description without the arm's name: "link2
 /// and hand".
-std::string linksOf(const SelfCollision::Pair& pair);
+std::string linksOf(const LinkPair& pair);
 
 /// Sets the load as the user does in Desk.
 /// @throws std::runtime_error with a sentence when the robot refuses it

@@ -4,14 +4,14 @@
 
 #include <franka_core/finite.h>
 #include <franka_sim/robot/plant.h>
-#include <franka_sim/robot/safety/collisions.h>
-#include <franka_sim/robot/transforms.h>
 
 #include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <cstddef>
 #include <numeric>
+
+#include "robot/transforms.h"
 
 namespace franka_sim {
 

@@ -6,13 +6,13 @@
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/fixed_pointer.h>
 #include <franka_sim/robot/plant.h>
-#include <franka_sim/robot/transforms.h>
 
 #include <array>
 #include <cmath>
 #include <cstddef>
 
 #include "robot/configuration.h"
+#include "robot/transforms.h"
 
 namespace franka_sim {
 

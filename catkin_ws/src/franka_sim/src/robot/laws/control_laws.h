@@ -4,12 +4,12 @@
 
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/fixed_pointer.h>
-#include <franka_sim/robot/transforms.h>
 
 #include <array>
 
 #include "robot/configuration.h"
 #include "robot/estimator/state_estimator.h"
+#include "robot/transforms.h"
 
 namespace franka_sim {
 

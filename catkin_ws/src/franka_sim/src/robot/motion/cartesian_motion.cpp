@@ -5,6 +5,7 @@
 #include <franka_core/arm_model.h>
 #include <franka_core/finite.h>
 #include <franka_core/rotations.h>
+#include <franka_core/transform.h>
 #include <franka_sim/robot/plant.h>
 
 #include <Eigen/Cholesky>
@@ -171,7 +172,7 @@ ErrorSet CartesianMotion::checkElbow(const ElbowCommand& command, double sign) c
 ErrorSet CartesianMotion::takePose(const Transform& pose, const ElbowCommand& elbow, double sign,
                                    const MotionLimits& limits) noexcept {
   has_refused_ = false;
-  if (!isTransform(pose)) {
+  if (!franka_core::isRigidTransform(pose)) {
     return RobotError::kCartesianPositionMotionGeneratorInvalidFrameFlag;
   }
   const double q3 = elbow.valid ? elbow.elbow[0] : last_.elbow.q3;
@@ -185,11 +186,11 @@ ErrorSet CartesianMotion::takePose(const Transform& pose, const ElbowCommand& el
   if (!started_) {
     step = atRest(step.pose, q3);
   }
-  errors = judge(step, last_, limits);
+  errors = checkStep(step, last_, limits);
   // Against the history as read by the client, the exact command counts, as in the client.
   if (errors && limits.echoes_floats && started_) {
     const CartesianSample seen = asEchoed(last_);
-    errors = judge(stepToPose(seen, pose, q3), seen, limits) ? errors : ErrorSet{};
+    errors = checkStep(stepToPose(seen, pose, q3), seen, limits) ? errors : ErrorSet{};
   }
   return take(step, errors);
 }
@@ -208,10 +209,10 @@ ErrorSet CartesianMotion::takeTwist(const std::array<double, 6>& twist, const El
     last_.elbow.q3 = q3;  // within the tolerance; the elbow's history starts here
   }
   const CartesianSample step = stepByTwist(last_, twist, q3);
-  ErrorSet errors = judge(step, last_, limits);
+  ErrorSet errors = checkStep(step, last_, limits);
   if (errors && limits.echoes_floats) {
     const CartesianSample seen = asEchoed(last_);
-    errors = judge(stepByTwist(seen, twist, q3), seen, limits) ? errors : ErrorSet{};
+    errors = checkStep(stepByTwist(seen, twist, q3), seen, limits) ? errors : ErrorSet{};
   }
   return take(step, errors);
 }
@@ -222,7 +223,7 @@ ErrorSet CartesianMotion::extrapolate(const MotionLimits& limits) noexcept {
     return {};
   }
   const CartesianSample step = stepByAcceleration(last_);
-  return take(step, judge(step, last_, limits));
+  return take(step, checkStep(step, last_, limits));
 }
 
 // The end of each of these steps.
@@ -238,7 +239,7 @@ ErrorSet CartesianMotion::take(const CartesianSample& step, const ErrorSet& erro
 }
 
 ErrorSet CartesianMotion::checkStop(const MotionLimits& limits) const noexcept {
-  return judge(stepByTwist(last_, {}, last_.elbow.q3), last_, limits);
+  return checkStep(stepByTwist(last_, {}, last_.elbow.q3), last_, limits);
 }
 
 }  // namespace franka_sim

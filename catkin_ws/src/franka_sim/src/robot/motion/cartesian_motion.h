@@ -4,9 +4,10 @@
 
 #include <franka_core/arm_model.h>
 #include <franka_sim/robot/limits.h>
-#include <franka_sim/robot/transforms.h>
 
 #include <array>
+
+#include "robot/transforms.h"
 
 namespace franka_sim {
 

@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "robot/motion/joint_motion.h"
+
 #include <franka_core/finite.h>
-#include <franka_sim/robot/motion/joint_motion.h>
 
 #include <algorithm>
 #include <cmath>
@@ -37,15 +38,15 @@ JointFlags solved(const MotionLimits& limits) noexcept {
 using Step = JointSample (*)(const JointSample&, const std::array<double, 7>&);
 
 // Fails only if both histories fail; the exact one determines the flags.
-ErrorSet judgeBoth(Step make, const std::array<double, 7>& command, const JointSample& last,
-                   const MotionLimits& limits) noexcept {
+ErrorSet checkWithEcho(Step make, const std::array<double, 7>& command, const JointSample& last,
+                       const MotionLimits& limits) noexcept {
   const JointFlags flags = commanded(limits);
-  const ErrorSet errors = judge(make(last, command), last, flags, limits);
+  const ErrorSet errors = checkStep(make(last, command), last, flags, limits);
   if (!errors || !limits.echoes_floats) {
     return errors;
   }
   const JointSample seen = asEchoed(last);
-  return judge(make(seen, command), seen, flags, limits) ? errors : ErrorSet{};
+  return checkStep(make(seen, command), seen, flags, limits) ? errors : ErrorSet{};
 }
 
 }  // namespace
@@ -71,8 +72,8 @@ ErrorSet JointMotion::takePositions(const std::array<double, 7>& q_c,
     step = JointSample{};
     step.q = q_c;
   }
-  const ErrorSet errors = started_ ? judgeBoth(stepToPositions, q_c, last_, limits)
-                                   : judge(step, last_, commanded(limits), limits);
+  const ErrorSet errors = started_ ? checkWithEcho(stepToPositions, q_c, last_, limits)
+                                   : checkStep(step, last_, commanded(limits), limits);
   if (!errors) {
     last_ = step;
     started_ = true;
@@ -85,7 +86,7 @@ ErrorSet JointMotion::takeVelocities(const std::array<double, 7>& dq_c,
   if (!franka_core::allFinite(dq_c)) {
     return RobotError::kJointMotionGeneratorVelocityLimitsViolation;
   }
-  const ErrorSet errors = judgeBoth(stepByVelocities, dq_c, last_, limits);
+  const ErrorSet errors = checkWithEcho(stepByVelocities, dq_c, last_, limits);
   if (!errors) {
     last_ = stepByVelocities(last_, dq_c);
     started_ = true;
@@ -100,7 +101,7 @@ ErrorSet JointMotion::takeSolved(const std::array<double, 7>& q, bool first,
     step = JointSample{};
     step.q = q;
   }
-  const ErrorSet errors = judge(step, last_, solved(limits), limits);
+  const ErrorSet errors = checkStep(step, last_, solved(limits), limits);
   if (!errors) {
     last_ = step;
     started_ = true;
@@ -108,9 +109,9 @@ ErrorSet JointMotion::takeSolved(const std::array<double, 7>& q, bool first,
   return errors;
 }
 
-ErrorSet JointMotion::judgeJump(const std::array<double, 7>& q,
+ErrorSet JointMotion::checkJump(const std::array<double, 7>& q,
                                 const MotionLimits& limits) const noexcept {
-  return judgeJerk(stepToPositions(last_, q), last_, solved(limits), limits);
+  return checkJerk(stepToPositions(last_, q), last_, solved(limits), limits);
 }
 
 ErrorSet JointMotion::extrapolate(const MotionLimits& limits) noexcept {
@@ -118,7 +119,7 @@ ErrorSet JointMotion::extrapolate(const MotionLimits& limits) noexcept {
     return {};
   }
   const JointSample step = stepByAcceleration(last_);
-  const ErrorSet errors = judge(step, last_, commanded(limits), limits);
+  const ErrorSet errors = checkStep(step, last_, commanded(limits), limits);
   if (!errors) {
     last_ = step;
   }
@@ -126,7 +127,7 @@ ErrorSet JointMotion::extrapolate(const MotionLimits& limits) noexcept {
 }
 
 ErrorSet JointMotion::checkStop(const MotionLimits& limits) const noexcept {
-  return judge(stepByVelocities(last_, {}), last_, commanded(limits), limits);
+  return checkStep(stepByVelocities(last_, {}), last_, commanded(limits), limits);
 }
 
 }  // namespace franka_sim

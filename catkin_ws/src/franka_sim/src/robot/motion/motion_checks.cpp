@@ -121,16 +121,16 @@ void differentiate(const JointSample& last, JointSample& step) noexcept {
 
 }  // namespace
 
-ErrorSet judge(const JointSample& step, const JointSample& last, const JointFlags& flags,
-               const MotionLimits& limits) noexcept {
-  ErrorSet errors = judgeJerk(step, last, flags, limits);
+ErrorSet checkStep(const JointSample& step, const JointSample& last, const JointFlags& flags,
+                   const MotionLimits& limits) noexcept {
+  ErrorSet errors = checkJerk(step, last, flags, limits);
   errors.addIf(positionsFail(step, last, limits), flags.position);
   errors.addIf(velocitiesFail(step, last, limits), flags.velocity);
   errors.addIf(accelerationsFail(step, last, limits), flags.acceleration);
   return errors;
 }
 
-ErrorSet judgeJerk(const JointSample& step, const JointSample& last, const JointFlags& flags,
+ErrorSet checkJerk(const JointSample& step, const JointSample& last, const JointFlags& flags,
                    const MotionLimits& limits) noexcept {
   ErrorSet errors;
   errors.addIf(jerksFail(step, last, flags.jerk_factor, limits), flags.jerk);
@@ -298,8 +298,8 @@ Transform moved(const Transform& pose, const Derivative& twist) noexcept {
 
 }  // namespace
 
-ErrorSet judge(const CartesianSample& step, const CartesianSample& last,
-               const MotionLimits& limits) noexcept {
+ErrorSet checkStep(const CartesianSample& step, const CartesianSample& last,
+                   const MotionLimits& limits) noexcept {
   using Bounds = franka_core::DerivativeLimits;
   ErrorSet errors;
   errors.addIf(elbowFails(step.elbow, last.elbow, limits),

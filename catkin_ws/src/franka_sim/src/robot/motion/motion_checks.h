@@ -3,12 +3,12 @@
 #pragma once
 
 #include <franka_sim/robot/limits.h>
-#include <franka_sim/robot/motion/joint_motion.h>
 
 #include <array>
 #include <cstddef>
 
 #include "robot/motion/cartesian_motion.h"
+#include "robot/motion/joint_motion.h"
 
 namespace franka_sim {
 
@@ -36,11 +36,11 @@ struct JointFlags {
 
 /// Every rule, position to jerk, that a step violates.
 /// @param last the sample before it.
-ErrorSet judge(const JointSample& step, const JointSample& last, const JointFlags& flags,
-               const MotionLimits& limits) noexcept;
+ErrorSet checkStep(const JointSample& step, const JointSample& last, const JointFlags& flags,
+                   const MotionLimits& limits) noexcept;
 
 /// The same for the rule of the jerk alone.
-ErrorSet judgeJerk(const JointSample& step, const JointSample& last, const JointFlags& flags,
+ErrorSet checkJerk(const JointSample& step, const JointSample& last, const JointFlags& flags,
                    const MotionLimits& limits) noexcept;
 
 /// The step from last to positions [rad], or by velocities [rad/s].
@@ -53,8 +53,8 @@ JointSample asEchoed(const JointSample& sample) noexcept;
 
 /// Every rule, position to jerk, that a step violates; all those of the elbow have one flag.
 /// @param last the sample before it.
-ErrorSet judge(const CartesianSample& step, const CartesianSample& last,
-               const MotionLimits& limits) noexcept;
+ErrorSet checkStep(const CartesianSample& step, const CartesianSample& last,
+                   const MotionLimits& limits) noexcept;
 
 /// The step from last to a pose, or by a twist in O, with the elbow at q3 [rad].
 CartesianSample stepToPose(const CartesianSample& last, const Transform& pose, double q3) noexcept;

@@ -4,19 +4,81 @@
 
 #include <franka_core/arm_model.h>
 #include <franka_core/fci/commands.h>
+#include <franka_core/limits.h>
 #include <franka_core/robot_error.h>
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/limits.h>
-#include <franka_sim/robot/motion/joint_motion.h>
-#include <franka_sim/robot/transforms.h>
 
 #include <array>
 #include <cstddef>
 
 #include "robot/motion/cartesian_motion.h"
-#include "robot/motion/rest_sequence.h"
+#include "robot/motion/joint_motion.h"
+#include "robot/transforms.h"
 
 namespace franka_sim {
+
+/// The highest rate of change in this tick from which the value still stops after `distance`, if
+/// the rate decreases by `step` per tick: a velocity for a position, a deceleration for a velocity.
+/// @param distance, step not negative. Real-time safe.
+double landingRate(double distance, double step) noexcept;
+
+/// Brings a desired motion to rest, each joint alone at its full acceleration and with its jerk
+/// limit (decision 16): the stop after a reflex, lost packets, StopMove or the user stop. A joint
+/// that is about to rest stops at once, whatever its jerk is. Called by one thread. Real-time safe.
+class BrakeTrajectory {
+ public:
+  /// @param q_d, dq_d, ddq_d desired position, velocity and acceleration [rad, rad/s, rad/s^2];
+  /// the last two count as 0 where they are not finite
+  void start(const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d,
+             const std::array<double, 7>& ddq_d, const franka_core::ArmLimits& limits) noexcept;
+  /// One tick (1 ms). At rest only ddq changes, to 0.
+  void step() noexcept;
+
+  bool atRest() const noexcept;
+  const std::array<double, 7>& q() const noexcept { return q_; }      ///< [rad]
+  const std::array<double, 7>& dq() const noexcept { return dq_; }    ///< [rad/s]
+  const std::array<double, 7>& ddq() const noexcept { return ddq_; }  ///< [rad/s^2]
+
+ private:
+  std::array<double, 7> q_{}, dq_{}, ddq_{}, ddq_max_{};
+  std::array<double, 7> change_{};  ///< of the acceleration in a tick [rad/s^2]
+};
+
+/// Brings an arm to rest: its desired motion brakes; after a reflex the arm then yields for a
+/// limited time, so that it does not press on an obstacle (decision 16). Called by one thread.
+/// Real-time safe.
+class RestSequence {
+ public:
+  /// The behavior of the desired pose in a tick.
+  enum class Step {
+    kNone,    ///< nothing: the arm rests
+    kBrakes,  ///< follows braking()
+    kStops,   ///< the same, and comes to rest in this tick
+    kYields,  ///< follows the measured pose
+  };
+
+  /// Brakes from a desired motion, as BrakeTrajectory.
+  void brake(const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d,
+             const std::array<double, 7>& ddq_d, const franka_core::ArmLimits& limits) noexcept;
+  /// The arm is held where it is.
+  void finish() noexcept { phase_ = Phase::kReached; }
+
+  /// One tick. @param reflex whether the arm brakes because of an error @param q, dq measured
+  Step step(bool reflex, const std::array<double, 7>& q, const std::array<double, 7>& dq,
+            const franka_core::ArmLimits& limits) noexcept;
+
+  bool isBraking() const noexcept { return phase_ == Phase::kBraking; }
+  bool isFinished() const noexcept { return phase_ == Phase::kReached; }
+  const BrakeTrajectory& braking() const noexcept { return brake_; }
+
+ private:
+  enum class Phase { kBraking, kYielding, kReached };
+
+  BrakeTrajectory brake_;
+  Phase phase_{Phase::kReached};
+  int ticks_{0};
+};
 
 /// The low-pass filters that clients up to protocol 5 can set for motion generators and torque
 /// controller (SetFilters). First order (protocol 5.6); at 1000 Hz a signal passes unchanged.

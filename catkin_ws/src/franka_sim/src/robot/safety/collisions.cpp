@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "robot/safety/collisions.h"
+
 #include <franka_core/numbers.h>
-#include <franka_sim/robot/safety/collisions.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
@@ -11,17 +12,6 @@
 #include <string>
 
 namespace franka_sim {
-
-namespace {
-
-std::string against(const Collision& collision, const char* quantity, const char* unit) {
-  const std::string value = franka_core::numberText(collision.value, 4);
-  const std::string threshold = franka_core::numberText(collision.threshold, 4);
-  return std::string("external ") + quantity + " " + value + " " + unit + ", upper threshold " +
-         threshold + " " + unit;
-}
-
-}  // namespace
 
 template <std::size_t N>
 Collision worstOf(const std::array<double, N>& values,
@@ -38,35 +28,8 @@ Collision worstOf(const std::array<double, N>& values,
   return worst;
 }
 
-template <std::size_t N>
-std::array<double, N> above(const std::array<double, N>& values,
-                            const std::array<double, N>& thresholds) noexcept {
-  std::array<double, N> flags{};
-  for (std::size_t i = 0; i < N; i++) {
-    flags[i] = std::abs(values[i]) > thresholds[i] ? 1.0 : 0.0;
-  }
-  return flags;
-}
-
-std::string describeJointCollision(const Collision& collision) {
-  return "joint " + std::to_string(collision.index + 1) + ": " + against(collision, "torque", "Nm");
-}
-
-std::string describeCartesianCollision(const Collision& collision, InterfaceRules rules) {
-  static constexpr const char* kAxes[] = {"x", "y", "z"};
-  const std::string axis =
-      std::string(kAxes[collision.index % 3]) + (checksWrenchInBase(rules) ? " of O" : " of K");
-  return collision.index < 3 ? "along " + axis + ": " + against(collision, "force", "N")
-                             : "about " + axis + ": " + against(collision, "torque", "Nm");
-}
-
 template Collision worstOf(const std::array<double, 6>&, const std::array<double, 6>&) noexcept;
 template Collision worstOf(const std::array<double, 7>&, const std::array<double, 7>&) noexcept;
-template std::array<double, 6> above(const std::array<double, 6>&,
-                                     const std::array<double, 6>&) noexcept;
-template std::array<double, 7> above(const std::array<double, 7>&,
-                                     const std::array<double, 7>&) noexcept;
-
 namespace {
 
 constexpr double kHalfRoot = 0.70710678118654752440;  // cos and sin of 45 degrees
@@ -206,10 +169,10 @@ bool SelfCollision::isWithinFreeWay(const std::array<double, 7>& q) const noexce
   return way < free_way_;
 }
 
-SelfCollision::Pair SelfCollision::closest(const franka_core::ArmModel& model,
-                                           const std::array<double, 7>& q) noexcept {
+LinkPair SelfCollision::closest(const franka_core::ArmModel& model,
+                                const std::array<double, 7>& q) noexcept {
   measure(model, q);
-  Pair closest{0, 0, std::numeric_limits<double>::infinity()};
+  LinkPair closest{0, 0, std::numeric_limits<double>::infinity()};
   std::size_t pair = 0;
   for (std::size_t i = 0; i < kCapsuleCount; i++) {
     for (std::size_t j = i + 1; j < kCapsuleCount; j++, pair++) {

@@ -2,13 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/safety/safety_monitor.h"
 
+#include <franka_core/transform.h>
 #include <franka_sim/robot/limits.h>
-#include <franka_sim/robot/transforms.h>
 
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+
+#include "robot/transforms.h"
 
 namespace franka_sim {
 
@@ -51,7 +53,7 @@ bool VirtualWalls::set(std::int32_t id, const CartesianLimit& wall) noexcept {
   const bool sensible =
       std::all_of(wall.object_world_size.begin(), wall.object_world_size.end(),
                   [](double edge) { return std::isfinite(edge) && edge >= 0.0; }) &&
-      isTransform(wall.object_frame);
+      franka_core::isRigidTransform(wall.object_frame);
   if (get(id) == nullptr || !sensible) {
     return false;
   }

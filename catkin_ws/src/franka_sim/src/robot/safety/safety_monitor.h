@@ -4,10 +4,8 @@
 
 #include <franka_core/fci/commands.h>
 #include <franka_core/robot_state.h>
-#include <franka_sim/robot/errors.h>
 #include <franka_sim/robot/fixed_pointer.h>
 #include <franka_sim/robot/limits.h>
-#include <franka_sim/robot/safety/collisions.h>
 
 #include <array>
 #include <bitset>
@@ -16,6 +14,7 @@
 
 #include "robot/configuration.h"
 #include "robot/estimator/state_estimator.h"
+#include "robot/safety/collisions.h"
 
 namespace franka_sim {
 
@@ -112,9 +111,7 @@ class SafetyMonitor {
   void clearCollisions() noexcept { joint_collision_ = cartesian_collision_ = Collision(); }
   const Collision& jointCollision() const noexcept { return joint_collision_; }
   const Collision& cartesianCollision() const noexcept { return cartesian_collision_; }
-  const SelfCollision::Pair& selfCollision() const noexcept {
-    return self_collision_.overlappingPair();
-  }
+  const LinkPair& selfCollision() const noexcept { return self_collision_.overlappingPair(); }
   VirtualWalls& walls() noexcept { return walls_; }
   const VirtualWalls& walls() const noexcept { return walls_; }
 

@@ -3,7 +3,6 @@
 // A client that limits its commands as libfranka does is never aborted, whatever its targets:
 // random targets, every robot, states as doubles and as floats.
 #include <franka/rate_limiting.h>
-#include <franka_sim/robot/motion/joint_motion.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -13,6 +12,7 @@
 
 #include "motion_fixture.h"
 #include "robot/motion/cartesian_motion.h"
+#include "robot/motion/joint_motion.h"
 
 namespace franka_sim::test {
 

@@ -16,7 +16,7 @@ namespace internal {
 /// The command of the previous cycle; without one, the measured position is used.
 class PositionHistory {
  public:
-  void forget() { previous_ = std::numeric_limits<double>::quiet_NaN(); }
+  void clear() { previous_ = std::numeric_limits<double>::quiet_NaN(); }
 
   double from(const hardware_interface::JointHandle& joint) {
     if (std::isnan(previous_)) {
@@ -63,7 +63,7 @@ class PositionJointSaturationHandle : public internal::LimitHandle {
   }
 
   /// Resets the previous command. Call it when commands come from another controller.
-  void reset() { history_.forget(); }
+  void reset() { history_.clear(); }
 
  private:
   internal::Bounds range_{internal::Bounds::symmetric(internal::kUnlimited)};
@@ -103,7 +103,7 @@ class PositionJointSoftLimitsHandle : public internal::LimitHandle {
   }
 
   /// Resets the previous command. Call it when commands come from another controller.
-  void reset() { history_.forget(); }
+  void reset() { history_.clear(); }
 
  private:
   SoftJointLimits soft_limits_;

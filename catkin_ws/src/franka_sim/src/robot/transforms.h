@@ -20,9 +20,6 @@ Transform multiply(const Transform& a, const Transform& b) noexcept;
 std::array<double, 6> twist(const std::array<double, 42>& jacobian,
                             const std::array<double, 7>& dq) noexcept;
 
-/// Whether the control unit takes a matrix as a pose or a frame: franka_core::isRigidTransform.
-bool isTransform(const Transform& matrix) noexcept;
-
 /// Sign of the elbow in the states: +1 where joint 4 is at or above franka_core::kElbowFlip, else
 /// -1. Real-time safe. Thread-safe.
 /// @param q joint positions [rad]

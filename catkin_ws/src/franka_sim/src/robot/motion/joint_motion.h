@@ -37,7 +37,7 @@ class JointMotion {
                       const MotionLimits& limits) noexcept;
   /// For a Cartesian command that is already refused: checks only the joint jerk of its joint
   /// positions [rad], as real robots do (decision 47). Nothing changes.
-  ErrorSet judgeJump(const std::array<double, 7>& q, const MotionLimits& limits) const noexcept;
+  ErrorSet checkJump(const std::array<double, 7>& q, const MotionLimits& limits) const noexcept;
   /// A step without a command: the acceleration is held. Before the first step nothing changes.
   ErrorSet extrapolate(const MotionLimits& limits) noexcept;
   /// Whether the joints could stand still in the next tick, as after a finished motion.

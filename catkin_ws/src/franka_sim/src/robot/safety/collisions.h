@@ -7,33 +7,12 @@
 
 #include <array>
 #include <cstddef>
-#include <string>
 
 namespace franka_sim {
-
-/// The cause of a collision reflex: the joint or axis that was farthest beyond its upper threshold
-/// in the tick of the reflex.
-struct Collision {
-  bool happened{false};
-  std::size_t index{0};   ///< of the joint, or of x, y, z, R, P, Y
-  double value{0.0};      ///< external torque [Nm] or force [N], not filtered
-  double threshold{0.0};  ///< the upper one in effect [Nm, N]
-};
 
 /// The entry farthest beyond its threshold by ratio. Real-time safe.
 template <std::size_t N>
 Collision worstOf(const std::array<double, N>& values, const std::array<double, N>& upper) noexcept;
-
-/// Which magnitudes are above their thresholds: 1 or 0, as the flags of RobotState. Real-time safe.
-template <std::size_t N>
-std::array<double, N> above(const std::array<double, N>& values,
-                            const std::array<double, N>& thresholds) noexcept;
-
-/// "joint 4: external torque 23.4 Nm, upper threshold 20 Nm". Not real-time safe.
-std::string describeJointCollision(const Collision& collision);
-/// "along z of O: external force -25.1 N, upper threshold 20 N", or about it, or of K.
-/// Not real-time safe.
-std::string describeCartesianCollision(const Collision& collision, InterfaceRules rules);
 
 /// A cylinder with a half sphere on either end, fixed to a link.
 struct Capsule {
@@ -42,7 +21,6 @@ struct Capsule {
   double radius;                   ///< [m]
 };
 
-constexpr int kHandLink = 8;  ///< its frame: the flange turned by -45 degrees about z
 constexpr std::size_t kCapsuleCount = 12;
 
 /// The coarse volumes of arm and hand: those of the links `_sc` of the robot's description, without
@@ -57,21 +35,16 @@ double segmentDistance(const std::array<double, 3>& a0, const std::array<double,
 /// apart, except 1 and 3, whose volumes always overlap. Called by one thread. Real-time safe.
 class SelfCollision {
  public:
-  struct Pair {
-    int first{0}, second{0};  ///< links
-    double distance{0.0};     ///< between their surfaces, negative inside each other [m]
-  };
-
   explicit SelfCollision(bool has_hand) noexcept : has_hand_(has_hand) {}
 
   /// The closest pair at q [rad].
-  Pair closest(const franka_core::ArmModel& model, const std::array<double, 7>& q) noexcept;
+  LinkPair closest(const franka_core::ArmModel& model, const std::array<double, 7>& q) noexcept;
 
   /// Call when a motion begins: pairs that already overlap may separate, but not approach.
   void begin(const franka_core::ArmModel& model, const std::array<double, 7>& q) noexcept;
   /// @returns whether a pair overlaps, and more than at begin(); `overlappingPair` then names it.
   bool violated(const franka_core::ArmModel& model, const std::array<double, 7>& q) noexcept;
-  const Pair& overlappingPair() const noexcept { return overlapping_pair_; }
+  const LinkPair& overlappingPair() const noexcept { return overlapping_pair_; }
 
  private:
   static constexpr std::size_t kPairs = kCapsuleCount * (kCapsuleCount - 1) / 2;
@@ -88,7 +61,7 @@ class SelfCollision {
   std::array<double, 7> free_q_{};
   double free_way_{0.0};  ///< [m]
   std::array<double, kPairs> distance_{}, allowed_{};
-  Pair overlapping_pair_;
+  LinkPair overlapping_pair_;
 };
 
 }  // namespace franka_sim

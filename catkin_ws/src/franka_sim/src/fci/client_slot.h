@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/fci/sockets.h>
 #include <poll.h>
 
 #include <array>
@@ -14,6 +13,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "fci/sockets.h"
 
 namespace franka_sim::fci {
 

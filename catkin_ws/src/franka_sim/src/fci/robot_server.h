@@ -7,7 +7,6 @@
 #include <franka_core/fci/reply_codec.h>
 #include <franka_core/fci/state_codec.h>
 #include <franka_core/robot_state.h>
-#include <franka_sim/fci/client_slot.h>
 #include <franka_sim/robot/control_unit.h>
 
 #include <array>
@@ -17,6 +16,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include "fci/client_slot.h"
 
 namespace franka_sim::fci {
 
@@ -48,10 +49,6 @@ class ArmRequestHandler {
   /// The result of the motion, the stop or the recovery; each answer is returned once.
   virtual std::optional<Status> takeAnswer(PendingAnswer which) noexcept = 0;
 };
-
-}  // namespace franka_sim::fci
-
-namespace franka_sim::fci {
 
 struct RobotServerParameters {
   std::string address{"127.0.0.1"};                  ///< used by this robot only
@@ -194,10 +191,6 @@ class RobotServer {
   franka_core::RobotState shown_;
   franka_core::RobotCommand command_;
 };
-
-}  // namespace franka_sim::fci
-
-namespace franka_sim::fci {
 
 /// Translates requests of the protocol for a control unit, and translates the unit's results back.
 class UnitRequestHandler final : public ArmRequestHandler {

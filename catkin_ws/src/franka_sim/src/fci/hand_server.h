@@ -6,7 +6,6 @@
 #include <franka_core/fci/gripper_codec.h>
 #include <franka_core/fci/protocol.h>
 #include <franka_core/fci/vacuum_codec.h>
-#include <franka_sim/fci/client_slot.h>
 #include <franka_sim/robot/hands/gripper_unit.h>
 #include <franka_sim/robot/hands/vacuum_gripper_unit.h>
 
@@ -16,6 +15,8 @@
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "fci/client_slot.h"
 
 namespace franka_sim::fci {
 
@@ -206,10 +207,6 @@ void HandServer<Device>::publish(std::uint64_t milliseconds) {
   }
 }
 
-}  // namespace franka_sim::fci
-
-namespace franka_sim::fci {
-
 /// The hand with two fingers, protocol versions 2 and 3.
 struct GripperDevice {
   using Unit = GripperUnit;
@@ -232,10 +229,6 @@ struct GripperDevice {
 using GripperServer = HandServer<GripperDevice>;
 
 extern template class HandServer<GripperDevice>;
-
-}  // namespace franka_sim::fci
-
-namespace franka_sim::fci {
 
 /// The vacuum gripper, protocol version 1. The profiles P0 to P3 are accepted without effect: what
 /// they set on a device is not published.

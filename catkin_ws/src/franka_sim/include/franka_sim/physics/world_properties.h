@@ -54,3 +54,27 @@ void check(const std::array<double, 3>& values, double largest, const char* unit
 void check(double value, double largest, const char* unit, const std::string& what);
 
 }  // namespace franka_sim::sizes
+
+namespace franka_sim {
+
+/// A light of the world file or of an object, as it is drawn. Lights of SDF links are called
+/// model::link::light.
+struct WorldLight {
+  bool on{true};                                 ///< drawn; false for one that was removed
+  bool shadows{true};                            ///< whether it casts them
+  std::array<double, 3> diffuse{}, specular{};   ///< red, green, blue: 0 to 1
+  std::array<double, 3> attenuation{{1, 0, 0}};  ///< constant, linear [1/m], quadratic [1/m^2]
+  std::array<double, 3> position{};              ///< in the world, or in the light's link [m]
+  std::array<double, 3> direction{{0, 0, -1}};   ///< likewise, of any length but 0
+};
+
+/// @name Lights by their names. Not real-time safe.
+/// @throws std::runtime_error with a sentence for an unknown or removed one
+/// @{
+WorldLight light(World& world, const std::string& name);
+/// Lasts until its object is removed; a reset does not change it. @throws std::runtime_error also
+/// for negative colors or attenuations and positions beyond sizes::kMaxPosition
+void setLight(World& world, const std::string& name, const WorldLight& light);
+/// @}
+
+}  // namespace franka_sim
