@@ -17,6 +17,7 @@ TOP = Path(__file__).resolve().parent.parent
 DESIGN = TOP / "docs" / "design"
 LIBFRANKA = TOP / "catkin_ws" / "src" / "libfranka"
 PAGES = {path.stem: path.read_text(encoding="utf-8") for path in sorted(DESIGN.glob("*.md"))}
+ARCHITECTURE = (TOP / "docs" / "architecture.md").read_text(encoding="utf-8")
 
 DECISION = re.compile(r"\(decisions? (\d+(?:, \d+)*)\)")
 PROTOCOL = re.compile(r"\(protocol (\d+\.\d+(?:, \d+\.\d+)*)\)")
@@ -154,6 +155,18 @@ def test_named_functions_exist(page):
         for scope, function in set(FUNCTION.findall(PAGES[page]))
         if not re.search(rf"\b{function}\(", CPP)
         or not re.search(rf"\b(?:class|struct) {scope}\b|\b{scope}::{function}\(", CPP)
+    ]
+    assert not missing
+
+
+def test_answers_of_the_architecture_page_are_in_the_files_that_it_links():
+    table = ARCHITECTURE.split("## Where to look")[1].split("\n## ")[0]
+    answers = re.findall(r"\]\(\.\./([^)]+)\) `(?:\w+::)?(\w+)`", table)
+    assert len(answers) > 8
+    missing = [
+        f"{file}: {function}"
+        for file, function in answers
+        if not re.search(rf"^[^ /].*\b{function}\(", (TOP / file).read_text(encoding="utf-8"), re.MULTILINE)
     ]
     assert not missing
 

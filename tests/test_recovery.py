@@ -75,7 +75,7 @@ class UsedByTrajectory:
 
 @pytest.fixture
 def moving(node):
-    """All arms, controlled at their first positions, whatever happened before."""
+    """All arms, controlled within 2 cm of their first positions, whatever happened before."""
     node.prepare(node.used.CONTROLLER)
     node.used.go_home()
     return node

@@ -17,6 +17,7 @@ import pytest
 
 HERE = Path(__file__).resolve().parent
 ROS_CONTROL = HERE.parents[1]
+TOP = ROS_CONTROL.parents[2]
 
 INVENTORY = {
     "combined_robot_hw": ["combined_robot_hw"],
@@ -143,22 +144,34 @@ def include_folders() -> list[Path]:
 
 
 def compiler_errors(source: str, folder: Path) -> str:
-    """The compiler's errors about a text; empty if it compiles. Cached if there is ccache."""
+    """The compiler's errors about a text; empty if it compiles. Cached if there is ccache.
+
+    In a folder of this clone, ccache also knows the results of clones in other folders.
+    """
     name = hashlib.sha256(source.encode()).hexdigest()[:16]
     (folder / f"{name}.cpp").write_text(source)
     command = ["ccache"] if shutil.which("ccache") else []
     command += ["/usr/bin/c++", "-std=c++17", "-O0", "-Wall", "-Wextra", "-Werror", "-c", f"{name}.cpp"]
     command += [f"-I{path}" for path in include_folders() + [HERE / "signatures"] if path.is_dir()]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300, check=False)
+    done = subprocess.run(
+        command,
+        cwd=folder,
+        env=os.environ | {"CCACHE_BASEDIR": str(TOP), "CCACHE_NOHASHDIR": "1"},
+        capture_output=True,
+        text=True,
+        timeout=300,
+        check=False,
+    )
     return done.stderr if done.returncode != 0 else ""
 
 
 @pytest.fixture(scope="module")
-def verdicts(tmp_path_factory) -> dict[str, str]:
+def verdicts() -> dict[str, str]:
     """Errors of all headers and signatures. In parallel, because the compiler is slow."""
     sources = {name: f"#include <{name}>\n" * 2 + BOUND * (name not in PLAIN) for name in HEADERS}
     sources |= {name: (HERE / "signatures" / name).read_text() for name in SIGNATURES}
-    folder = tmp_path_factory.mktemp("headers")
+    folder = TOP / "out" / "headers"
+    folder.mkdir(parents=True, exist_ok=True)
     with ThreadPoolExecutor(os.cpu_count()) as pool:
         found = pool.map(lambda source: compiler_errors(source, folder), sources.values())
         return dict(zip(sources, found))
