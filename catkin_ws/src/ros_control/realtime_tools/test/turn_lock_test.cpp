@@ -81,6 +81,13 @@ TEST(TurnLock, HandsEveryTurnOverOnceUnderContention) {
   int taken = 0;
   int wrong = 0;
   std::atomic<bool> done{false};
+  // Long enough for a thread that does not wait to be seen.
+  const auto occupy = [&] {
+    collisions += inside++ != 0 ? 1 : 0;
+    for (volatile int i = 0; i < 300; i = i + 1) {
+    }
+    --inside;
+  };
 
   std::thread publisher([&] {
     while (taken < kTurns) {
@@ -88,27 +95,24 @@ TEST(TurnLock, HandsEveryTurnOverOnceUnderContention) {
         std::this_thread::yield();
         continue;
       }
-      collisions += inside++ != 0 ? 1 : 0;
+      occupy();
       ++taken;
       wrong += message != taken ? 1 : 0;
-      --inside;
       turn.unlockAndReturn();
     }
   });
   std::thread bystander([&] {
     while (!done) {
       turn.lock();
-      collisions += inside++ != 0 ? 1 : 0;
-      --inside;
+      occupy();
       turn.unlock();
     }
   });
   int sent = 0;
   while (sent < kTurns) {
     if (turn.tryLock()) {
-      collisions += inside++ != 0 ? 1 : 0;
+      occupy();
       message = ++sent;
-      --inside;
       turn.unlockAndHandOver();
     } else {
       std::this_thread::yield();
