@@ -8,7 +8,6 @@
 
 #include <chrono>
 #include <optional>
-#include <utility>
 
 namespace franka_hw {
 
@@ -56,19 +55,11 @@ void FrankaCombinableHW::initROSInterfaces(ros::NodeHandle& /*robot_hw_nh*/) {
 
 // --- errors --------------------------------------------------------------------------------------
 
-void FrankaCombinableHW::beforeRecovery(std::function<void()> task) {
-  connection_.beforeRecovery(std::move(task));
-}
-
 void FrankaCombinableHW::resetError() { connection_.recover(); }
-
-bool FrankaCombinableHW::needsRecovery() const noexcept { return connection_.needsRecovery(); }
 
 void FrankaCombinableHW::triggerError() { connection_.fail(); }
 
 bool FrankaCombinableHW::hasError() const noexcept { return connection_.hasError(); }
-
-bool FrankaCombinableHW::hasOwnError() const noexcept { return connection_.hasOwnError(); }
 
 void FrankaCombinableHW::waitForOthers(bool waits) {
   if (connection_.waitForOthers(waits) && !waits) {
@@ -232,7 +223,7 @@ void FrankaCombinableHW::read(const ros::Time& /*time*/, const ros::Duration& /*
   const ArrivedState& latest = states_.read();
   read_arrival_ = latest.arrival;
   FrankaHW::update(latest.state);
-  FrankaCombinableHW::checkJointLimits();
+  FrankaHW::checkJointLimits();
 }
 
 void FrankaCombinableHW::write(const ros::Time& /*time*/, const ros::Duration& period) {
@@ -244,8 +235,6 @@ void FrankaCombinableHW::write(const ros::Time& /*time*/, const ros::Duration& p
   enforceLimits(period);
   answers_.write({effort_joint_command_ros_, read_arrival_, ++cycles_});
 }
-
-void FrankaCombinableHW::checkJointLimits() { FrankaHW::checkJointLimits(); }
 
 }  // namespace franka_hw
 

@@ -60,13 +60,13 @@ void FrankaCombinedHW::setupServices(ros::NodeHandle& robot_hw_nh) {
 void FrankaCombinedHW::beforeRecovery(const std::function<void()>& task) {
   before_recovery_ = task;
   for (FrankaCombinableHW* const arm : arms_) {
-    arm->beforeRecovery(task);
+    arm->armConnection().beforeRecovery(task);
   }
 }
 
 void FrankaCombinedHW::recover() {
   if (std::none_of(arms_.begin(), arms_.end(),
-                   [](const auto* arm) { return arm->needsRecovery(); })) {
+                   [](const auto* arm) { return arm->armConnection().needsRecovery(); })) {
     ROS_WARN("FrankaCombinedHW: error_recovery was called, but there is nothing to recover.");
     recovery_server_->setSucceeded();
     return;
@@ -77,7 +77,8 @@ void FrankaCombinedHW::recover() {
   is_recovering_ = true;
   std::string failures;
   for (FrankaCombinableHW* const arm : arms_) {
-    if (!arm->hasOwnError() && !(arm->connected() && arm->needsRecovery())) {
+    const ArmConnection& connection = arm->armConnection();
+    if (!connection.hasOwnError() && !(connection.connected() && connection.needsRecovery())) {
       continue;  // has no error, or was given up and stops no other arm
     }
     try {
@@ -107,13 +108,13 @@ void FrankaCombinedHW::handleError() {
   // One controller may move all arms: if one arm stops, the others must stop until its recovery.
   const bool any = anyOwnError();
   for (FrankaCombinableHW* const arm : arms_) {
-    arm->waitForOthers(any && !arm->hasOwnError());
+    arm->waitForOthers(any && !arm->armConnection().hasOwnError());
   }
 }
 
 bool FrankaCombinedHW::anyOwnError() const {
   return std::any_of(arms_.begin(), arms_.end(),
-                     [](const auto* arm) { return arm->hasOwnError(); });
+                     [](const auto* arm) { return arm->armConnection().hasOwnError(); });
 }
 
 void FrankaCombinedHW::triggerError() {

@@ -11,7 +11,6 @@
 #include <iomanip>
 #include <limits>
 #include <sstream>
-#include <utility>
 
 namespace franka_hw {
 
@@ -124,11 +123,9 @@ bool FrankaHW::disconnect() {
     ROS_ERROR("FrankaHW: the connection cannot be ended while a controller is active.");
     return false;
   }
-  dropConnection();
+  connection_.disconnect();
   return !connected();
 }
-
-void FrankaHW::dropConnection() { connection_.disconnect(); }
 
 bool FrankaHW::connected() { return connection_.connected(); }
 

@@ -100,7 +100,8 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
     return false;
   }
   const ControlMode mode = (current_control_mode_ & ~stop_mode) | start_mode;
-  const RunSettings settings = requestedSettings(mode);
+  const RunSettings settings{mode, get_limit_rate_(), get_cutoff_frequency_(),
+                             get_internal_controller_()};
   // Torques may pass from one controller to the next within a motion: it need not end.
   if (controller_active_ && mode == ControlMode::JointTorque && settings == run_settings_) {
     return true;
@@ -175,10 +176,6 @@ bool FrankaHW::endMotion() {
     std::this_thread::sleep_for(std::chrono::microseconds(20));
   }
   return true;
-}
-
-FrankaHW::RunSettings FrankaHW::requestedSettings(ControlMode mode) const {
-  return {mode, get_limit_rate_(), get_cutoff_frequency_(), get_internal_controller_()};
 }
 
 void FrankaHW::doSwitch(const std::list<hardware_interface::ControllerInfo>& /*start_list*/,

@@ -47,7 +47,6 @@ class FrankaCombinableHW : public FrankaHW {
 
   void read(const ros::Time& time, const ros::Duration& period) override;
   void write(const ros::Time& time, const ros::Duration& period) override;
-  void checkJointLimits() override;
 
   /// The prefix of the arm's joints and links.
   std::string getArmID() const noexcept;
@@ -55,17 +54,11 @@ class FrankaCombinableHW : public FrankaHW {
   void triggerError();
   /// Whether the robot has stopped because of its own error or because of another arm's.
   bool hasError() const noexcept;
-  /// Whether this robot needs a recovery.
-  bool hasOwnError() const noexcept;
   /// Ends the motion while another arm has an error. After that arm's recovery the motion continues
   /// and the controllers are reset. Real-time safe.
   void waitForOthers(bool waits);
   /// As ArmConnection::recover().
   void resetError();
-  /// As ArmConnection::needsRecovery().
-  bool needsRecovery() const noexcept;
-  /// As ArmConnection::beforeRecovery().
-  void beforeRecovery(std::function<void()> task);
   /// Whether the controllers have to be reset, because an error was cleared.
   bool controllerNeedsReset() const noexcept;
 

@@ -91,11 +91,10 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   /// Ends the connection. @returns false, after logging the reason, while a controller commands the
   /// robot
   bool disconnect() override;
-  /// Ends the connection even if controllers are active, but not within a motion.
-  virtual void dropConnection();
   /// Whether there is a connection.
   virtual bool connected();
-  /// The connection: its state, its errors and its services.
+  /// The connection: its state, its errors and its services. Its disconnect() ends it even if
+  /// controllers are active, but not within a motion.
   ArmConnection& armConnection() noexcept { return connection_; }
   const ArmConnection& armConnection() const noexcept { return connection_; }
 
@@ -107,11 +106,6 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   /// @throws franka::Exception if the motion ends otherwise
   virtual void control(
       const std::function<bool(const ros::Time&, const ros::Duration&)>& ros_callback);
-
-  /// ArmConnection::readPatiently() of this robot.
-  franka::RobotState readPatiently() {
-    return ArmConnection::readPatiently([this] { return robot().readOnce(); });
-  }
 
   /// Takes over a robot state that was read outside of control().
   virtual void update(const franka::RobotState& robot_state);
@@ -390,7 +384,6 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   void readJointRanges();
   void connectInTime();
   void reportJointLimits(const ros::WallTimerEvent& event);
-  RunSettings requestedSettings(ControlMode mode) const;
   bool takePreparationBack();
   /// Whether these controllers may command the robot. @returns false, after logging the reason, if
   /// not

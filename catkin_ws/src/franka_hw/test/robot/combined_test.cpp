@@ -277,8 +277,8 @@ TEST_F(Losing, LostArmIsNamedAndOtherStaysAvailable) {
   loseLeft();
   EXPECT_NE(std::string::npos, log.text().find("left: the robot is lost. ")) << log.text();
   EXPECT_NE(std::string::npos, log.text().find("Call the service connect when it is back."));
-  EXPECT_TRUE(robot_.arms()[0]->hasOwnError());
-  EXPECT_FALSE(robot_.arms()[1]->hasOwnError());
+  EXPECT_TRUE(robot_.arms()[0]->armConnection().hasOwnError());
+  EXPECT_FALSE(robot_.arms()[1]->armConnection().hasOwnError());
 
   const franka_hw::FrankaStateHandle handle =
       robot_.get<franka_hw::FrankaStateInterface>()->getHandle("right_robot");

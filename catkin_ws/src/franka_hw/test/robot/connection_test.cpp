@@ -60,7 +60,7 @@ TEST_F(Connection, LossEndsTheMotionWithAMessage) {
   ASSERT_TRUE(eventually([&] { return !loop.errors().empty(); }));
   EXPECT_NE(std::string::npos, loop.errors()[0].find("libfranka")) << loop.errors()[0];
   // As the node does: the connection is dropped, and the controllers can still be stopped.
-  robot_.dropConnection();
+  robot_.armConnection().disconnect();
   EXPECT_FALSE(robot_.connected());
   EXPECT_TRUE(loop.switchTo({}, {"JT"}));
 }
