@@ -8,19 +8,13 @@
 #include <ros/init.h>
 
 #include <algorithm>
-#include <iomanip>
-#include <limits>
-#include <sstream>
+
+#include "joint_limit_monitor.h"
 
 namespace franka_hw {
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kDegreesPerRadian = 57.29577951308232;
-// Shortest time between two warnings of joints near their ends. [s]
-constexpr double kLimitReportPeriod = 5.0;
-constexpr double kLimitCheckPeriod = 0.5;
 // Time between two attempts to reach a robot that is starting. [s]
 constexpr double kConnectPeriod = 0.2;
 // Chosen here: three years; the sum of a longer time and the clock could leave the range of
@@ -45,11 +39,7 @@ FrankaHW::FrankaHW()
       velocity_joint_command_ros_(velocity_joint_command_libfranka_),
       effort_joint_command_ros_(effort_joint_command_libfranka_),
       pose_cartesian_command_ros_(pose_cartesian_command_libfranka_),
-      velocity_cartesian_command_ros_(velocity_cartesian_command_libfranka_) {
-  for (std::atomic<double>& position : near_limit_) {
-    position = kNan;
-  }
-}
+      velocity_cartesian_command_ros_(velocity_cartesian_command_libfranka_) {}
 
 FrankaHW::~FrankaHW() { connection_.close(); }
 
@@ -73,8 +63,8 @@ bool FrankaHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
   }
   initROSInterfaces(robot_hw_nh);
   setupParameterCallbacks(robot_hw_nh);
-  limit_timer_ = robot_hw_nh.createWallTimer(ros::WallDuration(kLimitCheckPeriod),
-                                             &FrankaHW::reportJointLimits, this);
+  joint_limit_monitor_ =
+      std::make_unique<JointLimitMonitor>(robot_hw_nh, arm_id_, joint_names_, urdf_model_);
   initialized_ = true;
   return true;
 }
@@ -257,33 +247,8 @@ void FrankaHW::enforceLimits(const ros::Duration& period) {
 void FrankaHW::reset() { position_joint_limit_interface_.reset(); }
 
 void FrankaHW::checkJointLimits() {
-  for (size_t i = 0; i < joint_names_.size(); i++) {
-    const double q = robot_state_ros_.q[i];
-    const double distance_to_limit =
-        std::min(std::abs(q - joint_ranges_[i][0]), std::abs(q - joint_ranges_[i][1]));
-    const bool near = has_range_[i] && distance_to_limit < joint_limit_warning_threshold_;
-    near_limit_[i].store(near ? q : kNan, std::memory_order_relaxed);
-  }
-}
-
-void FrankaHW::reportJointLimits(const ros::WallTimerEvent& /*event*/) {
-  std::ostringstream joints;
-  joints << std::fixed << std::setprecision(6);
-  for (size_t i = 0; i < joint_names_.size(); i++) {
-    const double q = near_limit_[i].load(std::memory_order_relaxed);
-    if (std::isnan(q)) {
-      continue;
-    }
-    const double distance_to_limit =
-        std::min(std::abs(q - joint_ranges_[i][0]), std::abs(q - joint_ranges_[i][1]));
-    joints << "\n\t" << joint_names_[i] << ": " << distance_to_limit * kDegreesPerRadian
-           << " degrees to the end of its range (q = " << q << ", limits " << joint_ranges_[i][0]
-           << " and " << joint_ranges_[i][1] << " rad)";
-  }
-  if (!joints.str().empty()) {
-    ROS_WARN_STREAM_THROTTLE(kLimitReportPeriod, "FrankaHW: joints of '"
-                                                     << arm_id_
-                                                     << "' near their limits:" << joints.str());
+  if (joint_limit_monitor_) {
+    joint_limit_monitor_->check(robot_state_ros_.q, joint_limit_warning_threshold_);
   }
 }
 

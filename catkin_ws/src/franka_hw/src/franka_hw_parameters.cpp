@@ -7,7 +7,6 @@
 #include <franka_hw/franka_hw.h>
 #include <ros/console.h>
 
-#include <limits>
 #include <stdexcept>
 
 namespace franka_hw {
@@ -87,7 +86,6 @@ bool FrankaHW::initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_h
   if (!readConnectTimeout(robot_hw_nh) || !readCollisionConfig(robot_hw_nh)) {
     return false;
   }
-  readJointRanges();
   return readRealtimeConfig(robot_hw_nh) && readIgnoreMismatch(robot_hw_nh);
 }
 
@@ -235,16 +233,6 @@ bool FrankaHW::readLimits(size_t joint, joint_limits_interface::JointLimits& lim
   limits.max_jerk = franka::kMaxJointJerk[joint];
   limits.has_jerk_limits = true;
   return true;
-}
-
-void FrankaHW::readJointRanges() {
-  for (size_t i = 0; i < joint_names_.size(); i++) {
-    const urdf::JointConstSharedPtr joint = urdf_model_.getJoint(joint_names_[i]);
-    has_range_[i] = joint && joint->limits;
-    if (has_range_[i]) {
-      joint_ranges_[i] = {{joint->limits->lower, joint->limits->upper}};
-    }
-  }
 }
 
 }  // namespace franka_hw

@@ -23,7 +23,6 @@
 #include <joint_limits_interface/joint_limits_urdf.h>
 #include <ros/node_handle.h>
 #include <ros/time.h>
-#include <ros/wall_timer.h>
 #include <urdf/model.h>
 
 #include <algorithm>
@@ -40,6 +39,8 @@
 #include <vector>
 
 namespace franka_hw {
+
+class JointLimitMonitor;
 
 /// A Franka arm as hardware of ros_control, connected over the Franka Control Interface.
 ///
@@ -381,9 +382,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   bool readCollisionConfig(const ros::NodeHandle& nh);
   bool readLimits(size_t joint, joint_limits_interface::JointLimits& limits,
                   joint_limits_interface::SoftJointLimits& soft_limits) const;
-  void readJointRanges();
   void connectInTime();
-  void reportJointLimits(const ros::WallTimerEvent& event);
   bool takePreparationBack();
   /// Whether these controllers may command the robot. @returns false, after logging the reason, if
   /// not
@@ -418,10 +417,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   double connect_timeout_{0.0};        // [s] for a robot that is still starting
   std::atomic<franka::RobotMode> robot_mode_{franka::RobotMode::kOther};
 
-  std::array<std::array<double, 2>, 7> joint_ranges_{};  // [rad], from the URDF
-  std::array<bool, 7> has_range_{};
-  std::array<std::atomic<double>, 7> near_limit_;  // position of a joint near its end, else NaN
-  ros::WallTimer limit_timer_;
+  std::unique_ptr<JointLimitMonitor> joint_limit_monitor_;  // after init()
 };
 
 }  // namespace franka_hw

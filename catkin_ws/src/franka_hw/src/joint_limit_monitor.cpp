@@ -1,0 +1,72 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "joint_limit_monitor.h"
+
+#include <ros/console.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iomanip>
+#include <limits>
+#include <sstream>
+
+namespace franka_hw {
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kDegreesPerRadian = 57.29577951308232;
+// Shortest time between two warnings of joints near their ends. [s]
+constexpr double kLimitReportPeriod = 5.0;
+constexpr double kLimitCheckPeriod = 0.5;
+
+}  // namespace
+
+JointLimitMonitor::JointLimitMonitor(ros::NodeHandle& nh, const std::string& arm_id,
+                                     const std::array<std::string, 7>& joint_names,
+                                     const urdf::Model& description)
+    : arm_id_(arm_id), joint_names_(joint_names) {
+  for (std::size_t i = 0; i < joint_names_.size(); i++) {
+    const urdf::JointConstSharedPtr joint = description.getJoint(joint_names_[i]);
+    ranges_[i] = {-kInfinity, kInfinity};
+    if (joint && joint->limits) {
+      ranges_[i] = {joint->limits->lower, joint->limits->upper};
+    }
+    near_limit_[i] = kNan;
+  }
+  timer_ =
+      nh.createWallTimer(ros::WallDuration(kLimitCheckPeriod), &JointLimitMonitor::report, this);
+}
+
+void JointLimitMonitor::check(const std::array<double, 7>& q, double threshold) noexcept {
+  for (std::size_t i = 0; i < q.size(); i++) {
+    const bool near = distanceToLimit(i, q[i]) < threshold;
+    near_limit_[i].store(near ? q[i] : kNan, std::memory_order_relaxed);
+  }
+}
+
+double JointLimitMonitor::distanceToLimit(std::size_t joint, double q) const noexcept {
+  return std::min(std::abs(q - ranges_[joint][0]), std::abs(q - ranges_[joint][1]));
+}
+
+void JointLimitMonitor::report(const ros::WallTimerEvent& /*event*/) {
+  std::ostringstream joints;
+  joints << std::fixed << std::setprecision(6);
+  for (std::size_t i = 0; i < joint_names_.size(); i++) {
+    const double q = near_limit_[i].load(std::memory_order_relaxed);
+    if (std::isnan(q)) {
+      continue;
+    }
+    joints << "\n\t" << joint_names_[i] << ": " << distanceToLimit(i, q) * kDegreesPerRadian
+           << " degrees to the end of its range (q = " << q << ", limits " << ranges_[i][0]
+           << " and " << ranges_[i][1] << " rad)";
+  }
+  if (!joints.str().empty()) {
+    ROS_WARN_STREAM_THROTTLE(kLimitReportPeriod, "FrankaHW: joints of '"
+                                                     << arm_id_
+                                                     << "' near their limits:" << joints.str());
+  }
+}
+
+}  // namespace franka_hw
