@@ -9,6 +9,7 @@
 
 #include <algorithm>
 
+#include "command_permission.h"
 #include "joint_limit_monitor.h"
 
 namespace franka_hw {
@@ -39,7 +40,9 @@ FrankaHW::FrankaHW()
       velocity_joint_command_ros_(velocity_joint_command_libfranka_),
       effort_joint_command_ros_(effort_joint_command_libfranka_),
       pose_cartesian_command_ros_(pose_cartesian_command_libfranka_),
-      velocity_cartesian_command_ros_(velocity_cartesian_command_libfranka_) {}
+      velocity_cartesian_command_ros_(velocity_cartesian_command_libfranka_),
+      command_permission_(std::make_unique<CommandPermission>(arm_id_, robot_ip_, joint_names_,
+                                                              urdf_model_, realtime_config_)) {}
 
 FrankaHW::~FrankaHW() { connection_.close(); }
 
@@ -103,8 +106,7 @@ std::unique_ptr<franka::Robot> FrankaHW::openRobot() {
       config.lower_force_thresholds_acceleration, config.upper_force_thresholds_acceleration,
       config.lower_force_thresholds_nominal, config.upper_force_thresholds_nominal);
   robot_mode_ = robot->readOnce().robot_mode;
-  protocol_ = robot->serverVersion();
-  warnOfRefusals();
+  command_permission_->robotConnected(robot->serverVersion());
   return robot;
 }
 

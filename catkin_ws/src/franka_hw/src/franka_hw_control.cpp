@@ -9,6 +9,8 @@
 #include <thread>
 #include <tuple>
 
+#include "command_permission.h"
+
 namespace franka_hw {
 
 namespace {
@@ -87,16 +89,18 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
     ROS_ERROR("FrankaHW: unknown interface claimed for starting or stopping!");
     return false;
   }
+  // Before init() no robot is known, so there is nothing to compare with the parameters.
+  const bool needs_permission = initialized_ && commands(start_list);
   if (start_mode == ControlMode::None && stop_mode == ControlMode::None) {
     // Controllers that only read do not change a motion.
-    return !commands(start_list) || mayStart(start_list);
+    return !needs_permission || command_permission_->allows(namesOf(start_list));
   }
   const bool unused = preparation_pending_.exchange(false);
   if (unused && namesOf(start_list) == preparation_.stop &&
       namesOf(stop_list) == preparation_.start) {
     return takePreparationBack();
   }
-  if (commands(start_list) && !mayStart(start_list)) {
+  if (needs_permission && !command_permission_->allows(namesOf(start_list))) {
     return false;
   }
   const ControlMode mode = (current_control_mode_ & ~stop_mode) | start_mode;
@@ -135,20 +139,6 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
   current_control_mode_ = mode;
   run_settings_ = settings;
   return true;
-}
-
-bool FrankaHW::mayStart(const std::list<hardware_interface::ControllerInfo>& list) const {
-  // Before init() no robot is known, so there is nothing to compare with the parameters.
-  const std::string refusal = initialized_ ? refusalOfMotions() : std::string();
-  if (refusal.empty()) {
-    return true;
-  }
-  std::string names;
-  for (const std::string& name : namesOf(list)) {
-    names += (names.empty() ? "'" : ", '") + name + "'";
-  }
-  ROS_ERROR_STREAM("FrankaHW: " << names << " cannot command '" << arm_id_ << "': " << refusal);
-  return false;
 }
 
 bool FrankaHW::takePreparationBack() {

@@ -9,6 +9,8 @@
 
 #include <stdexcept>
 
+#include "command_permission.h"
+
 namespace franka_hw {
 
 namespace {
@@ -86,7 +88,7 @@ bool FrankaHW::initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_h
   if (!readConnectTimeout(robot_hw_nh) || !readCollisionConfig(robot_hw_nh)) {
     return false;
   }
-  return readRealtimeConfig(robot_hw_nh) && readIgnoreMismatch(robot_hw_nh);
+  return readRealtimeConfig(robot_hw_nh) && command_permission_->init(robot_hw_nh);
 }
 
 bool FrankaHW::readJointNames(const ros::NodeHandle& nh) {
@@ -135,27 +137,6 @@ bool FrankaHW::readRealtimeConfig(const ros::NodeHandle& nh) {
         rule.enforce ? franka::RealtimeConfig::kEnforce : franka::RealtimeConfig::kIgnore;
   } catch (const std::invalid_argument& error) {
     ROS_ERROR_STREAM("FrankaHW: " << error.what());
-    return false;
-  }
-  return true;
-}
-
-bool FrankaHW::readIgnoreMismatch(const ros::NodeHandle& nh) {
-  mismatch_parameter_ = nh.resolveName("ignore_robot_mismatch");
-  // In a combined node, one parameter in the node's namespace may serve all arms.
-  const auto find = [nh](std::string& name) {
-    return nh.searchParam("ignore_robot_mismatch", name);
-  };
-  // Read again at every switch, so that the user can set it after a refusal and try again.
-  get_ignore_robot_mismatch_ = [nh, find] {
-    std::string name;
-    bool ignore = false;
-    return find(name) && nh.getParam(name, ignore) && ignore;
-  };
-  std::string name;
-  bool ignore = false;
-  if (find(name) && !nh.getParam(name, ignore)) {
-    ROS_ERROR_STREAM("FrankaHW: the parameter '" << name << "' is not true or false.");
     return false;
   }
   return true;

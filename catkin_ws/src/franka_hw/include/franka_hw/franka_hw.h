@@ -40,6 +40,7 @@
 
 namespace franka_hw {
 
+class CommandPermission;
 class JointLimitMonitor;
 
 /// A Franka arm as hardware of ros_control, connected over the Franka Control Interface.
@@ -359,7 +360,6 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   std::function<franka::ControllerMode()> get_internal_controller_;
   std::function<bool()> get_limit_rate_;
   std::function<double()> get_cutoff_frequency_;
-  std::function<bool()> get_ignore_robot_mismatch_;
   std::function<void(franka::Robot&, Callback)> run_function_;
 
   RobotClock clock_;  ///< the time for the controllers
@@ -378,25 +378,11 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   bool readJointNames(const ros::NodeHandle& nh);
   bool readConnectTimeout(const ros::NodeHandle& nh);
   bool readRealtimeConfig(const ros::NodeHandle& nh);
-  bool readIgnoreMismatch(const ros::NodeHandle& nh);
   bool readCollisionConfig(const ros::NodeHandle& nh);
   bool readLimits(size_t joint, joint_limits_interface::JointLimits& limits,
                   joint_limits_interface::SoftJointLimits& soft_limits) const;
   void connectInTime();
   bool takePreparationBack();
-  /// Whether these controllers may command the robot. @returns false, after logging the reason, if
-  /// not
-  bool mayStart(const std::list<hardware_interface::ControllerInfo>& list) const;
-  /// Why controllers must not command the robot, as one sentence; empty if they may.
-  std::string refusalOfMotions() const;
-  /// The mismatch of the robot and its parameters (robot_mismatch.h); empty if there is none.
-  std::string mismatch() const;
-  /// Whether the present value of the parameter ignore_robot_mismatch allows a mismatch.
-  bool ignoresMismatch() const;
-  /// Why libfranka would not move the robot from this computer; empty if it would.
-  std::string realtimeRefusal() const;
-  /// Warns, after connecting, about controllers that would be refused.
-  void warnOfRefusals() const;
   /// Continues a motion that was ended for a switch.
   void resumePrevious(bool was_active);
 
@@ -412,11 +398,10 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   std::atomic_bool preparation_pending_{false};
   std::atomic_bool motion_goes_on_{false};
   std::atomic_bool in_control_{false};
-  std::atomic<unsigned> protocol_{0};  // the protocol version of the robot
-  std::string mismatch_parameter_;     // resolved name of ignore_robot_mismatch
-  double connect_timeout_{0.0};        // [s] for a robot that is still starting
+  double connect_timeout_{0.0};  // [s] for a robot that is still starting
   std::atomic<franka::RobotMode> robot_mode_{franka::RobotMode::kOther};
 
+  std::unique_ptr<CommandPermission> command_permission_;
   std::unique_ptr<JointLimitMonitor> joint_limit_monitor_;  // after init()
 };
 
