@@ -59,13 +59,84 @@ franka::ControllerMode controllerOf(const std::string& name) {
   return franka::ControllerMode::kJointImpedance;
 }
 
+bool readJointNames(const ros::NodeHandle& nh, std::array<std::string, 7>& joint_names) {
+  std::vector<std::string> names;
+  if (!require(nh, "joint_names", "a list of seven names", names)) {
+    return false;
+  }
+  if (names.size() != joint_names.size()) {
+    ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName("joint_names") << "' holds "
+                                                 << names.size() << " names instead of seven.");
+    return false;
+  }
+  std::copy(names.begin(), names.end(), joint_names.begin());
+  return true;
+}
+
+bool readConnectTimeout(const ros::NodeHandle& nh, double& timeout) {
+  std::string name;  // in a combined node, one parameter in the node's namespace may serve all arms
+  if (!nh.searchParam("connect_timeout", name)) {
+    return true;
+  }
+  if (!nh.getParam(name, timeout) || !(timeout >= 0.0)) {
+    ROS_ERROR_STREAM("FrankaHW: the parameter '" << name
+                                                 << "' is not a number of seconds from 0 on.");
+    return false;
+  }
+  return true;
+}
+
+bool readRealtimeConfig(const ros::NodeHandle& nh, const std::string& arm_id,
+                        const std::string& robot_ip, franka::RealtimeConfig& realtime_config) {
+  std::string name = "realtime_config";
+  nh.searchParam("realtime_config", name);
+  const std::string config = nh.param<std::string>(name, "enforce");
+  if (config != "enforce" && config != "ignore") {
+    ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName(name) << "' is '" << config
+                                                 << "', but must be enforce or ignore.");
+    return false;
+  }
+  try {
+    const franka_core::RealtimeRule rule = franka_core::realtimeRule(
+        config == "enforce", franka_core::isLoopback(robot_ip), franka::hasRealtimeKernel());
+    if (!rule.warning.empty()) {
+      ROS_WARN_STREAM("FrankaHW: '" << arm_id << "' at " << robot_ip << ": " << rule.warning);
+    }
+    realtime_config =
+        rule.enforce ? franka::RealtimeConfig::kEnforce : franka::RealtimeConfig::kIgnore;
+  } catch (const std::invalid_argument& error) {
+    ROS_ERROR_STREAM("FrankaHW: " << error.what());
+    return false;
+  }
+  return true;
+}
+
+bool readCollisionConfig(const ros::NodeHandle& nh, FrankaHW::CollisionConfig& config) {
+  return readThresholds(nh, "lower_torque_thresholds_acceleration", kTorqueThresholds,
+                        config.lower_torque_thresholds_acceleration) &&
+         readThresholds(nh, "upper_torque_thresholds_acceleration", kTorqueThresholds,
+                        config.upper_torque_thresholds_acceleration) &&
+         readThresholds(nh, "lower_torque_thresholds_nominal", kTorqueThresholds,
+                        config.lower_torque_thresholds_nominal) &&
+         readThresholds(nh, "upper_torque_thresholds_nominal", kTorqueThresholds,
+                        config.upper_torque_thresholds_nominal) &&
+         readThresholds(nh, "lower_force_thresholds_acceleration", kForceThresholds,
+                        config.lower_force_thresholds_acceleration) &&
+         readThresholds(nh, "upper_force_thresholds_acceleration", kForceThresholds,
+                        config.upper_force_thresholds_acceleration) &&
+         readThresholds(nh, "lower_force_thresholds_nominal", kForceThresholds,
+                        config.lower_force_thresholds_nominal) &&
+         readThresholds(nh, "upper_force_thresholds_nominal", kForceThresholds,
+                        config.upper_force_thresholds_nominal);
+}
+
 }  // namespace
 
 bool FrankaHW::initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
   bool rate_limiting = true;
   double cutoff_frequency = 0.0;
   std::string internal_controller;
-  if (!readJointNames(robot_hw_nh) ||
+  if (!readJointNames(robot_hw_nh, joint_names_) ||
       !require(robot_hw_nh, "rate_limiting", "true or false", rate_limiting) ||
       !require(robot_hw_nh, "cutoff_frequency", "a number [Hz]", cutoff_frequency) ||
       !require(robot_hw_nh, "internal_controller", "a string", internal_controller) ||
@@ -85,81 +156,10 @@ bool FrankaHW::initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_h
     ROS_INFO_STREAM("FrankaHW: no parameter joint_limit_warning_threshold, warning "
                     << joint_limit_warning_threshold_ << " rad before the ends of the joints.");
   }
-  if (!readConnectTimeout(robot_hw_nh) || !readCollisionConfig(robot_hw_nh)) {
-    return false;
-  }
-  return readRealtimeConfig(robot_hw_nh) && command_permission_->init(robot_hw_nh);
-}
-
-bool FrankaHW::readJointNames(const ros::NodeHandle& nh) {
-  std::vector<std::string> names;
-  if (!require(nh, "joint_names", "a list of seven names", names)) {
-    return false;
-  }
-  if (names.size() != joint_names_.size()) {
-    ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName("joint_names") << "' holds "
-                                                 << names.size() << " names instead of seven.");
-    return false;
-  }
-  std::copy(names.begin(), names.end(), joint_names_.begin());
-  return true;
-}
-
-bool FrankaHW::readConnectTimeout(const ros::NodeHandle& nh) {
-  std::string name;  // in a combined node, one parameter in the node's namespace may serve all arms
-  if (!nh.searchParam("connect_timeout", name)) {
-    return true;
-  }
-  if (!nh.getParam(name, connect_timeout_) || !(connect_timeout_ >= 0.0)) {
-    ROS_ERROR_STREAM("FrankaHW: the parameter '" << name
-                                                 << "' is not a number of seconds from 0 on.");
-    return false;
-  }
-  return true;
-}
-
-bool FrankaHW::readRealtimeConfig(const ros::NodeHandle& nh) {
-  std::string name = "realtime_config";
-  nh.searchParam("realtime_config", name);
-  const std::string config = nh.param<std::string>(name, "enforce");
-  if (config != "enforce" && config != "ignore") {
-    ROS_ERROR_STREAM("FrankaHW: the parameter '" << nh.resolveName(name) << "' is '" << config
-                                                 << "', but must be enforce or ignore.");
-    return false;
-  }
-  try {
-    const franka_core::RealtimeRule rule = franka_core::realtimeRule(
-        config == "enforce", franka_core::isLoopback(robot_ip_), franka::hasRealtimeKernel());
-    if (!rule.warning.empty()) {
-      ROS_WARN_STREAM("FrankaHW: '" << arm_id_ << "' at " << robot_ip_ << ": " << rule.warning);
-    }
-    realtime_config_ =
-        rule.enforce ? franka::RealtimeConfig::kEnforce : franka::RealtimeConfig::kIgnore;
-  } catch (const std::invalid_argument& error) {
-    ROS_ERROR_STREAM("FrankaHW: " << error.what());
-    return false;
-  }
-  return true;
-}
-
-bool FrankaHW::readCollisionConfig(const ros::NodeHandle& nh) {
-  CollisionConfig& config = collision_config_;
-  return readThresholds(nh, "lower_torque_thresholds_acceleration", kTorqueThresholds,
-                        config.lower_torque_thresholds_acceleration) &&
-         readThresholds(nh, "upper_torque_thresholds_acceleration", kTorqueThresholds,
-                        config.upper_torque_thresholds_acceleration) &&
-         readThresholds(nh, "lower_torque_thresholds_nominal", kTorqueThresholds,
-                        config.lower_torque_thresholds_nominal) &&
-         readThresholds(nh, "upper_torque_thresholds_nominal", kTorqueThresholds,
-                        config.upper_torque_thresholds_nominal) &&
-         readThresholds(nh, "lower_force_thresholds_acceleration", kForceThresholds,
-                        config.lower_force_thresholds_acceleration) &&
-         readThresholds(nh, "upper_force_thresholds_acceleration", kForceThresholds,
-                        config.upper_force_thresholds_acceleration) &&
-         readThresholds(nh, "lower_force_thresholds_nominal", kForceThresholds,
-                        config.lower_force_thresholds_nominal) &&
-         readThresholds(nh, "upper_force_thresholds_nominal", kForceThresholds,
-                        config.upper_force_thresholds_nominal);
+  return readConnectTimeout(robot_hw_nh, connect_timeout_) &&
+         readCollisionConfig(robot_hw_nh, collision_config_) &&
+         readRealtimeConfig(robot_hw_nh, arm_id_, robot_ip_, realtime_config_) &&
+         command_permission_->init(robot_hw_nh);
 }
 
 std::vector<double> FrankaHW::getCollisionThresholds(const std::string& name,

@@ -375,10 +375,6 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
     bool operator==(const RunSettings& other) const;
   };
 
-  bool readJointNames(const ros::NodeHandle& nh);
-  bool readConnectTimeout(const ros::NodeHandle& nh);
-  bool readRealtimeConfig(const ros::NodeHandle& nh);
-  bool readCollisionConfig(const ros::NodeHandle& nh);
   bool readLimits(size_t joint, joint_limits_interface::JointLimits& limits,
                   joint_limits_interface::SoftJointLimits& soft_limits) const;
   void connectInTime();
