@@ -108,7 +108,7 @@ def profiles(physics):
         ("the law, within # %", share),
         (f"hysteresis of {seven} Nm", seen[1]),
         ("these, within # %, with a slope", share),
-        ("coasting from # rad/s", constant(realism, "setJointVelocity(joint(7), #);")),
+        ("coasting from # rad/s", constant(realism, "setJointVelocity(*world_, joint(7), #);")),
         ("stops it in # s", constant(realism, "EXPECT_NEAR(#, time_to_tenth, 0.03);")),
         ("within # s of that", constant(realism, "EXPECT_NEAR(0.1, time_to_tenth, #);")),
         (f"first order, {seven} Hz", panda["bandwidth"]["tau_ext_hat_filtered"]),

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Worlds with robots in this process; pyfranka/sim gives them their Python interface.
 #include <franka_core/numbers.h>
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/simulation/robot_setup.h>
 #include <pybind11/stl.h>
@@ -461,7 +462,7 @@ void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation) {
            [](Shared& self, const py::object& body) {
              const std::string name = text(body, "body");
              const franka_sim::Pose pose =
-                 self.use([&](Simulation& s) { return s.world().bodyPose(name); });
+                 self.use([&](Simulation& s) { return bodyPose(s.world(), name); });
              return py::make_tuple(copy(pose.position, Shape::kVector),
                                    copy(pose.orientation, Shape::kVector));
            })
@@ -470,14 +471,14 @@ void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation) {
               const py::object& orientation) {
              const std::string name = text(body, "body");
              const franka_sim::Pose pose = poseOf(position, orientation);
-             self.use([&](Simulation& s) { s.world().checkBodyPose(name, pose); });
+             self.use([&](Simulation& s) { checkBodyPose(s.world(), name, pose); });
            })
       .def("place_body",
            [](Shared& self, const py::object& body, const py::object& position,
               const py::object& orientation) {
              const std::string name = text(body, "body");
              const franka_sim::Pose pose = poseOf(position, orientation);
-             self.use([&](Simulation& s) { s.world().setBodyPose(name, pose); });
+             self.use([&](Simulation& s) { setBodyPose(s.world(), name, pose); });
            })
       .def("push",
            [](Shared& self, const py::object& body, const py::object& force,
@@ -486,13 +487,13 @@ void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation) {
              const auto f = finite<3>(force, "force");
              const auto t = finite<3>(torque, "torque");
              const std::uint64_t duration = ticksOf(ticks);
-             self.use([&](Simulation& s) { s.world().push(name, f, t, duration); });
+             self.use([&](Simulation& s) { pushBody(s.world(), name, f, t, duration); });
            })
       .def("contacts",
            [](Shared& self) {
              py::list list;
              for (const franka_sim::Contact& contact :
-                  self.use([](Simulation& s) { return s.world().contacts(); })) {
+                  self.use([](Simulation& s) { return contacts(s.world()); })) {
                list.append(py::make_tuple(contact.body1, contact.body2,
                                           copy(contact.position, Shape::kVector),
                                           copy(contact.force, Shape::kVector)));
@@ -501,13 +502,13 @@ void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation) {
            })
       .def("overlaps",
            [](Shared& self, const std::string& robot) {
-             return self.use([&](Simulation& s) { return s.world().describeOverlaps(robot); });
+             return self.use([&](Simulation& s) { return describeOverlaps(s.world(), robot); });
            })
       .def("cameras",
            [](Shared& self) {
              std::vector<std::string> names;
              for (const franka_sim::WorldCamera& camera :
-                  self.use([](Simulation& s) { return s.world().cameras(); })) {
+                  self.use([](Simulation& s) { return cameras(s.world()); })) {
                names.push_back(camera.name);
              }
              return names;

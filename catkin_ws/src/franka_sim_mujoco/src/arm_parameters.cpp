@@ -4,7 +4,7 @@
 
 #include <franka_core/limits.h>
 #include <franka_core/numbers.h>
-#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <ros/console.h>
@@ -107,8 +107,8 @@ std::string pairRemark(const std::array<double, N>& lower, const std::array<doub
 
 /// The world's gravity in the axes of the arm's base [m/s^2]. @param base the body of that name
 std::array<double, 3> gravityInBase(const franka_sim::World& world, const std::string& base) {
-  const std::array<double, 3> g = world.gravity();
-  const std::array<double, 4> q = world.bodyPose(base).orientation;
+  const std::array<double, 3> g = gravity(world);
+  const std::array<double, 4> q = bodyPose(world, base).orientation;
   const double w = q[0], x = q[1], y = q[2], z = q[3];
   return {
       (1 - 2 * (y * y + z * z)) * g[0] + 2 * (x * y + w * z) * g[1] + 2 * (x * z - w * y) * g[2],

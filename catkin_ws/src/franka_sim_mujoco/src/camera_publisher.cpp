@@ -118,7 +118,7 @@ void CameraPublisher::loop() {
     try {
       if (naps++ % kLookInterval == 0) {
         std::vector<franka_sim::WorldCamera> present;
-        simulation_.withWorld([&](franka_sim::World& world) { present = world.cameras(); });
+        simulation_.withWorld([&](franka_sim::World& world) { present = cameras(world); });
         follow(present);
       }
       for (auto& [name, topics] : cameras_) {

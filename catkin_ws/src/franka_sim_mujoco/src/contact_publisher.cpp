@@ -46,7 +46,7 @@ void ContactPublisher::loop() {
 
 void ContactPublisher::publish() {
   std::vector<franka_sim::Contact> contacts;
-  simulation_.withWorld([&](franka_sim::World& world) { contacts = world.contacts(); });
+  simulation_.withWorld([&](franka_sim::World& world) { contacts = franka_sim::contacts(world); });
   Contacts message;
   message.header.stamp = simulation_.state().time;
   message.header.frame_id = "world";

@@ -4,7 +4,7 @@
 #include <franka_core/numbers.h>
 #include <franka_core/robot_error.h>
 #include <franka_core/transform.h>
-#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <franka_sim_mujoco/franka_hw_sim.h>
@@ -169,7 +169,7 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
     if (findJoint(joint) == nullptr && devices_->names().count(joint) == 0) {
       throw std::runtime_error("'" + joint + "' is not a joint of this robot that is driven.");
     }
-    world.setJointPosition(joint, position);
+    setJointPosition(world, joint, position);
   };
   services_ = std::make_unique<ArmServices>(node, robot.arms.front(), *arm_, robot.between_ticks,
                                             place_joint, restart_controllers);

@@ -82,7 +82,7 @@ franka_sim::BodyState GazeboModels::toFrame(const franka_sim::BodyState& in_worl
   if (isWorld(frame)) {
     return in_world;
   }
-  const franka_sim::BodyState base = world_.bodyStates({body(frame)}).front();
+  const franka_sim::BodyState base = bodyState(world_, body(frame));
   const Eigen::Isometry3d pose = toIsometry(base.pose);
   const Eigen::Matrix3d turn = pose.linear().transpose();
   const franka_sim::Twist& twist = in_world.twist;
@@ -98,7 +98,7 @@ franka_sim::BodyState GazeboModels::toWorld(const franka_sim::BodyState& in_fram
   if (isWorld(frame)) {
     return in_frame;
   }
-  const Eigen::Isometry3d pose = toIsometry(world_.bodyPose(body(frame)));
+  const Eigen::Isometry3d pose = toIsometry(bodyPose(world_, body(frame)));
   return {
       toPose(pose * toIsometry(in_frame.pose)),
       {array(pose.linear() * vector(in_frame.twist.linear)),
@@ -110,8 +110,8 @@ void GazeboModels::place(const std::string& name, const franka_sim::BodyState& s
                          const std::string& frame) {
   const std::string what = body(name);
   const franka_sim::BodyState target = toWorld(state, frame);
-  world_.setBodyPose(what, target.pose);
-  world_.setBodyTwist(what, target.twist);
+  setBodyPose(world_, what, target.pose);
+  setBodyTwist(world_, what, target.twist);
 }
 
 void place(Simulation& simulation, const gazebo_msgs::ModelState& state) {

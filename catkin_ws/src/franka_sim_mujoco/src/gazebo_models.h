@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_properties.h>
 #include <gazebo_msgs/LinkState.h>
 #include <gazebo_msgs/ModelState.h>
 #include <geometry_msgs/Pose.h>
@@ -21,7 +21,7 @@ namespace franka_sim_mujoco {
 /// Stepping thread only; valid between two ticks.
 class GazeboModels {
  public:
-  explicit GazeboModels(franka_sim::World& world) : world_(world), models_(world.models()) {}
+  explicit GazeboModels(franka_sim::World& world) : world_(world), models_(models(world)) {}
 
   const std::vector<franka_sim::WorldModel>& all() const noexcept { return models_; }
   /// @throws std::runtime_error with a sentence for an unknown name

@@ -55,7 +55,7 @@ void setPhysics(Simulation& simulation, const gazebo_msgs::SetPhysicsProperties:
   const double factor = request.max_update_rate * World::kTick;
   paceOf(factor);  // throws for a wrong one, before anything changes
   const auto gravity = fromMessage(request.gravity);
-  simulation.withWorld([&](World& world) { world.setGravity(gravity); });
+  simulation.withWorld([&](World& world) { setGravity(world, gravity); });
   simulation.setRealTimeFactor(factor);
 }
 
@@ -78,7 +78,7 @@ void applyWrench(Simulation& simulation, const gazebo_msgs::ApplyBodyWrench::Req
   simulation.withWorld([&](World& world) {
     const GazeboModels models(world);
     const std::string body = models.body(request.body_name);
-    const Eigen::Vector3d origin = franka_sim::vector(world.bodyPose(body).position);
+    const Eigen::Vector3d origin = franka_sim::vector(bodyPose(world, body).position);
     const franka_sim::BodyState at_point{{{point.x, point.y, point.z}, {1, 0, 0, 0}}, {}};
     const franka_sim::BodyState in_world = models.toWorld(at_point, request.reference_frame);
     const Eigen::Matrix3d turn = franka_sim::toIsometry(in_world.pose).linear();
@@ -88,7 +88,7 @@ void applyWrench(Simulation& simulation, const gazebo_msgs::ApplyBodyWrench::Req
         in_world.pose.position != std::array<double, 3>{}) {
       torque += (franka_sim::vector(in_world.pose.position) - origin).cross(force);
     }
-    world.push(body, franka_sim::array(force), franka_sim::array(torque), duration);
+    pushBody(world, body, franka_sim::array(force), franka_sim::array(torque), duration);
   });
 }
 

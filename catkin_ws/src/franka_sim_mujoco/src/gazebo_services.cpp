@@ -37,9 +37,8 @@ void readModelState(Simulation& simulation, const gazebo_msgs::GetModelState::Re
                     gazebo_msgs::GetModelState::Response& response) {
   simulation.withWorld([&](franka_sim::World& world) {
     const GazeboModels models(world);
-    const franka_sim::BodyState state =
-        models.toFrame(world.bodyStates({models.model(request.model_name).body}).front(),
-                       request.relative_entity_name);
+    const franka_sim::BodyState state = models.toFrame(
+        bodyState(world, models.model(request.model_name).body), request.relative_entity_name);
     response.pose = toMessage(state.pose);
     response.twist = toMessage(state.twist);
   });
@@ -51,8 +50,8 @@ void readLinkState(Simulation& simulation, const gazebo_msgs::GetLinkState::Requ
                    gazebo_msgs::LinkState& link) {
   simulation.withWorld([&](franka_sim::World& world) {
     const GazeboModels models(world);
-    const franka_sim::BodyState state = models.toFrame(
-        world.bodyStates({models.body(request.link_name)}).front(), request.reference_frame);
+    const franka_sim::BodyState state =
+        models.toFrame(bodyState(world, models.body(request.link_name)), request.reference_frame);
     link.pose = toMessage(state.pose);
     link.twist = toMessage(state.twist);
   });
@@ -65,7 +64,7 @@ void describeJoint(Simulation& simulation, const std::string& name,
   simulation.withWorld([&](franka_sim::World& world) {
     const GazeboModels models(world);
     const franka_sim::WorldJoint& joint = models.joint(name);
-    const franka_sim::JointMeasurement measured = world.joint(joint.name);
+    const franka_sim::JointMeasurement measured = jointState(world, joint.name);
     response.type = joint.slides    ? GetJointProperties::Response::PRISMATIC
                     : joint.limited ? GetJointProperties::Response::REVOLUTE
                                     : GetJointProperties::Response::CONTINUOUS;
@@ -167,7 +166,7 @@ void SimServices::offerGazebo() {
       "get_world_properties",
       [this](GetWorldProperties::Request& /*request*/, GetWorldProperties::Response& response) {
         simulation_.withWorld([&](franka_sim::World& world) {
-          for (const franka_sim::WorldModel& model : world.models()) {
+          for (const franka_sim::WorldModel& model : models(world)) {
             response.model_names.push_back(model.name);
           }
         });

@@ -79,11 +79,11 @@ void GazeboTopics::publishModels() {
   gazebo_msgs::ModelStates message;
   simulation_.withWorld([&](franka_sim::World& world) {
     std::vector<std::string> names, bodies;
-    for (const franka_sim::WorldModel& model : world.models()) {
+    for (const franka_sim::WorldModel& model : models(world)) {
       names.push_back(model.name);
       bodies.push_back(model.body);
     }
-    const std::vector<franka_sim::BodyState> states = world.bodyStates(bodies);
+    const std::vector<franka_sim::BodyState> states = bodyStates(world, bodies);
     for (std::size_t i = 0; i < names.size(); ++i) {
       append(names[i], states[i], message);
     }
@@ -95,13 +95,13 @@ void GazeboTopics::publishLinks() {
   gazebo_msgs::LinkStates message;
   simulation_.withWorld([&](franka_sim::World& world) {
     std::vector<std::string> names, bodies;
-    for (const franka_sim::WorldModel& model : world.models()) {
+    for (const franka_sim::WorldModel& model : models(world)) {
       for (const std::string& link : model.links) {
         names.push_back(GazeboModels::linkName(model, link));
         bodies.push_back(link);
       }
     }
-    const std::vector<franka_sim::BodyState> states = world.bodyStates(bodies);
+    const std::vector<franka_sim::BodyState> states = bodyStates(world, bodies);
     for (std::size_t i = 0; i < names.size(); ++i) {
       append(names[i], states[i], message);
     }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "joint_state_publisher.h"
 
-#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 
 #include <algorithm>
@@ -82,7 +82,7 @@ void JointStatePublisher::fill(sensor_msgs::JointState& message, const ros::Time
       message.velocity[i] = joints_[i].measured->getVelocity();
       message.effort[i] = joints_[i].measured->getEffort();
     } else {
-      const franka_sim::JointMeasurement joint = world_.joint(joints_[i].name);
+      const franka_sim::JointMeasurement joint = jointState(world_, joints_[i].name);
       message.position[i] = joint.position;
       message.velocity[i] = joint.velocity;
       message.effort[i] = joint.effort;

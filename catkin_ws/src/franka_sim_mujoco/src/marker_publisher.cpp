@@ -138,7 +138,7 @@ std::set<std::string> linksOfRobots(const franka_sim::World& world) {
   for (const std::string& robot : world.robots()) {
     names.insert(robot);
   }
-  for (const franka_sim::WorldModel& model : world.models()) {
+  for (const franka_sim::WorldModel& model : models(world)) {
     if (names.count(model.name) > 0) {
       links.insert(model.links.begin(), model.links.end());
     }
@@ -204,7 +204,7 @@ void MarkerPublisher::publish() {
       read = franka_sim::shapesOf(world);
       robots = linksOfRobots(world);
     }
-    poses = world.framePoses();
+    poses = framePoses(world);
   });
   if (read) {
     drawn_ = false;

@@ -38,7 +38,7 @@ class MarkerPublisher {
   bool drawn_{false};  ///< since there are subscribers
   std::uint64_t generation_{0};
   franka_sim::WorldShapes objects_;
-  std::vector<franka_sim::Pose> published_;  ///< of World::frames()
+  std::vector<franka_sim::Pose> published_;  ///< see franka_sim::framePoses
   std::atomic<bool> stop_{false};
   std::thread thread_;
 };

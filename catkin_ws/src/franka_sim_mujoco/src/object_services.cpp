@@ -48,7 +48,7 @@ void readJoints(Simulation& simulation, const std::vector<std::string>& names,
   simulation.withWorld([&](franka_sim::World& world) {
     state.name = names.empty() ? world.joints() : names;
     for (const std::string& name : state.name) {
-      const franka_sim::JointMeasurement joint = world.joint(name);
+      const franka_sim::JointMeasurement joint = jointState(world, name);
       state.position.push_back(joint.position);
       state.velocity.push_back(joint.velocity);
       state.effort.push_back(joint.effort);
@@ -91,7 +91,7 @@ void SimServices::offerWorld() {
   services_.offer<SetGravity>(
       "set_gravity", [this](SetGravity::Request& request, SetGravity::Response&) {
         const auto gravity = fromMessage(request.gravity);
-        simulation_.withWorld([&](franka_sim::World& world) { world.setGravity(gravity); });
+        simulation_.withWorld([&](franka_sim::World& world) { setGravity(world, gravity); });
       });
   services_.offer<TakeSnapshot>(
       "take_snapshot", [this](TakeSnapshot::Request& request, TakeSnapshot::Response& response) {
@@ -107,8 +107,8 @@ void SimServices::offerStates() {
   services_.offer<GetBodyState>(
       "get_body_state", [this](GetBodyState::Request& request, GetBodyState::Response& response) {
         simulation_.withWorld([&](franka_sim::World& world) {
-          response.pose = toMessage(world.bodyPose(request.body));
-          response.twist = toMessage(world.bodyTwist(request.body));
+          response.pose = toMessage(bodyPose(world, request.body));
+          response.twist = toMessage(bodyState(world, request.body).twist);
         });
       });
   services_.offer<SetBodyState>(
@@ -121,8 +121,8 @@ void SimServices::offerStates() {
         franka_sim::sizes::check(twist.angular, franka_sim::sizes::kMaxVelocity, "rad/s",
                                  "The angular velocity");
         simulation_.withWorld([&](franka_sim::World& world) {
-          world.setBodyPose(request.body, pose);
-          world.setBodyTwist(request.body, twist);
+          setBodyPose(world, request.body, pose);
+          setBodyTwist(world, request.body, twist);
         });
       });
   services_.offer<GetJointStates>("get_joint_states", [this](GetJointStates::Request& request,

@@ -14,6 +14,7 @@
 #include <std_srvs/Trigger.h>
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -53,15 +54,12 @@ void push(franka_sim::World& world, const PushBody::Request& request) {
   checkFinite({force[0], force[1], force[2], torque[0], torque[1], torque[2], request.point.x,
                request.point.y, request.point.z},
               "push");
-  if (!request.at_point) {
-    world.push(request.body, force, torque, request.ticks);
-    return;
-  }
-  if (torque != std::array<double, 3>{}) {
+  if (request.at_point && torque != std::array<double, 3>{}) {
     throw std::runtime_error("A push at a point takes no torque: push the body itself for that.");
   }
-  world.pushAt(request.body, {request.point.x, request.point.y, request.point.z}, force,
-               request.ticks);
+  const std::array<double, 3> point{request.point.x, request.point.y, request.point.z};
+  pushBody(world, request.body, force, torque, request.ticks,
+           request.at_point ? std::optional(point) : std::nullopt);
 }
 
 bool between(const franka_sim::Contact& contact, const std::string& body1,
@@ -77,10 +75,10 @@ void collectContacts(franka_sim::World& world, const GetContacts::Request& reque
                      GetContacts::Response& response) {
   for (const std::string& body : {request.body1, request.body2}) {
     if (!body.empty()) {
-      world.bodyPose(body);  // throws for an unknown body
+      bodyPose(world, body);  // throws for an unknown body
     }
   }
-  for (franka_sim::Contact contact : world.contacts()) {
+  for (franka_sim::Contact contact : contacts(world)) {
     if (!between(contact, request.body1, request.body2)) {
       std::swap(contact.body1, contact.body2);
       for (double& component : contact.force) {
@@ -147,14 +145,15 @@ void SimServices::offerBodies() {
   services_.offer<GetBodyPose>(
       "get_body_pose", [this](GetBodyPose::Request& request, GetBodyPose::Response& response) {
         simulation_.withWorld([&](franka_sim::World& world) {
-          response.pose = toMessage(world.bodyPose(request.body));
+          response.pose = toMessage(bodyPose(world, request.body));
         });
       });
-  services_.offer<SetBodyPose>("set_body_pose", [this](SetBodyPose::Request& request,
-                                                       SetBodyPose::Response& /*response*/) {
-    const franka_sim::Pose pose = fromMessage(request.pose);
-    simulation_.withWorld([&](franka_sim::World& world) { world.setBodyPose(request.body, pose); });
-  });
+  services_.offer<SetBodyPose>(
+      "set_body_pose", [this](SetBodyPose::Request& request, SetBodyPose::Response& /*response*/) {
+        const franka_sim::Pose pose = fromMessage(request.pose);
+        simulation_.withWorld(
+            [&](franka_sim::World& world) { setBodyPose(world, request.body, pose); });
+      });
   services_.offer<PushBody>(
       "push_body", [this](PushBody::Request& request, PushBody::Response& /*response*/) {
         simulation_.withWorld([&](franka_sim::World& world) { push(world, request); });

@@ -3,7 +3,7 @@
 #include "simulation.h"
 
 #include <franka_core/numbers.h>
-#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_properties.h>
 #include <ros/console.h>
 
 #include <algorithm>
@@ -321,7 +321,7 @@ std::string Simulation::spawn(const SpawnOrder& order) {
         robots_.push_back(std::move(robot));
         notes = world_.unsupported(order.name);
         reportWarnings();
-        const std::string overlaps = world_.describeOverlaps(order.name);
+        const std::string overlaps = describeOverlaps(world_, order.name);
         if (!overlaps.empty()) {
           ROS_WARN_NAMED(kLog, "%s Give it another place (x, y, z) or other joint positions.",
                          overlaps.c_str());
@@ -366,7 +366,7 @@ void Simulation::placeJoints(const SpawnOrder& order) {
     for (const auto& [name, position] : order.initial_positions) {
       const std::string joint = order.name + "::" + name;
       if (std::find(joints.begin(), joints.end(), joint) != joints.end()) {
-        world_.setJointPosition(joint, position);
+        setJointPosition(world_, joint, position);
       } else {
         ROS_WARN_NAMED(kLog, "'%s' has no joint '%s' that moves: its initial position is ignored.",
                        order.name.c_str(), name.c_str());
@@ -416,7 +416,7 @@ std::string Simulation::spawnObject(const std::string& name, const std::string& 
            unsupported = world_.unsupported(name);
            reportWarnings();
            for (const std::string& robot : world_.robots()) {
-             for (const franka_sim::Overlap& overlap : world_.overlaps(robot)) {
+             for (const franka_sim::Overlap& overlap : overlaps(world_, robot)) {
                if (std::find(before.begin(), before.end(), overlap.body) == before.end()) {
                  unsupported += (unsupported.empty() ? "" : " ") + overlap.body +
                                 " begins within " + overlap.link + ", which it will push.";
@@ -439,10 +439,10 @@ SimulationInventory Simulation::inventory() {
     result.objects = world_.objects();
     result.bodies = world_.bodies();
     result.joints = world_.joints();
-    for (const franka_sim::WorldCamera& camera : world_.cameras()) {
+    for (const franka_sim::WorldCamera& camera : cameras(world_)) {
       result.cameras.push_back(camera.name);
     }
-    result.gravity = world_.gravity();
+    result.gravity = gravity(world_);
     result.paused = paused_;
     result.real_time_factor = real_time_factor_;
   });
@@ -461,8 +461,8 @@ void Simulation::setJoints(const std::vector<std::string>& names,
     const franka_sim::Snapshot before = world_.snapshot();
     try {
       for (std::size_t i = 0; i < names.size(); ++i) {
-        world_.setJointPosition(names[i], positions[i]);
-        world_.setJointVelocity(names[i], velocities[i]);
+        setJointPosition(world_, names[i], positions[i]);
+        setJointVelocity(world_, names[i], velocities[i]);
       }
     } catch (...) {
       world_.restore(before);

@@ -5,7 +5,7 @@
 /// World files by name, files that packages export, and the file of physical parameters.
 
 #include <franka_sim/physics/physics_config.h>
-#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_properties.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -83,8 +83,8 @@ TEST(Resources, AreFoundInFoldersThatPackagesExport) {
   EXPECT_EQ(findWorldFile("beach.sdf", gazeboResourceFolders()), world);
 
   franka_sim::World beach(world, resolveUri);
-  EXPECT_EQ(beach.bodyPose("pebble").position[2], 1.0);
-  EXPECT_EQ(beach.bodyPose("stone").position[0], 1.0);
+  EXPECT_EQ(bodyPose(beach, "pebble").position[2], 1.0);
+  EXPECT_EQ(bodyPose(beach, "stone").position[0], 1.0);
 }
 
 class PhysicsFile : public testing::Test {

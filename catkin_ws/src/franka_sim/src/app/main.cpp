@@ -3,7 +3,7 @@
 //
 // Simulated robots on the network, without ROS.
 #include <franka_sim/physics/window.h>
-#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/realism.h>
 #include <franka_sim/serve/host.h>
@@ -351,7 +351,7 @@ void serve(const Options& options) {
   }
   std::fflush(stdout);
   for (const ArmOptions& arm : options.arms) {
-    const std::string overlaps = world.describeOverlaps(arm.arm_id);
+    const std::string overlaps = describeOverlaps(world, arm.arm_id);
     if (!overlaps.empty()) {
       std::fprintf(stderr, "franka_sim: %s Put it elsewhere with --base.\n", overlaps.c_str());
     }

@@ -202,7 +202,7 @@ Scene captureScene(World& world) {
   }
   Scene scene;
   scene.mjcf = impl.visual_mjcf;
-  scene.contacts = world.contacts();
+  scene.contacts = contacts(world);
   scene.time = world.time();
   scene.fault = world.fault();
   const mjModel& model = *impl.model;

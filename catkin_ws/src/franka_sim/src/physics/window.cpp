@@ -455,7 +455,7 @@ void PushByMouse::act(World& world, const std::optional<BodyPush>& push) {
   ticks_ = now;
   if (push && passed > 0 && !world.stopped()) {
     try {
-      world.pushAt(push->body, push->point, push->force, std::min(passed, kMaxPushTicks));
+      pushBody(world, push->body, push->force, {}, std::min(passed, kMaxPushTicks), push->point);
     } catch (const std::runtime_error&) {  // NOLINT(bugprone-empty-catch)
       // The body has been removed since the picture; the next picture does not show it.
     }

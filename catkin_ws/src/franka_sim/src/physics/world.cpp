@@ -1,8 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_core/numbers.h>
 #include <franka_sim/physics/world.h>
-#include <franka_sim/physics/world_properties.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>
@@ -27,18 +25,6 @@ std::array<std::string, N> jointNames(const physics::RobotModel& robot, const st
     }
   }
   return names;
-}
-
-void checkPush(std::size_t others, const std::string& body, std::uint64_t ticks) {
-  if (ticks > sizes::kMaxPushTicks && ticks != sizes::kEndlessPush) {
-    throw std::runtime_error("The push on body '" + body + "' lasts " + std::to_string(ticks) +
-                             " ms; give at most " + std::to_string(sizes::kMaxPushTicks) + ".");
-  }
-  if (others >= sizes::kMaxPushes) {
-    throw std::runtime_error("The push on body '" + body +
-                             "' is refused: " + std::to_string(sizes::kMaxPushes) +
-                             " pushes act already. Wait until they end.");
-  }
 }
 
 }  // namespace
@@ -134,138 +120,6 @@ void World::setSubsteps(Substeps substeps) noexcept {
 double World::time() const noexcept { return static_cast<double>(impl_->ticks) * kTick; }
 
 void World::reset() { impl_->reset(); }
-
-std::array<double, 3> World::gravity() const {
-  const double* g = impl_->model->opt.gravity;
-  return {g[0], g[1], g[2]};
-}
-
-Pose World::bodyPose(const std::string& body) const {
-  return toPose(impl_->pose(impl_->frame(body)));
-}
-
-std::vector<Pose> World::framePoses() const {
-  std::vector<Pose> poses;
-  poses.reserve(impl_->ordered_frames.size());
-  for (const NamedFrame& named : impl_->ordered_frames) {
-    poses.push_back(toPose(impl_->pose(named.frame)));
-  }
-  return poses;
-}
-
-void World::checkBodyPose(const std::string& body, const Pose& pose) const {
-  impl_->freeJoint(body);
-  sizes::check(pose.position, sizes::kMaxPosition, "m", "The position for body '" + body + "'");
-  if (!hasUnitOrientation(pose)) {
-    throw std::runtime_error("The orientation for body '" + body + "' is not a unit quaternion.");
-  }
-}
-
-void World::setBodyPose(const std::string& body, const Pose& pose) {
-  checkBodyPose(body, pose);
-  impl_->requireRuns();
-  const int joint = impl_->freeJoint(body);
-  const Frame frame = impl_->frame(body);
-  const bool is_body = frame.pose.matrix().isIdentity(0);
-  const Eigen::Isometry3d place =
-      is_body ? toIsometry(pose) : toIsometry(pose) * frame.pose.inverse();
-  double* qpos = impl_->data->qpos + impl_->model->jnt_qposadr[joint];
-  Eigen::Vector3d::Map(qpos) = place.translation();
-  const Eigen::Quaterniond unit =
-      is_body ? quaternion(pose).normalized() : Eigen::Quaterniond(place.linear()).normalized();
-  qpos[3] = unit.w();
-  qpos[4] = unit.x();
-  qpos[5] = unit.y();
-  qpos[6] = unit.z();
-  mju_zero(impl_->data->qvel + impl_->model->jnt_dofadr[joint], 6);
-  impl_->disturb();
-}
-
-JointMeasurement World::joint(const std::string& joint) const {
-  const physics::JointSlot slot = impl_->slot(joint);
-  return {impl_->data->qpos[slot.qpos], impl_->data->qvel[slot.dof],
-          impl_->motor_side.torque(slot.dof)};
-}
-
-void World::setJointPosition(const std::string& joint, double position) {
-  const physics::JointSlot slot = impl_->slot(joint);
-  const int id = mj_name2id(impl_->model.get(), mjOBJ_JOINT, joint.c_str());
-  impl_->requireRuns();
-  sizes::check(position, sizes::kMaxPosition, "m or rad", "The position for joint '" + joint + "'");
-  const double* range = impl_->model->jnt_range + 2 * id;
-  if (impl_->model->jnt_limited[id] && (position < range[0] || position > range[1])) {
-    throw std::runtime_error("Joint '" + joint + "' cannot be put at " +
-                             franka_core::numberText(position) + ", its stops are at " +
-                             franka_core::numberText(range[0]) + " and " +
-                             franka_core::numberText(range[1]) + ".");
-  }
-  impl_->data->qpos[slot.qpos] = position;
-  impl_->data->qvel[slot.dof] = 0;
-  impl_->disturb();
-  for (auto& [key, arm] : impl_->arms) {
-    arm->jointWasMoved(joint);
-  }
-  for (auto& [key, drive] : impl_->drives) {
-    drive->jointWasMoved(joint);
-  }
-}
-
-void World::push(const std::string& body, const std::array<double, 3>& force,
-                 const std::array<double, 3>& torque, std::uint64_t ticks) {
-  const Frame frame = impl_->frame(body);
-  impl_->requireRuns();
-  sizes::check(force, sizes::kMaxForce, "N", "The force on body '" + body + "'");
-  sizes::check(torque, sizes::kMaxForce, "Nm", "The torque on body '" + body + "'");
-  checkPush(impl_->pushes.size(), body, ticks);
-  if (ticks > 0) {
-    impl_->addPush(
-        {body, frame.body, frame.pose.translation(), vector(force), vector(torque), ticks});
-  }
-}
-
-void World::pushAt(const std::string& body, const std::array<double, 3>& point,
-                   const std::array<double, 3>& force, std::uint64_t ticks) {
-  const Frame frame = impl_->frame(body);
-  impl_->requireRuns();
-  sizes::check(point, sizes::kMaxPosition, "m", "The point of the push");
-  sizes::check(force, sizes::kMaxForce, "N", "The force on body '" + body + "'");
-  checkPush(impl_->pushes.size(), body, ticks);
-  if (ticks > 0) {
-    const Frame origin{frame.body, Eigen::Isometry3d::Identity()};
-    impl_->addPush({body, frame.body, impl_->pose(origin).inverse() * vector(point), vector(force),
-                    Eigen::Vector3d::Zero(), ticks});
-  }
-}
-
-std::vector<Contact> World::contacts() const {
-  std::vector<Contact> result;
-  for (const GeomContact& contact : impl_->contacts()) {
-    result.push_back({impl_->geom_links[contact.geom1], impl_->geom_links[contact.geom2],
-                      contact.position, contact.force});
-  }
-  return result;
-}
-
-Touches World::touches(const std::string& body) const {
-  impl_->frame(body);
-  Touches touches;
-  for (const GeomContact& contact : impl_->contacts()) {
-    const bool first = impl_->geom_links[contact.geom1] == body;
-    if (!first && impl_->geom_links[contact.geom2] != body) {
-      continue;
-    }
-    const int robot = impl_->owners.robot_of_geom[first ? contact.geom2 : contact.geom1];
-    if (robot < 0) {
-      touches.others = true;
-      continue;
-    }
-    const std::string& name = impl_->robots[robot]->description.name;
-    if (std::find(touches.robots.begin(), touches.robots.end(), name) == touches.robots.end()) {
-      touches.robots.push_back(name);
-    }
-  }
-  return touches;
-}
 
 std::uint64_t World::stateHash() const noexcept { return impl_->hash(); }
 

@@ -17,9 +17,6 @@ namespace {
 
 using physics::StepFault;
 
-/// Penetration of bodies that rest on each other is smaller (chosen here).
-constexpr double kOverlap = 1e-3;  // [m]
-
 std::string quoted(const mjModel& model, int type, int id) {
   const char* name = mj_id2name(&model, type, id);
   return name != nullptr ? "'" + std::string(name) + "'" : "without a name";
@@ -110,49 +107,6 @@ std::vector<std::string> World::takeWarnings() {
     }
   }
   return news;
-}
-
-std::vector<Overlap> World::overlaps(const std::string& robot) const {
-  const physics::RobotModel& own = impl_->robot(robot);
-  const auto owned = [&own](const std::string& link) {
-    return std::any_of(own.urdf.links.begin(), own.urdf.links.end(),
-                       [&link](const physics::UrdfLink& candidate) {
-                         return candidate.name != "world" && candidate.name == link;
-                       });
-  };
-  const mjData& data = impl_->findContacts();
-  std::vector<Overlap> result;
-  for (int c = 0; c < data.ncon; ++c) {
-    const mjContact& contact = data.contact[c];
-    std::string link = impl_->geom_links[contact.geom1], body = impl_->geom_links[contact.geom2];
-    if (owned(body)) {
-      std::swap(link, body);
-    }
-    if (contact.dist > -kOverlap || !owned(link) || owned(body)) {
-      continue;
-    }
-    const auto same = std::find_if(result.begin(), result.end(), [&](const Overlap& other) {
-      return other.link == link && other.body == body;
-    });
-    if (same == result.end()) {
-      result.push_back({link, body, -contact.dist});
-    } else {
-      same->depth = std::max(same->depth, -contact.dist);
-    }
-  }
-  return result;
-}
-
-std::string World::describeOverlaps(const std::string& robot) const {
-  std::string list;
-  for (const Overlap& overlap : overlaps(robot)) {
-    list += (list.empty() ? "" : ", ") + overlap.link + " and " +
-            (overlap.body.empty() ? "the ground or another fixed shape" : overlap.body) + " by " +
-            franka_core::fixedText(1e3 * overlap.depth, 0) + " mm";
-  }
-  return list.empty() ? list
-                      : "The robot '" + robot +
-                            "' begins within other bodies, which will push it: " + list + ".";
 }
 
 }  // namespace franka_sim

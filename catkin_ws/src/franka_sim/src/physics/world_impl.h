@@ -181,6 +181,6 @@ struct World::Impl {
 };
 
 /// For other sources of physics/, and tests.
-inline World::Impl& implOf(World& world) noexcept { return *world.impl_; }
+inline World::Impl& implOf(const World& world) noexcept { return *world.impl_; }
 
 }  // namespace franka_sim

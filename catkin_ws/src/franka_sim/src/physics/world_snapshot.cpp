@@ -121,7 +121,7 @@ Snapshot World::snapshot() const {
   content->contacts = impl_->kept_contacts;
   content->eq_data.assign(model.eq_data, model.eq_data + mjNEQDATA * model.neq);
   content->eq_active.assign(model.eq_active, model.eq_active + model.neq);
-  content->gravity = gravity();
+  content->gravity = gravity(*this);
   for (const auto& [name, arm] : impl_->arms) {
     content->arms.emplace(name, arm->state());
   }
@@ -141,7 +141,7 @@ void World::restore(const Snapshot& snapshot) {
   }
   mjModel& model = *impl_->model;
   impl_->clearFaults();
-  setGravity(content->gravity);
+  setGravity(*this, content->gravity);
   const physics::EngineErrorScope scope;
   physics::copyData(impl_->data.get(), model, *content->data);
   std::copy(content->eq_data.begin(), content->eq_data.end(), model.eq_data);

@@ -63,7 +63,7 @@ void addLink(LineServer& lines, fci::SimRobot& robot) {
 void addWorld(LineServer& lines, fci::Host& host, World& world) {
   lines.add("push BODY FX FY FZ MILLISECONDS", [&](const Words& words) {
     const std::uint64_t ticks = toTicks(words.at(4));
-    world.push(words.at(0), toVector(words, 1), {}, ticks);
+    pushBody(world, words.at(0), toVector(words, 1), {}, ticks);
     host.runFree(ticks);
     return "";
   });
@@ -74,12 +74,12 @@ void addWorld(LineServer& lines, fci::Host& host, World& world) {
       pose.orientation = {toNumber(words.at(4)), toNumber(words.at(5)), toNumber(words.at(6)),
                           toNumber(words.at(7))};
     }
-    world.setBodyPose(words.at(0), pose);
+    setBodyPose(world, words.at(0), pose);
     host.runFree(kFall);
     return "";
   });
   lines.add("where BODY", [&](const Words& words) {
-    const Pose pose = world.bodyPose(words.at(0));
+    const Pose pose = bodyPose(world, words.at(0));
     return franka_core::numberText(pose.position[0], 9) + " " +
            franka_core::numberText(pose.position[1], 9) + " " +
            franka_core::numberText(pose.position[2], 9);

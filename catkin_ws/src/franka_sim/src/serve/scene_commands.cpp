@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/numbers.h>
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/serve/operator_commands.h>
 #include <sched.h>
 
@@ -192,7 +193,7 @@ void addSceneCommands(fci::LineServer& lines, const World& world, SceneText& sce
   lines.add("mesh NAME OFFSET", [&scene](const Words& words) {
     return scene.mesh(words.at(0), toOffset(words.at(1)));
   });
-  lines.add("poses", [&world](const Words&) { return describe(world.framePoses()); });
+  lines.add("poses", [&world](const Words&) { return describe(framePoses(world)); });
 }
 
 }  // namespace franka_sim

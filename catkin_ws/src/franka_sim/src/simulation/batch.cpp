@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/simulation/batch.h>
 #include <tbb/info.h>
 #include <tbb/parallel_for.h>
@@ -94,7 +95,7 @@ std::vector<std::string> Observer::defaultNames(Simulation& simulation) {
     }
   }
   const std::vector<std::string> robots = simulation.world().robots();
-  for (const WorldModel& model : simulation.world().models()) {
+  for (const WorldModel& model : models(simulation.world())) {
     const bool is_robot = std::find(robots.begin(), robots.end(), model.name) != robots.end();
     if (!is_robot && !model.is_static) {
       names.push_back(model.body + ".pose");
@@ -174,7 +175,7 @@ void Observer::read(double* values) const {
   if (bodies_.empty()) {
     return;
   }
-  const std::vector<BodyState> states = simulation_->world().bodyStates(body_names_);
+  const std::vector<BodyState> states = bodyStates(simulation_->world(), body_names_);
   for (std::size_t i = 0; i < bodies_.size(); i++) {
     double* to = values + bodies_[i].at;
     const auto put = [&to](const auto& array) { to = std::copy(array.begin(), array.end(), to); };

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/rotations.h>
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/simulation/policy_episode.h>
 
 #include <Eigen/Cholesky>
@@ -259,7 +260,7 @@ void PolicyEpisode::restart() {
     hand.restart();
   }
   if (!setting_.body.empty()) {
-    before_ = simulation_->world().bodyPose(setting_.body).position;
+    before_ = bodyPose(simulation_->world(), setting_.body).position;
   }
 }
 
@@ -318,7 +319,7 @@ void PolicyEpisode::observe(double seconds, double* observation) {
 
 void PolicyEpisode::observeBody(double seconds, double* to) {
   const World& world = simulation_->world();
-  const Pose pose = world.bodyPose(setting_.body);
+  const Pose pose = bodyPose(world, setting_.body);
   to = std::copy(pose.position.begin(), pose.position.end(), to);
   const double sign = pose.orientation[0] >= 0.0 ? 1.0 : -1.0;
   for (const double value : pose.orientation) {
@@ -328,13 +329,13 @@ void PolicyEpisode::observeBody(double seconds, double* to) {
     *to++ = seconds > 0.0 ? (pose.position[i] - before_[i]) / seconds : 0.0;
   }
   before_ = pose.position;
-  const Touches touches = world.touches(setting_.body);
+  const Touches touching = touches(world, setting_.body);
   for (const Robot& robot : robots_) {
     const auto found =
-        std::find(touches.robots.begin(), touches.robots.end(), robot.robot->setup().arm_id);
-    *to++ = found == touches.robots.end() ? 0.0 : 1.0;
+        std::find(touching.robots.begin(), touching.robots.end(), robot.robot->setup().arm_id);
+    *to++ = found == touching.robots.end() ? 0.0 : 1.0;
   }
-  *to = touches.others ? 1.0 : 0.0;
+  *to = touching.others ? 1.0 : 0.0;
 }
 
 }  // namespace franka_sim

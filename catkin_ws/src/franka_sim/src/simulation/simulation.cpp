@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <franka_sim/simulation/robot_setup.h>
 #include <franka_sim/simulation/simulation.h>
@@ -95,7 +96,7 @@ void Simulation::checkPositions(const SimulatedRobot& robot, const std::array<do
 void Simulation::place(SimulatedRobot& robot, const std::array<double, 7>& q) {
   checkPositions(robot, q);
   for (std::size_t i = 0; i < q.size(); i++) {
-    world_.setJointPosition(robot.setup().arm_id + "_joint" + std::to_string(i + 1), q[i]);
+    setJointPosition(world_, robot.setup().arm_id + "_joint" + std::to_string(i + 1), q[i]);
   }
   robot.restart();
   robot.observe();

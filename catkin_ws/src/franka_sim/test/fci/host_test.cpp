@@ -3,6 +3,7 @@
 //
 // The whole simulated robot over real sockets, in lock-step.
 #include <franka_core/fci/gripper_codec.h>
+#include <franka_sim/physics/world_properties.h>
 #include <ros_test/eventually.h>
 
 #include <optional>
@@ -118,7 +119,7 @@ TEST(LockStep, AnArmThatCoastsInGuidingDoesNotDeferRequests) {
   connect(client);
   simulated.between([](SimRobot& robot, World& world, Host& host) {
     robot.unit().request(Guiding{true});
-    world.push("panda_link5", {0, 8, 0}, {}, 100);
+    pushBody(world, "panda_link5", {0, 8, 0}, {}, 100);
     host.runFree(100);
   });
   for (int i = 0; i < 3; i++) {

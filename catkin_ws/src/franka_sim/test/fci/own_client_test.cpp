@@ -8,6 +8,7 @@
 #include <franka/log.h>
 #include <franka/model.h>
 #include <franka_core/limits.h>
+#include <franka_sim/physics/world_properties.h>
 #include <gtest/gtest.h>
 #include <transform_sweep.h>
 
@@ -260,7 +261,7 @@ std::string abortSeen(std::uint16_t version, Cause cause) {
           }
           if (cycle == 80 && cause == Cause::kPush) {
             simulated.between([&](SimRobot&, World& world, Host&) {
-              world.push(version <= 5 ? "panda_link6" : "fr3_link6", {0, 60, 60}, {}, 100);
+              pushBody(world, version <= 5 ? "panda_link6" : "fr3_link6", {0, 60, 60}, {}, 100);
             });
           }
           const int jump = cause == Cause::kJumpAtOnce ? 1 : 80;

@@ -34,13 +34,13 @@ class AdaptiveStepsTest : public StoneInHandTest {
   }
 
   Pose beside(double y) {
-    Pose pose = world_.bodyPose(id() + "_hand");
+    Pose pose = bodyPose(world_, id() + "_hand");
     pose.position[1] += y;
     pose.orientation = {1, 0, 0, 0};
     return pose;
   }
 
-  bool robotTouches(const std::string& body) { return !world_.touches(body).robots.empty(); }
+  bool robotTouches(const std::string& body) { return !touches(world_, body).robots.empty(); }
 
   int changes_{0};
 };
@@ -77,9 +77,9 @@ TEST_P(AdaptiveStepsTest, ChangesFromOutsideCountInTheNextTick) {
   };
   placeStone();
   expectSmall("a stone in the hand");
-  world_.setBodyTwist("stone", {{0, 0, 0.1}, {}});
+  setBodyTwist(world_, "stone", {{0, 0, 0.1}, {}});
   expectSmall("a stone that moves");
-  world_.setJointPosition(id() + "_joint1", 0.3);
+  setJointPosition(world_, id() + "_joint1", 0.3);
   expectSmall("the hand at the wall");
 }
 
@@ -94,7 +94,7 @@ TEST_P(AdaptiveStepsTest, FrictionThatNeedsSmallStepsHasThem) {
 
 TEST_P(AdaptiveStepsTest, SmallStepsWhileAnObjectMoves) {
   run(1000);
-  world_.push("stone", {0.3, 0, 0.5}, {}, 50);
+  pushBody(world_, "stone", {0.3, 0, 0.5}, {}, 50);
   run(30);
   EXPECT_EQ(kSmall, world_.substeps());
   run(4000);
@@ -141,7 +141,7 @@ TEST_P(AdaptiveStepsTest, SnapshotsInFreeMotionContinueBitForBit) {
       auto q_d = kHome;
       q_d[0] += 0.25 * std::sin(0.004 * k);
       if (k == 900) {
-        world_.push("stone", {0.2, 0, 0.5}, {}, 20);
+        pushBody(world_, "stone", {0.2, 0, 0.5}, {}, 20);
       }
       tick(0.0, q_d);
     }
@@ -153,13 +153,13 @@ TEST_P(AdaptiveStepsTest, SnapshotsInFreeMotionContinueBitForBit) {
     const bool before = held();
     const Snapshot snapshot = world_.snapshot();
     const std::uint64_t first = swing(k, 60);
-    const std::size_t contacts = world_.contacts().size();
+    const std::size_t count = contacts(world_).size();
     const bool after = held();
     world_.restore(snapshot);
     world_.prepareStep();
     world_.restore(world_.snapshot());
     ASSERT_EQ(first, swing(k, 60)) << "from tick " << k;
-    ASSERT_EQ(contacts, world_.contacts().size()) << k;
+    ASSERT_EQ(count, contacts(world_).size()) << k;
     ASSERT_EQ(after, held()) << k;
     held_changes += before != after ? 1 : 0;
   }
@@ -225,7 +225,7 @@ class ScenarioTest : public AdaptiveStepsTest {
   /// Sum of the forces that both fingers exert on the stone [N].
   double gripOf() {
     double sum = 0.0;
-    for (const Contact& contact : world_.contacts()) {
+    for (const Contact& contact : contacts(world_)) {
       const bool stone = contact.body1 == "stone" || contact.body2 == "stone";
       sum += stone ? Eigen::Vector3d(contact.force.data()).norm() : 0.0;
     }

@@ -172,7 +172,7 @@ TEST_P(ArmPlantTest, ClosedBrakesHoldForTenSecondsWithoutTorque) {
 TEST_P(ArmPlantTest, BrakesHoldAgainstAPushAndOpenAgain) {
   put(robot(id()));
   arm_->setBrakes(true);
-  world_.push(id() + "_hand", {60, 40, -50}, {}, 2000);
+  pushBody(world_, id() + "_hand", {60, 40, -50}, {}, 2000);
   for (int k = 0; k < 2000; ++k) {
     world_.step();
   }

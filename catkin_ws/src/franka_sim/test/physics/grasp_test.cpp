@@ -26,7 +26,7 @@ TEST_P(GraspTest, PadsPressWithTheFingerForceAndCarryTheWeight) {
   const Eigen::Vector3d left = forceFrom("leftfinger");
   const Eigen::Vector3d right = forceFrom("rightfinger");
   const Eigen::Vector3d across =
-      toEigen(world_.bodyPose(id() + "_hand")).linear() * Eigen::Vector3d::UnitY();
+      toEigen(bodyPose(world_, id() + "_hand")).linear() * Eigen::Vector3d::UnitY();
   // Left finger opens along +y of the hand, so it pushes the stone along -y.
   EXPECT_NEAR(-kFingerForce, left.dot(across), 0.1 * kFingerForce);
   EXPECT_NEAR(kFingerForce, right.dot(across), 0.1 * kFingerForce);
@@ -35,21 +35,21 @@ TEST_P(GraspTest, PadsPressWithTheFingerForceAndCarryTheWeight) {
 }
 
 TEST_P(GraspTest, WhatTouchesTheStoneIsShownInBrief) {
-  const auto touches = [this] {
-    const Touches found = world_.touches("stone");
+  const auto partners = [this] {
+    const Touches found = touches(world_, "stone");
     return std::make_pair(found.robots, found.others);
   };
   for (int k = 0; k < 1000; ++k) {
     tick(-kFingerForce, kHome);
   }
-  EXPECT_EQ(std::make_pair(std::vector<std::string>{}, true), touches()) << "on its tray";
+  EXPECT_EQ(std::make_pair(std::vector<std::string>{}, true), partners()) << "on its tray";
   placeStone();
-  EXPECT_TRUE(touches().second) << "in the last step";
+  EXPECT_TRUE(partners().second) << "in the last step";
   for (int k = 0; k < 1000; ++k) {
     tick(kFingerForce, kHome);
   }
-  EXPECT_EQ(std::make_pair(std::vector<std::string>{id()}, false), touches()) << "in the hand";
-  EXPECT_THROW(world_.touches("pebble"), std::runtime_error);
+  EXPECT_EQ(std::make_pair(std::vector<std::string>{id()}, false), partners()) << "in the hand";
+  EXPECT_THROW(touches(world_, "pebble"), std::runtime_error);
 }
 
 TEST_P(GraspTest, StoneStaysGraspedForAMinuteOfMotion) {
@@ -58,7 +58,7 @@ TEST_P(GraspTest, StoneStaysGraspedForAMinuteOfMotion) {
     tick(kFingerForce, kHome);
   }
   const Eigen::Vector3d start = stoneInHand();
-  Eigen::Vector3d last_tcp = toEigen(world_.bodyPose(id() + "_hand_tcp")).translation();
+  Eigen::Vector3d last_tcp = toEigen(bodyPose(world_, id() + "_hand_tcp")).translation();
   double fastest = 0, farthest = 0;
   for (int k = 0; k < 60000; ++k) {
     const double t = 0.001 * k;
@@ -75,7 +75,7 @@ TEST_P(GraspTest, StoneStaysGraspedForAMinuteOfMotion) {
     swing(6, 0.4, 1.1);
     tick(kFingerForce, q_d, dq_d);
     if (k % 10 == 9) {
-      const Eigen::Vector3d tcp = toEigen(world_.bodyPose(id() + "_hand_tcp")).translation();
+      const Eigen::Vector3d tcp = toEigen(bodyPose(world_, id() + "_hand_tcp")).translation();
       fastest = std::max(fastest, (tcp - last_tcp).norm() / 0.01);
       last_tcp = tcp;
       farthest = std::max(farthest, (stoneInHand() - start).norm());

@@ -48,7 +48,7 @@ TEST_F(JointDriveTest, HoldsAPositionUnderAnyLoad) {
   step(500);
   EXPECT_NEAR(0.5, lift_->measure().position, 1e-5);
   EXPECT_NEAR(kWeight, lift_->measure().effort, 1e-3);
-  world_.push("platform", {0, 0, -500}, {0, 0, 0}, 500);
+  pushBody(world_, "platform", {0, 0, -500}, {0, 0, 0}, 500);
   step(500);
   EXPECT_NEAR(0.5, lift_->measure().position, 1e-4);
   EXPECT_NEAR(kWeight + 500, lift_->measure().effort, 1e-2);
@@ -83,7 +83,7 @@ TEST_F(JointDriveTest, HoldsWhenObjectsAreAddedOrMoved) {
   world_.addRobot(robot("panda"));
   step(100);
   EXPECT_NEAR(0.5, lift_->measure().position, 1e-5);
-  world_.setJointPosition("lift", 0.8);
+  setJointPosition(world_, "lift", 0.8);
   step(100);
   EXPECT_NEAR(0.8, lift_->measure().position, 1e-5);
 

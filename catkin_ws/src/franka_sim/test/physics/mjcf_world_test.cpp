@@ -57,7 +57,7 @@ TEST_F(MjcfWorldTest, UnitsAndDefaultsOfTheWorldDoNotAffectTheRobot) {
   ASSERT_EQ(b->nv, a->nv);
   EXPECT_EQ(0.0005, a->opt.timestep);
   EXPECT_EQ(mjINT_EULER, a->opt.integrator);
-  EXPECT_EQ((std::array<double, 3>{0, 0, -1.62}), odd.gravity());
+  EXPECT_EQ((std::array<double, 3>{0, 0, -1.62}), gravity(odd));
   for (int i = 0; i < a->nv; ++i) {
     EXPECT_EQ(b->dof_damping[i], a->dof_damping[i]);
     EXPECT_EQ(b->dof_armature[i], a->dof_armature[i]);
@@ -108,9 +108,9 @@ TEST_F(MjcfWorldTest, CamerasOfARobotBelongToTheWorld) {
       "<gazebo reference='panda_hand'><sensor name='eye' type='camera'><camera><image><width>320"
       "</width><height>200</height></image></camera></sensor></gazebo></robot>");
   world.addRobot(description);
-  ASSERT_EQ(1u, world.cameras().size());
-  EXPECT_EQ("panda::panda_hand::eye", world.cameras()[0].name);
-  EXPECT_EQ(320, world.cameras()[0].width);
+  ASSERT_EQ(1u, cameras(world).size());
+  EXPECT_EQ("panda::panda_hand::eye", cameras(world)[0].name);
+  EXPECT_EQ(320, cameras(world)[0].width);
   const auto model = physics::compile(world.mjcf(true), "pictures");
   EXPECT_EQ(1, model->ncam);
 }
@@ -126,7 +126,7 @@ TEST_F(MjcfWorldTest, IncludesAndRelativeFilesWork) {
   for (int k = 0; k < 2000; ++k) {
     world.step();
   }
-  const double z = world.bodyPose("rock").position[2];
+  const double z = bodyPose(world, "rock").position[2];
   EXPECT_GT(z, -0.01);
   EXPECT_LT(z, 0.2) << "it fell onto the ground";
 }

@@ -34,11 +34,11 @@ class ObjectRestTest : public StoneInHandTest {
   double forceUp(const std::string& body) { return forceOn(body).z(); }
 
   double speedOf(const std::string& body) {
-    const Twist twist = world_.bodyTwist(body);
+    const Twist twist = bodyState(world_, body).twist;
     return Eigen::Vector3d(twist.linear.data()).norm();
   }
 
-  double heightOf(const std::string& body) { return world_.bodyPose(body).position[2]; }
+  double heightOf(const std::string& body) { return bodyPose(world_, body).position[2]; }
 
   void addBox(const std::string& name, const std::string& half, double z) {
     Pose pose;
@@ -60,7 +60,7 @@ class ObjectRestTest : public StoneInHandTest {
 TEST_P(ObjectRestTest, AStoneThatRestsIsHeldAndShowsItsContacts) {
   ASSERT_TRUE(settles());
   EXPECT_GT(world_.ticks(), 100U) << "it first sinks onto its tray";
-  const Pose before = world_.bodyPose("stone");
+  const Pose before = bodyPose(world_, "stone");
   for (int k = 0; k < 1000; ++k) {
     auto q_d = kHome;
     q_d[0] += 0.3 * std::sin(0.003 * k);
@@ -68,12 +68,12 @@ TEST_P(ObjectRestTest, AStoneThatRestsIsHeldAndShowsItsContacts) {
     ASSERT_TRUE(held()) << k;
     ASSERT_NEAR(kWeight, forceUp("stone"), 1e-6 * kWeight) << k;
   }
-  EXPECT_EQ(before.position, world_.bodyPose("stone").position);
-  EXPECT_EQ(before.orientation, world_.bodyPose("stone").orientation);
+  EXPECT_EQ(before.position, bodyPose(world_, "stone").position);
+  EXPECT_EQ(before.orientation, bodyPose(world_, "stone").orientation);
   EXPECT_EQ(0.0, speedOf("stone"));
-  EXPECT_EQ(4U, world_.contacts().size());
+  EXPECT_EQ(4U, contacts(world_).size());
   world_.prepareStep();
-  EXPECT_EQ(4U, world_.contacts().size());
+  EXPECT_EQ(4U, contacts(world_).size());
   EXPECT_NEAR(kWeight, forceUp("stone"), 1e-6 * kWeight);
 }
 
@@ -121,14 +121,14 @@ TEST_P(ObjectRestTest, APushMovesItInTheNextTick) {
     if (prepared) {
       world_.prepareStep();
     }
-    world_.push("stone", {0, 0, 2.0}, {}, 5);
+    pushBody(world_, "stone", {0, 0, 2.0}, {}, 5);
     EXPECT_NEAR(kWeight, forceUp("stone"), 1e-6 * kWeight) << "of the last step";
     tick(0.0, kHome);
     EXPECT_FALSE(held());
     EXPECT_GT(speedOf("stone"), 0.005);
   }
   world_.restore(snapshot);
-  world_.push(id() + "_hand", {0, 0, 2.0}, {}, 5);
+  pushBody(world_, id() + "_hand", {0, 0, 2.0}, {}, 5);
   tick(0.0, kHome);
   EXPECT_TRUE(held()) << "a push against the arm";
 }
@@ -144,13 +144,13 @@ TEST_P(ObjectRestTest, ChangesFromOutsideCountInTheNextTick) {
     tick(0.0, kHome);
     EXPECT_TRUE(held()) << "without " << what;
   };
-  Pose raised = world_.bodyPose("stone");
+  Pose raised = bodyPose(world_, "stone");
   raised.position[2] += 0.05;
-  world_.setBodyPose("stone", raised);
+  setBodyPose(world_, "stone", raised);
   expectFalls("a stone that is lifted");
-  world_.setGravity({0, 0, 5.0});
+  setGravity(world_, {0, 0, 5.0});
   expectFalls("another gravity");
-  world_.setBodyTwist("stone", {{0, 0, 0.5}, {}});
+  setBodyTwist(world_, "stone", {{0, 0, 0.5}, {}});
   expectFalls("a stone that is thrown");
 }
 
@@ -170,15 +170,15 @@ TEST_P(ObjectRestTest, AStackIsHeldAndFallsWithoutItsSupport) {
 TEST_P(ObjectRestTest, AStackOfWhichOneIsPushedMoves) {
   addStack();
   ASSERT_TRUE(settles(4000));
-  const double x = world_.bodyPose("upper").position[0];
-  world_.push("lower", {2.5, 0, 0}, {}, 200);
+  const double x = bodyPose(world_, "upper").position[0];
+  pushBody(world_, "lower", {2.5, 0, 0}, {}, 200);
   run(200);
-  EXPECT_GT(world_.bodyPose("upper").position[0], x + 0.01);
+  EXPECT_GT(bodyPose(world_, "upper").position[0], x + 0.01);
 }
 
 TEST_P(ObjectRestTest, WhatCreepsOnATiltedTrayIsNotHeld) {
   constexpr double kTilt = 0.0087;  // half a degree
-  world_.setGravity({9.81 * std::sin(kTilt), 0, -9.81 * std::cos(kTilt)});
+  setGravity(world_, {9.81 * std::sin(kTilt), 0, -9.81 * std::cos(kTilt)});
   for (int k = 0; k < 3000; ++k) {
     tick(0.0, kHome);
     ASSERT_FALSE(held()) << k;
@@ -193,19 +193,19 @@ TEST_P(ObjectRestTest, APendulumIsNotHeldWhereItTurnsBack) {
                    "<body name='pendulum'><joint name='swing' type='hinge' axis='0 1 0'/>"
                    "<geom type='capsule' fromto='0 0 0 0 0 -0.3' size='0.01'/></body>",
                    pose);
-  world_.setJointPosition("swing", 0.001);
+  setJointPosition(world_, "swing", 0.001);
   double lowest = 0.0;
   for (int k = 0; k < 3000; ++k) {
     tick(0.0, kHome);
     ASSERT_FALSE(held()) << k;
-    lowest = std::min(lowest, world_.joint("swing").position);
+    lowest = std::min(lowest, jointState(world_, "swing").position);
   }
   EXPECT_LT(lowest, -0.0005) << "it swings";
 }
 
 /// The hand comes down over the stone with open fingers, and closes.
 TEST_P(ObjectRestTest, ItIsFreeBeforeTheFirstTouch) {
-  Pose below = world_.bodyPose(id() + "_hand_tcp");
+  Pose below = bodyPose(world_, id() + "_hand_tcp");
   below.position[1] += 0.12;
   world_.addObject("stand", "<body name='stand'><geom type='box' size='0.03 0.02 0.05'/></body>",
                    [&] {
@@ -215,19 +215,19 @@ TEST_P(ObjectRestTest, ItIsFreeBeforeTheFirstTouch) {
                      return stand;
                    }());
   below.orientation = {1, 0, 0, 0};
-  world_.setBodyPose("stone", below);
+  setBodyPose(world_, "stone", below);
   ASSERT_TRUE(settles());
-  const auto touches = [this] { return !world_.touches("stone").robots.empty(); };
+  const auto robot_touches = [this] { return !touches(world_, "stone").robots.empty(); };
   int free = 0;
   double q = 0.0;
-  for (int k = 0; k < 2000 && !touches(); ++k) {
+  for (int k = 0; k < 2000 && !robot_touches(); ++k) {
     q += 0.001;  // 1 rad/s
     auto q_d = kHome;
     q_d[0] += q;
     free = held() ? 0 : free + 1;
     tick(0.0, q_d);
   }
-  ASSERT_TRUE(touches());
+  ASSERT_TRUE(robot_touches());
   EXPECT_GE(free, 1) << "ticks before the touch";
   EXPECT_LE(free, 60) << "held as long as possible";
 }

@@ -104,13 +104,13 @@ TEST_F(RendererTest, SameSceneGivesTheSamePicture) {
 TEST_F(RendererTest, ShowsTheRobotAndTheStoneMoving) {
   const auto rgb = [] { return renderer_->render(captureScene(*world_), Camera(), 200, 150).rgb; };
   const auto before = rgb();
-  world_->setJointPosition("panda_joint1", 0.8);
+  setJointPosition(*world_, "panda_joint1", 0.8);
   EXPECT_NE(before, rgb());
-  world_->setJointPosition("panda_joint1", 0.0);
+  setJointPosition(*world_, "panda_joint1", 0.0);
   EXPECT_EQ(before, rgb());
-  Pose other = world_->bodyPose("stone");
+  Pose other = bodyPose(*world_, "stone");
   other.position[1] = 0.219654;
-  world_->setBodyPose("stone", other);
+  setBodyPose(*world_, "stone", other);
   EXPECT_NE(before, rgb());
 }
 

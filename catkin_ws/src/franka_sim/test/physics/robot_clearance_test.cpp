@@ -67,7 +67,7 @@ class RobotClearanceTest : public ::testing::TestWithParam<const char*> {
     ASSERT_EQ(plain_.world.stateHash(), quick_.world.stateHash())
         << "tick " << quick_.world.ticks();
     clear_ += implOf(quick_.world).clearance.isClear() ? 1 : 0;
-    touches_ += plain_.world.contacts().size() > 4 ? 1 : 0;  // four carry the stone
+    touches_ += contacts(plain_.world).size() > 4 ? 1 : 0;  // four carry the stone
   }
 
   Side quick_, plain_;
@@ -129,7 +129,7 @@ TEST_P(RobotsOnlyTest, TwoArmsThatMeetAreTheSameBitForBit) {
     target[1][1] = kHome[1] + 0.8 * std::sin(0.0011 * k);
     tick(target);
     ASSERT_FALSE(HasFatalFailure());
-    touches_ += plain_.world.contacts().empty() ? 0 : 1;
+    touches_ += contacts(plain_.world).empty() ? 0 : 1;
   }
   EXPECT_GT(clear_, 1000) << "of 6000 ticks";
   EXPECT_GT(touches_, 100) << "of 6000 ticks";
@@ -144,7 +144,7 @@ TEST_P(RobotClearanceTest, ChangesFromOutsideAreSeen) {
   }
   ASSERT_TRUE(implOf(quick_.world).clearance.isClear());
   for (Side* side : {&quick_, &plain_}) {
-    side->world.setBodyPose("stone", side->world.bodyPose(kind() + "_hand_tcp"));
+    setBodyPose(side->world, "stone", bodyPose(side->world, kind() + "_hand_tcp"));
   }
   tick({kHome}, -2.0);
   EXPECT_FALSE(implOf(quick_.world).clearance.isClear());
@@ -153,7 +153,7 @@ TEST_P(RobotClearanceTest, ChangesFromOutsideAreSeen) {
   }
   addBlock("added", {0.2, 0, 0.9});  // far away, then into the arm
   for (Side* side : {&quick_, &plain_}) {
-    side->world.setJointPosition(kind() + "_joint1", 0.4);
+    setJointPosition(side->world, kind() + "_joint1", 0.4);
   }
   for (int k = 0; k < 1000; ++k) {
     tick({kHome}, 2.0);

@@ -271,9 +271,9 @@ TEST_F(SdfMeshTest, ABoxFromAMeshRestsOnItsFace) {
   write("a.dae", collada(node("n", "<translate>-1 -2 -3</translate>" + kBox)));
   World world(file(kGround + model(collision("a.dae"), "0 0 0.035 0 0 0")));
   run(world, 1000);
-  EXPECT_NEAR(world.bodyPose("m").position[2], 0.03, 2e-4);
-  EXPECT_NEAR(world.bodyPose("m").orientation[0], 1, 1e-6);
-  EXPECT_GE(world.contacts().size(), 3u);
+  EXPECT_NEAR(bodyPose(world, "m").position[2], 0.03, 2e-4);
+  EXPECT_NEAR(bodyPose(world, "m").orientation[0], 1, 1e-6);
+  EXPECT_GE(contacts(world).size(), 3u);
 }
 
 /// A flat mesh has no hull; a ball still rests on it, and does not fall through it from 1 m.
@@ -288,7 +288,7 @@ TEST_F(SdfMeshTest, FlatMeshesSupportBodies) {
                    "</model>"));
   EXPECT_EQ(world.unsupported(), "");
   run(world, 3000);
-  EXPECT_NEAR(world.bodyPose("ball").position[2], 0.06 + 0.05, 1e-3);
+  EXPECT_NEAR(bodyPose(world, "ball").position[2], 0.06 + 0.05, 1e-3);
 }
 
 TEST_F(SdfMeshTest, ReportsMeshesThatAreNotConvex) {

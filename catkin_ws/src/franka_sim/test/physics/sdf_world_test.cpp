@@ -47,7 +47,7 @@ TEST_F(SdfWorldTest, MjcfAndSdfStoneWorldsAgree) {
     const int i = bodyId(sdf, name), j = bodyId(mjcf, name);
     ASSERT_GT(i, 0) << name;
     for (int k = 0; k < 3; ++k) {
-      EXPECT_NEAR(sdf.bodyPose(name).position[k], mjcf.bodyPose(name).position[k], 1e-15) << name;
+      EXPECT_NEAR(bodyPose(sdf, name).position[k], bodyPose(mjcf, name).position[k], 1e-15) << name;
     }
     EXPECT_DOUBLE_EQ(a.body_mass[i], b.body_mass[j]) << name;
     EXPECT_EQ(a.body_dofnum[i], b.body_dofnum[j]) << name;
@@ -63,7 +63,7 @@ TEST_F(SdfWorldTest, MjcfAndSdfStoneWorldsAgree) {
   run(sdf, 1000);
   run(mjcf, 1000);
   for (int k = 0; k < 3; ++k) {
-    EXPECT_NEAR(sdf.bodyPose("stone").position[k], mjcf.bodyPose("stone").position[k], 1e-6);
+    EXPECT_NEAR(bodyPose(sdf, "stone").position[k], bodyPose(mjcf, "stone").position[k], 1e-6);
   }
 }
 
@@ -99,11 +99,11 @@ TEST_F(SdfWorldTest, InertiasAndPosesMatchTheText) {
       principal.transpose();
   EXPECT_LT((actual - expected).norm(), 1e-12);
   // 90 degrees about z: the link's x offset becomes the world's y.
-  const Pose pose = world.bodyPose("m::a");
+  const Pose pose = bodyPose(world, "m::a");
   EXPECT_NEAR(pose.position[0], 1, 1e-12);
   EXPECT_NEAR(pose.position[1], 2.1, 1e-12);
   EXPECT_NEAR(pose.position[2], 3, 1e-12);
-  EXPECT_NEAR(world.bodyPose("m").position[1], 2, 1e-12);
+  EXPECT_NEAR(bodyPose(world, "m").position[1], 2, 1e-12);
 }
 
 /// On a slope a block rests below atan(mu) and slides above, where the floor decelerates it with mu
@@ -117,20 +117,20 @@ TEST_F(SdfWorldTest, FrictionDecidesOnASlope) {
                                "</gravity>";
     World world(file(tilted + ground(1.0) + box("b", "0 0 0.05 0 0 0", friction(mu))));
     run(world, 300);  // settles
-    const double before = world.bodyTwist("b").linear[0];
+    const double before = bodyState(world, "b").twist.linear[0];
     double along = 0, across = 0;
     for (int i = 0; i < 500; ++i) {
       world.step();
-      for (const Contact& contact : world.contacts()) {
+      for (const Contact& contact : contacts(world)) {
         along += contact.force[0];
         across += contact.force[2];
       }
     }
     if (angle < std::atan(mu)) {
-      EXPECT_LT(std::abs(world.bodyTwist("b").linear[0] - before), 1e-3);
+      EXPECT_LT(std::abs(bodyState(world, "b").twist.linear[0] - before), 1e-3);
     } else {
       EXPECT_NEAR(along / across, -mu, 1e-4);
-      EXPECT_GT(world.bodyTwist("b").linear[0] - before, 0.4);
+      EXPECT_GT(bodyState(world, "b").twist.linear[0] - before, 0.4);
     }
   }
 }
@@ -150,7 +150,7 @@ TEST_F(SdfWorldTest, BitmasksDecideWhichBodiesCollide) {
   World world(file(ground(1) + shelf("s1", 0, 1) + above("other", 0, 2) + shelf("s2", 1, 3) +
                    above("shared", 1, 6) + box("none", "2 0 0.05 0 0 0", mask(0))));
   run(world, 1000);
-  const auto height = [&](const char* name) { return world.bodyPose(name).position[2]; };
+  const auto height = [&](const char* name) { return bodyPose(world, name).position[2]; };
   EXPECT_NEAR(height("other"), 0.05, 1e-2) << "fell past its shelf, onto the ground";
   EXPECT_NEAR(height("shared"), 1.1, 1e-2);
   EXPECT_LT(height("none"), -1.0);
@@ -162,12 +162,12 @@ TEST_F(SdfWorldTest, SoftContactsDeflectByTheirStiffness) {
   World world(file(ground(1.0) + box("b", "0 0 0.05 0 0 0", soft)));
   run(world, 3000);
   // Four corners, each a spring: the box sinks by m g / (4 kp).
-  const double depth = 0.05 - world.bodyPose("b").position[2];
+  const double depth = 0.05 - bodyPose(world, "b").position[2];
   EXPECT_NEAR(depth, 2 * kGravity / (4 * kp), 1e-3 * depth);
-  EXPECT_EQ(world.contacts().size(), 4u);
-  EXPECT_EQ(world.contacts().front().body1, "floor");
-  EXPECT_NEAR(world.contacts().front().force[2], 2 * kGravity / 4, 1e-3);
-  for (const Contact& corner : world.contacts()) {
+  EXPECT_EQ(contacts(world).size(), 4u);
+  EXPECT_EQ(contacts(world).front().body1, "floor");
+  EXPECT_NEAR(contacts(world).front().force[2], 2 * kGravity / 4, 1e-3);
+  for (const Contact& corner : contacts(world)) {
     EXPECT_NEAR(std::abs(corner.position[0]), 0.05, 1e-3);
     EXPECT_NEAR(std::abs(corner.position[1]), 0.05, 1e-3);
     EXPECT_NEAR(corner.position[2], 0.0, depth);
@@ -182,12 +182,12 @@ TEST_F(SdfWorldTest, HingesSwingLikeAPendulum) {
       "</inertial></link><joint name='pin' type='revolute'><pose>0 0 0.5 0 0 0</pose>"
       "<parent>world</parent><child>bob</child><axis><xyz>0 1 0</xyz>"
       "<limit><lower>-1</lower><upper>1.2</upper></limit></axis></joint></model>"));
-  world.setJointPosition("p::pin", 0.02);
+  setJointPosition(world, "p::pin", 0.02);
   const double period = 2 * M_PI * std::sqrt((0.25 + 0.001) / (kGravity * 0.5));
   run(world, static_cast<int>(std::lround(period / 2 * 1000)));
-  EXPECT_NEAR(world.joint("p::pin").position, -0.02, 1e-5);
-  EXPECT_THROW(world.setJointPosition("p::pin", 1.3), std::runtime_error);
-  EXPECT_THROW(world.setJointPosition("p::pin", -1.1), std::runtime_error);
+  EXPECT_NEAR(jointState(world, "p::pin").position, -0.02, 1e-5);
+  EXPECT_THROW(setJointPosition(world, "p::pin", 1.3), std::runtime_error);
+  EXPECT_THROW(setJointPosition(world, "p::pin", -1.1), std::runtime_error);
 }
 
 TEST_F(SdfWorldTest, SlidesFallAlongTheirAxisAgainstDamping) {
@@ -201,9 +201,10 @@ TEST_F(SdfWorldTest, SlidesFallAlongTheirAxisAgainstDamping) {
   run(world, 400);
   // m v' = -m g - d v
   const double expected = -2 * kGravity / 10 * (1 - std::exp(-10.0 / 2 * 0.4));
-  EXPECT_NEAR(world.joint("s::rail").velocity, expected, 2e-3 * std::abs(expected));
-  EXPECT_NEAR(world.bodyTwist("s::cart").linear[2], world.joint("s::rail").velocity, 1e-9);
-  EXPECT_DOUBLE_EQ(world.bodyPose("s::base").position[2], 0);
+  EXPECT_NEAR(jointState(world, "s::rail").velocity, expected, 2e-3 * std::abs(expected));
+  EXPECT_NEAR(bodyState(world, "s::cart").twist.linear[2], jointState(world, "s::rail").velocity,
+              1e-9);
+  EXPECT_DOUBLE_EQ(bodyPose(world, "s::base").position[2], 0);
 }
 
 TEST_F(SdfWorldTest, FixedJointsWeldAndModelsDoNotCollideWithThemselves) {
@@ -221,14 +222,14 @@ TEST_F(SdfWorldTest, FixedJointsWeldAndModelsDoNotCollideWithThemselves) {
            "<joint name='w' type='fixed'><parent>a</parent><child>b</child></joint></model>"));
   run(world, 200);
   const auto apart = [&](const std::string& model) {
-    return world.bodyPose(model + "::b").position[0] - world.bodyPose(model + "::a").position[0];
+    return bodyPose(world, model + "::b").position[0] - bodyPose(world, model + "::a").position[0];
   };
   EXPECT_NEAR(apart("loose"), 0.1, 1e-9);
   EXPECT_GT(apart("touching"), 0.15);
   EXPECT_NEAR(apart("welded"), 0.1, 1e-12);
-  world.push("welded::b", {2, 0, 0}, {0, 0, 0}, 1000);
+  pushBody(world, "welded::b", {2, 0, 0}, {0, 0, 0}, 1000);
   run(world, 1000);
-  EXPECT_NEAR(world.bodyPose("welded::a").position[0], 0.5 * 1.0 * 1.0, 2e-3);
+  EXPECT_NEAR(bodyPose(world, "welded::a").position[0], 0.5 * 1.0 * 1.0, 2e-3);
 }
 
 TEST_F(SdfWorldTest, ReportsUnsupportedElementsInOneSentence) {
@@ -276,7 +277,7 @@ TEST_F(SdfWorldTest, ReadsSelfCollideOfAUrdf) {
     world.addRobot(arm);
     world.step();
     bool touches = false;
-    for (const Contact& contact : world.contacts()) {
+    for (const Contact& contact : contacts(world)) {
       touches =
           touches || (contact.body1.rfind("panda", 0) == 0 && contact.body2.rfind("panda", 0) == 0);
     }
@@ -304,7 +305,7 @@ TEST_F(SdfWorldTest, ArmsOfOneDescriptionCollide) {
   world.addRobot(both);
   world.step();
   int within = 0, between = 0;
-  for (const Contact& contact : world.contacts()) {
+  for (const Contact& contact : contacts(world)) {
     if (contact.body1.find("finger") != std::string::npos &&
         contact.body2.find("finger") != std::string::npos) {
       ++(contact.body1[0] == contact.body2[0] ? within : between);
@@ -320,13 +321,13 @@ TEST_F(SdfWorldTest, CamerasKeepTheirViewAndSize) {
       "<sensor name='eye' type='camera'><update_rate>5</update_rate><camera>"
       "<horizontal_fov>1.2</horizontal_fov><image><width>320</width><height>200</height></image>"
       "</camera></sensor></link></model>"));
-  const auto cameras = world.cameras();
-  ASSERT_EQ(cameras.size(), 1u);
-  EXPECT_EQ(cameras[0].name, "m::l::eye");
-  EXPECT_EQ(cameras[0].width, 320);
-  EXPECT_EQ(cameras[0].height, 200);
-  EXPECT_DOUBLE_EQ(cameras[0].rate, 5);
-  EXPECT_NEAR(cameras[0].field_of_view, 2 * std::atan(std::tan(0.6) * 200 / 320) * 180 / M_PI,
+  const auto found = cameras(world);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_EQ(found[0].name, "m::l::eye");
+  EXPECT_EQ(found[0].width, 320);
+  EXPECT_EQ(found[0].height, 200);
+  EXPECT_DOUBLE_EQ(found[0].rate, 5);
+  EXPECT_NEAR(found[0].field_of_view, 2 * std::atan(std::tan(0.6) * 200 / 320) * 180 / M_PI,
               1e-9);
   // The camera looks along the link's x; MuJoCo's cameras look along their -z.
   const double* q = implOf(world).model->cam_quat;

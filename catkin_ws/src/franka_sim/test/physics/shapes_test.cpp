@@ -33,7 +33,7 @@ constexpr char kWorld[] = R"(<mujoco>
 class ShapesTest : public ::testing::Test {
  protected:
   std::size_t indexOf(const std::string& body) const {
-    const auto names = world.frames();
+    const auto& names = shapes.bodies;
     return static_cast<std::size_t>(std::find(names.begin(), names.end(), body) - names.begin());
   }
   std::vector<Shape> shapesOn(const std::string& body) const {
@@ -95,19 +95,19 @@ TEST_F(ShapesTest, EachLinkOfARobotIsABodyWithItsShapes) {
     EXPECT_FALSE(shapesOn(std::string("left_") + link).empty()) << link;
   }
   EXPECT_LT(indexOf("left_link8"), shapes.bodies.size()) << "a frame without shapes";
-  EXPECT_EQ(shapes.bodies, world.frames());
 }
 
 TEST_F(ShapesTest, PosesAreThoseOfTheBodies) {
   world.addRobot(robot("fr3"));
-  world.setBodyPose("stone", {{0.1, 0.2, 0.3}, {{0.6, 0, 0.8, 0}}});
-  const auto names = world.frames();
-  const auto poses = world.framePoses();
+  setBodyPose(world, "stone", {{0.1, 0.2, 0.3}, {{0.6, 0, 0.8, 0}}});
+  shapes = shapesOf(world)();
+  const auto& names = shapes.bodies;
+  const auto poses = framePoses(world);
   ASSERT_EQ(names.size(), poses.size());
   for (std::size_t i = 0; i < names.size(); i++) {
     if (!names[i].empty()) {
-      EXPECT_EQ(world.bodyPose(names[i]).position, poses[i].position) << names[i];
-      EXPECT_EQ(world.bodyPose(names[i]).orientation, poses[i].orientation) << names[i];
+      EXPECT_EQ(bodyPose(world, names[i]).position, poses[i].position) << names[i];
+      EXPECT_EQ(bodyPose(world, names[i]).orientation, poses[i].orientation) << names[i];
     }
   }
   EXPECT_EQ(-1.0, poses[indexOf("")].position[0]) << "of the body without a name";

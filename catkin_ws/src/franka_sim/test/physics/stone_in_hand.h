@@ -36,7 +36,7 @@ class StoneInHandTest : public ::testing::TestWithParam<const char*> {
   std::string id() const { return GetParam(); }
 
   /// Puts the stone between the open fingers, its 32 mm along their direction of motion.
-  void placeStone() { world_.setBodyPose("stone", world_.bodyPose(id() + "_hand_tcp")); }
+  void placeStone() { setBodyPose(world_, "stone", bodyPose(world_, id() + "_hand_tcp")); }
 
   /// One tick. @param force with which each finger closes [N] @param q_d, dq_d that the arm holds
   void tick(double force, const std::array<double, 7>& q_d,
@@ -47,14 +47,15 @@ class StoneInHandTest : public ::testing::TestWithParam<const char*> {
   }
 
   Eigen::Vector3d stoneInHand() {
-    return (toEigen(world_.bodyPose(id() + "_hand")).inverse() * toEigen(world_.bodyPose("stone")))
+    return (toEigen(bodyPose(world_, id() + "_hand")).inverse() *
+            toEigen(bodyPose(world_, "stone")))
         .translation();
   }
 
   /// Sum of the contact forces on a body, of those of one other body if it is named [N].
   Eigen::Vector3d forceOn(const std::string& body, const std::string& other = "") {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Contact& c : world_.contacts()) {
+    for (const Contact& c : contacts(world_)) {
       if (c.body2 == body && (other.empty() || c.body1 == other)) {
         sum += Eigen::Vector3d(c.force.data());
       } else if (c.body1 == body && (other.empty() || c.body2 == other)) {

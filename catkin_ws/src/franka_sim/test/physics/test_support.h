@@ -5,7 +5,7 @@
 #include <franka_core/arm_model.h>
 #include <franka_core/numbers.h>
 #include <franka_sim/physics/physics_config.h>
-#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_properties.h>
 #include <gtest/gtest.h>
 #include <source_file.h>
 

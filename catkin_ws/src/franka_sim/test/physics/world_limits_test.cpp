@@ -48,25 +48,25 @@ struct Entrance {
 };
 
 const Entrance kEntrances[] = {
-    {"place", " m", 1e3, [](World& w, double size) { w.setBodyPose("stone", at(size, 0, 1)); }},
+    {"place", " m", 1e3, [](World& w, double size) { setBodyPose(w, "stone", at(size, 0, 1)); }},
     {"place down", " m", 1e3,
-     [](World& w, double size) { w.setBodyPose("stone", at(0, 0, -size)); }},
-    {"push", " N", 1e4, [](World& w, double size) { w.push("stone", {0, size, 0}, {}, 1); }},
+     [](World& w, double size) { setBodyPose(w, "stone", at(0, 0, -size)); }},
+    {"push", " N", 1e4, [](World& w, double size) { pushBody(w, "stone", {0, size, 0}, {}, 1); }},
     {"push torque", " Nm", 1e4,
-     [](World& w, double size) { w.push("stone", {}, {size, 0, 0}, 1); }},
+     [](World& w, double size) { pushBody(w, "stone", {}, {size, 0, 0}, 1); }},
     {"push at", " N", 1e4,
-     [](World& w, double size) { w.pushAt("stone", {0, 0, 0}, {0, 0, size}, 1); }},
+     [](World& w, double size) { pushBody(w, "stone", {0, 0, size}, {}, 1, {{0, 0, 0}}); }},
     {"push point", " m", 1e3,
-     [](World& w, double size) { w.pushAt("stone", {size, 0, 0}, {}, 1); }},
+     [](World& w, double size) { pushBody(w, "stone", {}, {}, 1, {{size, 0, 0}}); }},
     {"linear velocity", " m/s", 1e3,
-     [](World& w, double size) { w.setBodyTwist("stone", {{size, 0, 0}, {}}); }},
+     [](World& w, double size) { setBodyTwist(w, "stone", {{size, 0, 0}, {}}); }},
     {"angular velocity", " rad/s", 1e3,
-     [](World& w, double size) { w.setBodyTwist("stone", {{}, {0, 0, size}}); }},
+     [](World& w, double size) { setBodyTwist(w, "stone", {{}, {0, 0, size}}); }},
     {"joint position", " rad", 1e3,
-     [](World& w, double size) { w.setJointPosition("axle", size); }},
+     [](World& w, double size) { setJointPosition(w, "axle", size); }},
     {"joint velocity", " rad/s", 1e3,
-     [](World& w, double size) { w.setJointVelocity("axle", size); }},
-    {"gravity", " m/s^2", 1e2, [](World& w, double size) { w.setGravity({0, 0, -size}); }},
+     [](World& w, double size) { setJointVelocity(w, "axle", size); }},
+    {"gravity", " m/s^2", 1e2, [](World& w, double size) { setGravity(w, {0, 0, -size}); }},
     {"object", " m", 1e3,
      [](World& w, double size) { w.addObject("other", kCrate, at(size, 0, 9)); }},
     {"robot", " m", 1e3,
@@ -113,10 +113,10 @@ TEST(Divergence, StopsTheWorldUntilAReset) {
   for (int k = 0; k < 10; k++) {
     world.step();
   }
-  const Pose stone = world.bodyPose("stone"), feather = world.bodyPose("feather");
+  const Pose stone = bodyPose(world, "stone"), feather = bodyPose(world, "feather");
   EXPECT_FALSE(world.stopped());
   EXPECT_EQ("", world.fault());
-  world.push("feather", {1e4, 0, 0}, {}, 5);
+  pushBody(world, "feather", {1e4, 0, 0}, {}, 5);
   for (const bool prepared : {true, false}) {
     if (prepared) {
       world.prepareStep();
@@ -124,14 +124,14 @@ TEST(Divergence, StopsTheWorldUntilAReset) {
     world.step();
     EXPECT_TRUE(world.stopped());
     EXPECT_EQ(10u, world.ticks()) << "time stands still";
-    EXPECT_EQ(stone.position, world.bodyPose("stone").position) << "and nothing was reset";
-    EXPECT_EQ(feather.position, world.bodyPose("feather").position);
+    EXPECT_EQ(stone.position, bodyPose(world, "stone").position) << "and nothing was reset";
+    EXPECT_EQ(feather.position, bodyPose(world, "feather").position);
   }
   const std::string fault = world.fault();
   EXPECT_NE(std::string::npos, fault.find("acceleration of body 'feather")) << fault;
   EXPECT_NE(std::string::npos, fault.find("until it is reset")) << fault;
-  expectSentence([&] { world.setBodyPose("stone", at(0, 0, 1)); }, {"diverged", "feather"});
-  expectSentence([&] { world.push("stone", {}, {}, 1); }, {"diverged"});
+  expectSentence([&] { setBodyPose(world, "stone", at(0, 0, 1)); }, {"diverged", "feather"});
+  expectSentence([&] { pushBody(world, "stone", {}, {}, 1); }, {"diverged"});
   expectSentence([&] { world.snapshot(); }, {"diverged"});
   world.removeObject("feather");
   EXPECT_EQ(fault, world.fault()) << "even after its body was removed";
@@ -154,20 +154,20 @@ TEST(Divergence, OfAWorldFileIsDetectedBeforeTheFirstStep) {
 
 TEST(Pushes, AreLimitedInDurationAndNumber) {
   World world(test::world("stone"));
-  expectSentence([&] { world.push("stone", {0, 0, 1}, {}, 1000001); }, {"stone", "1000000"});
+  expectSentence([&] { pushBody(world, "stone", {0, 0, 1}, {}, 1000001); }, {"stone", "1000000"});
   for (int i = 0; i < 1000; i++) {
-    world.push("stone", {0, 0, 0}, {}, 1);
+    pushBody(world, "stone", {0, 0, 0}, {}, 1);
   }
-  expectSentence([&] { world.pushAt("stone", {0, 0, 0}, {0, 0, 1}, 1); }, {"1000 pushes"});
+  expectSentence([&] { pushBody(world, "stone", {0, 0, 1}, {}, 1, {{0, 0, 0}}); }, {"1000 pushes"});
   world.step();
-  world.push("stone", {0, 0, 1}, {}, 1000000);
+  pushBody(world, "stone", {0, 0, 1}, {}, 1000000);
 }
 
 TEST(Divergence, EndsWhenASnapshotIsRestored) {
   World world(test::world("stone"));
   world.addObject("feather", kFeather, at(5, 5, 5));
   const Snapshot before = world.snapshot();
-  world.push("feather", {0, 0, 1e4}, {}, 5);
+  pushBody(world, "feather", {0, 0, 1e4}, {}, 5);
   world.step();
   ASSERT_TRUE(world.stopped());
   world.restore(before);
@@ -235,9 +235,9 @@ TEST(WorldContactCapacity, HoldsAHundredBoxesOnTheGround) {
     world.step();
   }
   EXPECT_TRUE(world.takeWarnings().empty());
-  EXPECT_EQ(400u, world.contacts().size());
+  EXPECT_EQ(400u, contacts(world).size());
   for (int i = 0; i < 100; i++) {
-    EXPECT_NEAR(0.02, world.bodyPose("box" + std::to_string(i)).position[2], 5e-4);
+    EXPECT_NEAR(0.02, bodyPose(world, "box" + std::to_string(i)).position[2], 5e-4);
   }
 }
 
@@ -253,27 +253,27 @@ TEST(WorldContactCapacity, HoldsAThousandBoxesBesideARobot) {
     world.step();
   }
   EXPECT_TRUE(world.takeWarnings().empty());
-  EXPECT_EQ(4000u, world.contacts().size());
+  EXPECT_EQ(4000u, contacts(world).size());
   for (int i = 0; i < 1000; i++) {
-    ASSERT_NEAR(0.02, world.bodyPose("box" + std::to_string(i)).position[2], 5e-4) << i;
+    ASSERT_NEAR(0.02, bodyPose(world, "box" + std::to_string(i)).position[2], 5e-4) << i;
   }
 }
 
 TEST(Overlaps, AreReportedForARobotThatStartsInTheTable) {
   World world(test::world("stone"));
   world.addRobot(robot("fr3"));
-  const std::string text = world.describeOverlaps("fr3");
+  const std::string text = describeOverlaps(world, "fr3");
   EXPECT_NE(std::string::npos, text.find("fr3_link1 and table by ")) << text;
   EXPECT_NE(std::string::npos, text.find("'fr3'")) << text;
   world.removeRobot("fr3");
   RobotDescription beside = robot("fr3");
   beside.base = at(-0.5, 0, 0);
   world.addRobot(beside);
-  EXPECT_EQ("", world.describeOverlaps("fr3"));
+  EXPECT_EQ("", describeOverlaps(world, "fr3"));
   RobotDescription other = robot("panda");
   other.base = at(-0.45, 0.05, 0);
   world.addRobot(other);
-  EXPECT_NE(std::string::npos, world.describeOverlaps("panda").find("fr3_link"));
+  EXPECT_NE(std::string::npos, describeOverlaps(world, "panda").find("fr3_link"));
 }
 
 TEST(Overlaps, AreFoundWithoutEffectOnTheWorld) {
@@ -287,10 +287,10 @@ TEST(Overlaps, AreFoundWithoutEffectOnTheWorld) {
     world->addRobot(robot("panda"));
     run(*world, 20);
   }
-  EXPECT_NE("", searched.describeOverlaps("panda"));
-  ASSERT_FALSE(other.contacts().empty());
-  ASSERT_EQ(other.contacts().size(), searched.contacts().size());
-  EXPECT_EQ(other.contacts()[0].force, searched.contacts()[0].force);
+  EXPECT_NE("", describeOverlaps(searched, "panda"));
+  ASSERT_FALSE(contacts(other).empty());
+  ASSERT_EQ(contacts(other).size(), contacts(searched).size());
+  EXPECT_EQ(contacts(other)[0].force, contacts(searched)[0].force);
   run(searched, 100);
   run(other, 100);
   EXPECT_EQ(other.stateHash(), searched.stateHash());

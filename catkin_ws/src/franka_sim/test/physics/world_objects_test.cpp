@@ -105,23 +105,23 @@ TEST(WorldObjects, LightsRefuseImpossibleValues) {
 TEST(WorldObjects, AddAndRemoveKeepOtherStates) {
   World world;
   world.addObject("ball", kBall, at(1, 0, 0.5));
-  EXPECT_DOUBLE_EQ(world.bodyPose("ball").position[0], 1);
-  EXPECT_DOUBLE_EQ(world.bodyPose("ball").position[2], 1.0);
+  EXPECT_DOUBLE_EQ(bodyPose(world, "ball").position[0], 1);
+  EXPECT_DOUBLE_EQ(bodyPose(world, "ball").position[2], 1.0);
   run(world, 200);
   const double fallen = 1.0 - 0.5 * 9.81 * 0.2 * 0.2;
-  EXPECT_NEAR(world.bodyPose("marble").position[2], fallen, 1e-3);
-  const Twist before = world.bodyTwist("ball");
-  const Pose pose_before = world.bodyPose("ball");
+  EXPECT_NEAR(bodyPose(world, "marble").position[2], fallen, 1e-3);
+  const Twist before = bodyState(world, "ball").twist;
+  const Pose pose_before = bodyPose(world, "ball");
   world.addObject("cube", kCube, at(0, 1, 2));
   world.addObject("other cube", kCube, at(0, -1, 2));
   EXPECT_THAT(world.objects(), ElementsAre("ball", "cube", "other cube"));
-  EXPECT_EQ(world.bodyPose("ball").position, pose_before.position);
-  EXPECT_NEAR(world.bodyTwist("ball").linear[2], before.linear[2], 1e-12);
+  EXPECT_EQ(bodyPose(world, "ball").position, pose_before.position);
+  EXPECT_NEAR(bodyState(world, "ball").twist.linear[2], before.linear[2], 1e-12);
   world.removeObject("ball");
-  EXPECT_THROW(world.bodyPose("ball"), std::runtime_error);
+  EXPECT_THROW(bodyPose(world, "ball"), std::runtime_error);
   run(world, 3000);
-  EXPECT_NEAR(world.bodyPose("cube").position[2], 0.05, 1e-3);
-  EXPECT_NEAR(world.bodyPose("other cube::link").position[1], -1, 1e-3);
+  EXPECT_NEAR(bodyPose(world, "cube").position[2], 0.05, 1e-3);
+  EXPECT_NEAR(bodyPose(world, "other cube::link").position[1], -1, 1e-3);
 }
 
 constexpr const char* kUrdf =
@@ -133,10 +133,10 @@ TEST(WorldObjects, UrdfOfAnObjectIsFreeToMove) {
   ASSERT_TRUE(isUrdfOfObject(kUrdf));
   World world;
   world.addObject("cube", kUrdf, at(1, 2, 1));
-  EXPECT_EQ(world.bodyPose("cube::body").position, (std::array<double, 3>{1, 2, 1}));
+  EXPECT_EQ(bodyPose(world, "cube::body").position, (std::array<double, 3>{1, 2, 1}));
   run(world, 2000);
-  EXPECT_NEAR(world.bodyPose("cube").position[2], 0.05, 1e-3);
-  world.setBodyPose("cube", at(0, 0, 3));
+  EXPECT_NEAR(bodyPose(world, "cube").position[2], 0.05, 1e-3);
+  setBodyPose(world, "cube", at(0, 0, 3));
 }
 
 TEST(WorldObjects, UrdfOfARobotIsNotOneOfAnObject) {
@@ -204,7 +204,7 @@ TEST(WorldObjects, AnglesOfAnyUnitAreConverted) {
   for (const std::string& text : {radians, degrees}) {
     World world;
     world.addObject("b", text, at(0, 0, 1));
-    EXPECT_NEAR(world.bodyPose("b").orientation[3], std::sqrt(0.5), 1e-12);
+    EXPECT_NEAR(bodyPose(world, "b").orientation[3], std::sqrt(0.5), 1e-12);
     const mjModel& model = *implOf(world).model;
     const int joint = mj_name2id(&model, mjOBJ_JOINT, "j");
     EXPECT_NEAR(model.jnt_range[2 * joint + 1], M_PI / 2, 1e-12);
@@ -279,10 +279,10 @@ TEST(WorldChanges, CompiledDuringTicksRepeatBitForBit) {
       stepped.step();
     }
     thread.join();
-    stepped.setGravity({0, 0, -5});  // the model has been compiled before
+    setGravity(stepped, {0, 0, -5});  // the model has been compiled before
     stepped.apply(change);
     run(at_once, ticks);
-    at_once.setGravity({0, 0, -5});
+    setGravity(at_once, {0, 0, -5});
     cell.at_once(at_once);
     EXPECT_EQ(at_once.stateHash(), stepped.stateHash());
     run(stepped, 200);
@@ -324,7 +324,7 @@ TEST(WorldChanges, AreTakenBack) {
 
 TEST(WorldObjects, TwistsReferToTheBodysOrigin) {
   World world;
-  world.setGravity({0, 0, 0});
+  setGravity(world, {0, 0, 0});
   // The center of mass is 0.2 m from the origin: rotation about it moves the origin.
   world.addObject("club",
                   "<body name='club'><freejoint/><inertial pos='0.2 0 0' mass='1' "
@@ -335,16 +335,16 @@ TEST(WorldObjects, TwistsReferToTheBodysOrigin) {
   twist.angular = {0.5, 1.0, -2.0};
   Pose turned = at(1, 2, 3);
   turned.orientation = {std::cos(0.4), std::sin(0.4), 0, 0};
-  world.setBodyPose("club", turned);
-  world.setBodyTwist("club", twist);
-  const Twist read = world.bodyTwist("club");
+  setBodyPose(world, "club", turned);
+  setBodyTwist(world, "club", twist);
+  const Twist read = bodyState(world, "club").twist;
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR(read.linear[i], twist.linear[i], 1e-12);
     EXPECT_NEAR(read.angular[i], twist.angular[i], 1e-12);
   }
   // Finite differences of the pose.
   world.step();
-  const Pose moved = world.bodyPose("club");
+  const Pose moved = bodyPose(world, "club");
   for (int i = 0; i < 3; ++i) {
     EXPECT_NEAR((moved.position[i] - turned.position[i]) / World::kTick, twist.linear[i], 2e-3);
   }
@@ -353,14 +353,14 @@ TEST(WorldObjects, TwistsReferToTheBodysOrigin) {
 TEST(WorldObjects, GravitySettingSurvivesChanges) {
   World world;
   world.addObject("cube", kCube, at(0, 0, 5));
-  world.setGravity({0, 0, -1.62});
+  setGravity(world, {0, 0, -1.62});
   world.addObject("ball", kBall, at(1, 0, 5));
   run(world, 500);
-  EXPECT_NEAR(world.bodyTwist("cube").linear[2], -1.62 * 0.5, 1e-9);
+  EXPECT_NEAR(bodyState(world, "cube").twist.linear[2], -1.62 * 0.5, 1e-9);
   world.reset();
-  EXPECT_EQ(world.gravity()[2], -1.62);
-  EXPECT_EQ(world.bodyPose("cube").position[2], 5);
-  expectSentence([&] { world.setGravity({0, INFINITY, 0}); }, {"Gravity", "numbers"});
+  EXPECT_EQ(gravity(world)[2], -1.62);
+  EXPECT_EQ(bodyPose(world, "cube").position[2], 5);
+  expectSentence([&] { setGravity(world, {0, INFINITY, 0}); }, {"Gravity", "numbers"});
 }
 
 /// A bouncing cube, within a push.
@@ -368,21 +368,21 @@ TEST(WorldObjects, SnapshotsContinueBitForBit) {
   World world;
   world.addObject("cube", kCube, at(0.5, 0, 0.8));
   run(world, 300);
-  world.push("cube", {3, 1, 0}, {0, 0, 0.1}, 100);
+  pushBody(world, "cube", {3, 1, 0}, {0, 0, 0.1}, 100);
   run(world, 50);
   const Snapshot snapshot = world.snapshot();
   run(world, 400);
   const std::uint64_t hash = world.stateHash();
-  const Pose pose = world.bodyPose("cube");
-  world.setGravity({0, 0, 3});
+  const Pose pose = bodyPose(world, "cube");
+  setGravity(world, {0, 0, 3});
   run(world, 77);
   for (int repetition = 0; repetition < 2; ++repetition) {
     world.restore(snapshot);
     EXPECT_EQ(world.ticks(), 350u);
-    EXPECT_EQ(world.gravity()[2], -9.81);
+    EXPECT_EQ(gravity(world)[2], -9.81);
     run(world, 400);
     EXPECT_EQ(world.stateHash(), hash);
-    EXPECT_EQ(world.bodyPose("cube").position, pose.position);
+    EXPECT_EQ(bodyPose(world, "cube").position, pose.position);
   }
   world.addObject("ball", kBall, at(1, 1, 1));
   expectSentence([&] { world.restore(snapshot); }, {"snapshot", "came or went"});

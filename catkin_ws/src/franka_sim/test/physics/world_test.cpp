@@ -22,13 +22,13 @@ TEST(WorldTest, StoneCanBeMovedToTheRedTray) {
   Pose pose;
   pose.position = {0.004103, 0.219654, 0.5};
   pose.orientation = {std::cos(0.3), 0, 0, std::sin(0.3)};
-  world.setBodyPose("stone", pose);
-  const Pose read = world.bodyPose("stone");
+  setBodyPose(world, "stone", pose);
+  const Pose read = bodyPose(world, "stone");
   EXPECT_LT(distance(pose.position, read.position), 1e-15);
   EXPECT_NEAR(std::sin(0.3), read.orientation[3], 1e-15);
   run(&world, 2000);
-  EXPECT_NEAR(0.419764 + 0.023348 + 0.032, world.bodyPose("stone").position[2], 1e-4);
-  EXPECT_NEAR(0.219654, world.bodyPose("stone").position[1], 1e-3);
+  EXPECT_NEAR(0.419764 + 0.023348 + 0.032, bodyPose(world, "stone").position[2], 1e-4);
+  EXPECT_NEAR(0.219654, bodyPose(world, "stone").position[1], 1e-3);
 }
 
 TEST(WorldTest, LinkPosesMatchArmModel) {
@@ -39,13 +39,13 @@ TEST(WorldTest, LinkPosesMatchArmModel) {
   world.addRobot(description);
   const auto model = franka_core::ArmModel::fromUrdf(description.urdf, "panda");
   const auto flange = model.pose(franka_core::ArmFrame::kFlange, kHome);
-  const Pose link8 = world.bodyPose("panda_link8");
+  const Pose link8 = bodyPose(world, "panda_link8");
   EXPECT_NEAR(0.3 + std::cos(1.0) * flange[12] - std::sin(1.0) * flange[13], link8.position[0],
               1e-12);
   EXPECT_NEAR(-0.2 + std::sin(1.0) * flange[12] + std::cos(1.0) * flange[13], link8.position[1],
               1e-12);
   EXPECT_NEAR(0.1 + flange[14], link8.position[2], 1e-12);
-  const Pose tcp = world.bodyPose("panda_hand_tcp");
+  const Pose tcp = bodyPose(world, "panda_hand_tcp");
   EXPECT_NEAR(0.1034, distance(tcp.position, link8.position), 1e-12);
 }
 
@@ -86,7 +86,7 @@ TEST(WorldTest, AddingAndRemovingRobotsKeepsTheRestBitForBit) {
       ASSERT_NEAR(x.q[i], y.q[i], 1e-9) << "tick " << k;
       ASSERT_NEAR(x.tau_J[i], y.tau_J[i], 1e-5) << "tick " << k;
     }
-    ASSERT_LT(distance(alone.bodyPose("stone").position, changing.bodyPose("stone").position),
+    ASSERT_LT(distance(bodyPose(alone, "stone").position, bodyPose(changing, "stone").position),
               1e-9);
   }
   EXPECT_EQ(std::vector<std::string>{"panda"}, changing.robots());
@@ -107,17 +107,17 @@ TEST(WorldTest, RefusesDuplicateNames) {
 TEST(WorldTest, RefusesUnknownBodiesAndJoints) {
   World world(test::world("stone"));
   world.addRobot(robot("panda"));
-  expectSentence([&] { world.bodyPose("ston"); }, {"no body 'ston'"});
-  expectSentence([&] { world.bodyPose(""); }, {"no body ''"});
-  expectSentence([&] { world.setBodyPose("table", {}); }, {"'table'", "not free"});
-  expectSentence([&] { world.setBodyPose("stone", {{0, 0, NAN}, {1, 0, 0, 0}}); }, {"not finite"});
-  expectSentence([&] { world.setBodyPose("stone", {{}, {0, 0, 0, 0}}); },
+  expectSentence([&] { bodyPose(world, "ston"); }, {"no body 'ston'"});
+  expectSentence([&] { bodyPose(world, ""); }, {"no body ''"});
+  expectSentence([&] { setBodyPose(world, "table", {}); }, {"'table'", "not free"});
+  expectSentence([&] { setBodyPose(world, "stone", {{0, 0, NAN}, {1, 0, 0, 0}}); }, {"not finite"});
+  expectSentence([&] { setBodyPose(world, "stone", {{}, {0, 0, 0, 0}}); },
                  {"not a unit quaternion"});
-  expectSentence([&] { world.joint("panda_joint8"); }, {"no joint 'panda_joint8'"});
-  expectSentence([&] { world.joint("stone"); }, {"'stone'", "more than one degree"});
-  expectSentence([&] { world.setJointPosition("panda_joint1", 9); }, {"panda_joint1", "stops"});
-  expectSentence([&] { world.push("moon", {}, {}, 1); }, {"no body 'moon'"});
-  expectSentence([&] { world.push("stone", {NAN, 0, 0}, {}, 1); }, {"not finite"});
+  expectSentence([&] { jointState(world, "panda_joint8"); }, {"no joint 'panda_joint8'"});
+  expectSentence([&] { jointState(world, "stone"); }, {"'stone'", "more than one degree"});
+  expectSentence([&] { setJointPosition(world, "panda_joint1", 9); }, {"panda_joint1", "stops"});
+  expectSentence([&] { pushBody(world, "moon", {}, {}, 1); }, {"no body 'moon'"});
+  expectSentence([&] { pushBody(world, "stone", {NAN, 0, 0}, {}, 1); }, {"not finite"});
 }
 
 TEST(WorldTest, JointsCanBeTeleported) {
@@ -125,8 +125,8 @@ TEST(WorldTest, JointsCanBeTeleported) {
   world.addRobot(robot("panda"));
   ArmPlant& arm = world.arm("panda", "panda");
   arm.setBrakes(true);
-  world.setJointPosition("panda_joint4", -1.5);
-  EXPECT_EQ(-1.5, world.joint("panda_joint4").position);
+  setJointPosition(world, "panda_joint4", -1.5);
+  EXPECT_EQ(-1.5, jointState(world, "panda_joint4").position);
   run(&world, 200);
   EXPECT_NEAR(-1.5, arm.measure().q[3], 1e-4) << "the brake holds the new position";
 }
@@ -136,23 +136,23 @@ TEST(WorldTest, PushesActForExactlyTheirTicks) {
   World world(test::world("stone"));
   Pose high;
   high.position = {5, 5, 50};
-  world.setBodyPose("stone", high);
-  world.push("stone", {0.1024, 0, 0}, {}, 1000);
+  setBodyPose(world, "stone", high);
+  pushBody(world, "stone", {0.1024, 0, 0}, {}, 1000);
   run(&world, 1000);
-  EXPECT_NEAR(5.5, world.bodyPose("stone").position[0], 1e-3);
+  EXPECT_NEAR(5.5, bodyPose(world, "stone").position[0], 1e-3);
   run(&world, 1000);
-  EXPECT_NEAR(6.5, world.bodyPose("stone").position[0], 1e-3) << "then it flies on at 1 m/s";
+  EXPECT_NEAR(6.5, bodyPose(world, "stone").position[0], 1e-3) << "then it flies on at 1 m/s";
 }
 
 TEST(WorldTest, PushAtAPointTurnsTheBody) {
   World world(test::world("stone"));
   Pose high;
   high.position = {5, 5, 50};
-  world.setBodyPose("stone", high);
+  setBodyPose(world, "stone", high);
   // 1e-3 N at 0.01 m from the center about z: 1e-5 Nm on 1.407e-5 kg m^2 for 0.1 s.
-  world.pushAt("stone", {5.01, 5, 50}, {0, 1e-3, 0}, 100);
+  pushBody(world, "stone", {0, 1e-3, 0}, {}, 100, {{5.01, 5, 50}});
   run(&world, 100);
-  const auto turn = world.bodyPose("stone").orientation;
+  const auto turn = bodyPose(world, "stone").orientation;
   EXPECT_NEAR(0.5 * 1e-5 / 1.407e-5 * 0.01, 2 * turn[3], 5e-5);
 }
 
@@ -162,7 +162,7 @@ TEST(WorldTest, PushOnTheHandIsCarriedByTheArm) {
   world.addRobot(robot("panda"));
   ArmPlant& arm = world.arm("panda", "panda");
   const ArmHolder holder(&arm);
-  world.push("panda_link8", {10, 0, 0}, {}, 3000);
+  pushBody(world, "panda_link8", {10, 0, 0}, {}, 3000);
   for (int k = 0; k < 3000; ++k) {
     arm.applyTorques(holder.torques(kHome));
     world.step();

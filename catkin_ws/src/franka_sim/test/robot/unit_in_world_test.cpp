@@ -36,7 +36,7 @@ std::string handMass(const std::string& id, int more) {
 /// Velocity of a point of a body in the world [m/s]. @param point in the body's frame
 Eigen::Vector3d velocityOf(const World& world, const std::string& body,
                            const Eigen::Vector3d& point) {
-  const BodyState state = world.bodyStates({body}).front();
+  const BodyState state = bodyState(world, body);
   const auto& q = state.pose.orientation;
   const Eigen::Vector3d lever = Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * point;
   return Eigen::Vector3d(state.twist.linear.data()) +
@@ -103,7 +103,7 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
 
   Eigen::Vector3d forceOnStone(const std::string& link) const {
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Contact& c : world->contacts()) {
+    for (const Contact& c : contacts(*world)) {
       const Eigen::Vector3d force(c.force.data());
       if (c.body1 == link && c.body2 == "stone") {
         sum += force;
@@ -122,11 +122,11 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
     EXPECT_EQ(GripperOutcome::kSucceeded, finish(gripper->move(0.05, 0.1)));
     EXPECT_NEAR(0.05, gripper->width(), 1e-3);
     // The stone's 32 mm are in the fingers' direction; at first nothing holds it.
-    world->setBodyPose("stone", world->bodyPose(id() + "_hand_tcp"));
+    setBodyPose(*world, "stone", bodyPose(*world, id() + "_hand_tcp"));
     const GripperUnit::Ticket grasp = gripper->grasp(0.032, 0.005, 0.005, 0.1, 5);
     while (gripper->outcome(grasp) == GripperOutcome::kRunning) {
       if (gripper->width() > 0.0325) {
-        world->setBodyPose("stone", world->bodyPose(id() + "_hand_tcp"));
+        setBodyPose(*world, "stone", bodyPose(*world, id() + "_hand_tcp"));
       }
       tick();
     }
@@ -137,8 +137,8 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
 
   /// Where the stone is in the frame of the tool center point [m].
   Eigen::Vector3d stoneInHand() const {
-    const Pose hand_pose = world->bodyPose(id() + "_hand_tcp");
-    const Pose stone = world->bodyPose("stone");
+    const Pose hand_pose = bodyPose(*world, id() + "_hand_tcp");
+    const Pose stone = bodyPose(*world, "stone");
     const Eigen::Quaterniond turn(hand_pose.orientation[0], hand_pose.orientation[1],
                                   hand_pose.orientation[2], hand_pose.orientation[3]);
     return turn.conjugate() *
@@ -209,7 +209,7 @@ TEST_P(UnitInWorldTest, FreeMotionAtNinetyPercentSpeedReadsNoForce) {
     moment = std::max(moment, norm(state.O_F_ext_hat_K, 3, 3));
     const franka_core::RobotCommand command = driver.command(state);
     act(&command);
-    ASSERT_TRUE(world->contacts().empty()) << "the motion is not free";
+    ASSERT_TRUE(contacts(*world).empty()) << "the motion is not free";
   }
   const double slowest = *std::min_element(fastest.begin(), fastest.end());
   std::printf("%s in free motion at %.1f %% of the speed limits: wrench error %.4f N, %.5f Nm\n",
@@ -235,7 +235,8 @@ TEST_P(UnitInWorldTest, PushesOnTheHandAreReadWithinHalfAPercent) {
         const RobotState& s = tick();
         const std::array<double, 16> K = unit->configuration().model.pose(
             franka_core::ArmFrame::kStiffness, s.q, s.F_T_EE, s.EE_T_K);
-        world->pushAt(id() + "_hand", {{K[12], K[13], K[14]}}, {{push[0], push[1], push[2]}}, 1);
+        pushBody(*world, id() + "_hand", {push[0], push[1], push[2]}, {}, 1,
+                 {{K[12], K[13], K[14]}});
       }
       const RobotState& s = unit->state();
       const std::array<double, 16> K = unit->configuration().model.pose(
@@ -369,7 +370,7 @@ TEST_P(UnitInWorldTest, UserStopKeepsTheGraspedStone) {
 TEST_P(UnitInWorldTest, HandMovesAndGraspsTheStone) {
   start("stone");
   graspTheStone();
-  const Pose pose = world->bodyPose(id() + "_hand");
+  const Pose pose = bodyPose(*world, id() + "_hand");
   const Eigen::Vector3d across = Eigen::Quaterniond(pose.orientation[0], pose.orientation[1],
                                                     pose.orientation[2], pose.orientation[3]) *
                                  Eigen::Vector3d::UnitY();
@@ -387,7 +388,7 @@ TEST_P(UnitInWorldTest, HandMovesAndGraspsTheStone) {
   gripper->stop();
   run(1000);
   EXPECT_FALSE(gripper->isGrasped());
-  EXPECT_GT(pose.position[2] - world->bodyPose("stone").position[2], 0.2) << "it has fallen";
+  EXPECT_GT(pose.position[2] - bodyPose(*world, "stone").position[2], 0.2) << "it has fallen";
 }
 
 TEST_P(UnitInWorldTest, CollisionRaisesAReflexWithinThreeMilliseconds) {
@@ -408,7 +409,7 @@ TEST_P(UnitInWorldTest, CollisionRaisesAReflexWithinThreeMilliseconds) {
     command.O_dP_EE_c[2] = -0.1 * std::min(1.0, i / 300.0);
     tick(&command);
     double force = 0.0;
-    for (const Contact& contact : world->contacts()) {
+    for (const Contact& contact : contacts(*world)) {
       force += std::abs(contact.force[2]);
     }
     top = std::max(top, force);
@@ -464,7 +465,7 @@ TEST_P(UnitInWorldTest, InternalControllersHaveTheConfiguredStiffness) {
     hold.q_c = unit->state().q_d;
     run(100, &hold);
     const RobotState before = unit->state();
-    world->push(id() + "_hand", {{0, 4, 0}}, {{0, 0, 0}}, 7000);
+    pushBody(*world, id() + "_hand", {{0, 4, 0}}, {{0, 0, 0}}, 7000);
     run(6900, &hold);
     const RobotState& s = unit->state();
     if (!cartesian) {

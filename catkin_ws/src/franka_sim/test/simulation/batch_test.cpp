@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Many simulations on several threads: equal to each alone, observed, and what goes wrong in one.
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/simulation/batch.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -36,7 +37,7 @@ void begin(Simulation& simulation, int world) {
   target[0] += 0.05 * (world - 2);
   target[5] += 0.2;
   robot.jointLaw().setTarget(target, 0.3);
-  simulation.world().push("stone", {1.0 + world, 0.5, 0.0}, {}, 100);
+  pushBody(simulation.world(), "stone", {1.0 + world, 0.5, 0.0}, {}, 100);
 }
 
 std::string refusal(const std::function<void()>& call) {
@@ -98,8 +99,8 @@ TEST(Batch, ObservationsAreRowsOfTheWorldsPresentValues) {
     const double* row = &batch.observations()[i * batch.rowSize()];
     World& world = worlds.all[i]->world();
     SimulatedRobot& arm = worlds.all[i]->robots().front();
-    const Twist twist = world.bodyTwist("stone");
-    const Pose pose = world.bodyPose("stone");
+    const Twist twist = bodyState(world, "stone").twist;
+    const Pose pose = bodyPose(world, "stone");
     EXPECT_DOUBLE_EQ(twist.linear[0], row[0]);
     EXPECT_DOUBLE_EQ(twist.angular[2], row[5]);
     EXPECT_DOUBLE_EQ(arm.state().O_T_EE[14], row[6 + 14]);
@@ -127,7 +128,7 @@ TEST(Batch, AnotherSimulationTakesTheRowOfOne) {
   const double* row = &batch.observations()[batch.rowSize()];
   batch.replace(1, *other);
   EXPECT_DOUBLE_EQ(0.030, row[time]);
-  EXPECT_EQ(other->world().bodyPose("stone").position[0], row[0]);
+  EXPECT_EQ(bodyPose(other->world(), "stone").position[0], row[0]);
   batch.step(20);
   EXPECT_DOUBLE_EQ(0.050, row[time]);
   EXPECT_DOUBLE_EQ(0.030, batch.observations()[time]);
@@ -180,7 +181,7 @@ TEST(Batch, AWorldThatDivergesStopsAloneAndIsNamed) {
     simulation->world().addObject("feather", kFeather, {{5, 5, 5}});
   }
   SimulationBatch batch(worlds.all, 2, {"time"});
-  worlds.all[1]->world().push("feather", {1e4, 0, 0}, {}, 5);
+  pushBody(worlds.all[1]->world(), "feather", {1e4, 0, 0}, {}, 5);
   batch.step(1);
   EXPECT_NE("", refusal([&] { batch.step(1); }));
   ASSERT_TRUE(worlds.all[1]->world().stopped());

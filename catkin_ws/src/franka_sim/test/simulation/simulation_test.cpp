@@ -110,7 +110,7 @@ TEST_P(SimulationTest, CartesianLawReachesItsTargetAndYieldsAsASpring) {
     EXPECT_NEAR(target[i], robot.state().O_T_EE[i], 1e-3);
   }
   const double before = robot.state().O_T_EE[13];
-  simulation->world().push(robot.setup().arm_id + std::string("_hand"), {0, 5, 0}, {}, 4000);
+  pushBody(simulation->world(), robot.setup().arm_id + std::string("_hand"), {0, 5, 0}, {}, 4000);
   simulation->step(4000);
   EXPECT_NEAR(5.0 / 1000, robot.state().O_T_EE[13] - before, 1e-3);
 }

@@ -139,13 +139,13 @@ class Grasping {
       : simulation_(simulation), arm_(arm), hand_(*simulation.robot(arm).units().hand()) {
     hand_.move(0.05, 0.1);
     simulation_.step(2500);
-    simulation_.world().setBodyPose("stone", simulation_.world().bodyPose(arm + "_hand_tcp"));
-    simulation_.world().push("stone", {0, 0, kWeight}, {}, 2000);
+    setBodyPose(simulation_.world(), "stone", bodyPose(simulation_.world(), arm + "_hand_tcp"));
+    pushBody(simulation_.world(), "stone", {0, 0, kWeight}, {}, 2000);
     ticket_ = hand_.grasp(0.032, 0.01, 0.01, 0.03, 30.0);
   }
   double away() const {
-    const auto stone = simulation_.world().bodyPose("stone").position;
-    const auto tcp = simulation_.world().bodyPose(arm_ + "_hand_tcp").position;
+    const auto stone = bodyPose(simulation_.world(), "stone").position;
+    const auto tcp = bodyPose(simulation_.world(), arm_ + "_hand_tcp").position;
     return std::hypot(stone[0] - tcp[0], stone[1] - tcp[1], stone[2] - tcp[2]);
   }
   GripperUnit& hand() { return hand_; }

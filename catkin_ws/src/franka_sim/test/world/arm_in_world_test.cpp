@@ -7,7 +7,7 @@
 #include <franka_core/numbers.h>
 #include <franka_core/rotations.h>
 #include <franka_sim/physics/physics_config.h>
-#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_properties.h>
 #include <franka_sim/robot/control_unit.h>
 #include <gtest/gtest.h>
 
@@ -135,9 +135,10 @@ class ArmInWorld : public testing::TestWithParam<const char*> {
     for (int k = 0; k < 6000; ++k) {
       const auto& pose = unit_->state().O_T_EE;
       const double ramp = std::min(1.0, k / 1000.0);
-      world_->pushAt(hand_, {pose[12], pose[13], pose[14]},
-                     {ramp * wrench[0], ramp * wrench[1], ramp * wrench[2]}, 1);
-      world_->push(hand_, {0, 0, 0}, {ramp * wrench[3], ramp * wrench[4], ramp * wrench[5]}, 1);
+      pushBody(*world_, hand_, {ramp * wrench[0], ramp * wrench[1], ramp * wrench[2]}, {}, 1,
+               {{pose[12], pose[13], pose[14]}});
+      pushBody(*world_, hand_, {0, 0, 0}, {ramp * wrench[3], ramp * wrench[4], ramp * wrench[5]},
+               1);
       tick([&](const auto& state) { return impedance(state, target, posture); });
     }
     return {Vector6::Map(unit_->state().O_F_ext_hat_K.data()),
@@ -184,7 +185,7 @@ TEST_P(ArmInWorld, UnconfiguredKilogramReadsItsWeight) {
 TEST_P(ArmInWorld, IdleHoldsAgainstAPush) {
   idleTick();
   for (int k = 0; k < 2000; ++k) {
-    world_->push(hand_, {10, 0, 0}, {0, 0, 0}, 1);
+    pushBody(*world_, hand_, {10, 0, 0}, {0, 0, 0}, 1);
     idleTick();
   }
   double away = 0;

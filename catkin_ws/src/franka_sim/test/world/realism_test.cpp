@@ -103,7 +103,7 @@ TEST_P(RealismTest, JointSevenCoastsToRestAccordingToItsPublishedFriction) {
   startTorqueControl();
   const franka_core::RobotCommand zero;
   run(5, &zero);
-  world_->setJointVelocity(joint(7), 0.52);
+  setJointVelocity(*world_, joint(7), 0.52);
   const double below = 0.01;
   const double tenth = 0.052;
   double time = 0.0;
@@ -160,7 +160,7 @@ TEST_P(RealismTest, PushReadingHasTheDelayAndAccuracyOfARealRobot) {
     const double before = unit_->state().O_F_ext_hat_K[axis];
     std::array<double, 3> force{};
     force[axis] = 10;
-    world_->push(id() + "_hand_tcp", force, {{0, 0, 0}}, 3000);
+    pushBody(*world_, id() + "_hand_tcp", force, {{0, 0, 0}}, 3000);
     int ticks = 0;
     while (ticks < 1000 && std::abs(tick().O_F_ext_hat_K[axis] - before) < 6.32) {
       ticks++;

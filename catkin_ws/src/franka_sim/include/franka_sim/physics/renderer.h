@@ -83,7 +83,7 @@ struct ShapeMesh {
 struct Shape {
   enum class Kind { kPlane, kSphere, kCapsule, kEllipsoid, kCylinder, kBox, kMesh };
 
-  std::size_t body{0};  ///< index in World::frames()
+  std::size_t body{0};  ///< index in WorldShapes::bodies
   Kind kind{Kind::kBox};
   /// [m] Half sizes, as MuJoCo has them: box and ellipsoid x, y, z; sphere radius; capsule and
   /// cylinder radius, half length along z; plane half x, half y (0: endless). A mesh has none.
@@ -95,7 +95,9 @@ struct Shape {
 
 /// The shapes of a world as data, for programs that draw it themselves.
 struct WorldShapes {
-  std::vector<std::string> bodies;  ///< World::frames()
+  /// All bodies, links included, and unnamed ones too; each once. The order is that of framePoses()
+  /// (physics/world_properties.h), as long as World::generation() is the same.
+  std::vector<std::string> bodies;
   std::vector<Shape> shapes;
   std::vector<ShapeMesh> meshes;
 };

@@ -57,62 +57,6 @@ struct RobotDescription {
   std::map<std::string, std::array<double, 2>> stops;
 };
 
-/// A contact between two bodies.
-struct Contact {
-  std::string body1, body2;        ///< names
-  std::array<double, 3> position;  ///< world [m]
-  std::array<double, 3> force;     ///< on body2, world axes [N]
-};
-
-/// What touches a body.
-struct Touches {
-  std::vector<std::string> robots;  ///< each once
-  bool others{false};               ///< anything else
-};
-
-/// A robot's link and a body of something else that penetrate each other.
-struct Overlap {
-  std::string link, body;  ///< names
-  double depth;            ///< [m]
-};
-
-/// Velocity of a body: linear of its origin [m/s] and angular [rad/s], world axes.
-struct Twist {
-  std::array<double, 3> linear{}, angular{};  ///< [m/s] and [rad/s]
-};
-
-/// Pose and velocity of a body.
-struct BodyState {
-  Pose pose;    ///< in the world frame
-  Twist twist;  ///< along world axes
-};
-
-/// A joint with one degree of freedom.
-struct WorldJoint {
-  std::string name;     ///< in the world
-  bool slides{false};   ///< prismatic, else revolute
-  bool limited{false};  ///< has stops
-  double damping{0};    ///< [Nm s/rad] or [N s/m]
-};
-
-/// What Gazebo calls a model: a robot, an object, or a top-level body of the world file, with all
-/// bodies attached to it.
-struct WorldModel {
-  std::string name;                ///< of the robot, object or body
-  std::string body;                ///< its pose is the model's
-  std::vector<std::string> links;  ///< names of bodies; those of SDF models begin with `model::`
-  std::vector<WorldJoint> joints;  ///< all with one degree of freedom
-  bool is_static{false};           ///< whether nothing of it can move
-};
-
-/// A camera fixed to the world or to a body: MJCF's <camera> or SDF's camera sensor.
-struct WorldCamera {
-  std::string name;             ///< in the world
-  double field_of_view{45};     ///< vertical [deg]
-  int width{640}, height{480};  ///< [pixel]; MJCF: attribute user="width height rate"
-  double rate{30};              ///< desired pictures per simulated second [Hz]
-};
-
 /// How many physics steps a tick has.
 enum class Substeps {
   kAdaptive,  ///< one while robots move freely, World::kSmallSteps otherwise (decision 58)
@@ -148,9 +92,11 @@ class WorldChange {
 };
 
 /// The simulated world: an MJCF or SDF world file with robots from URDFs, stepped in ticks of 1 ms.
+/// What is in it - bodies, joints, contacts, gravity - is read and changed by the functions of
+/// physics/world_properties.h.
 ///
-/// Called by one thread at a time. Functions that change the set of robots allocate and throw
-/// std::runtime_error with a sentence.
+/// Called by one thread at a time, those functions included. Functions that change the set of
+/// robots allocate and throw std::runtime_error with a sentence.
 class World {
  public:
   /// @param file the world, MJCF or SDF; empty: ground, light and sky only.
@@ -199,16 +145,9 @@ class World {
   std::vector<std::string> bodies() const;
   /// @copydoc bodies()
   std::vector<std::string> joints() const;
-  std::vector<WorldCamera> cameras() const;  ///< of the world file and of objects
-  /// Robots first.
-  std::vector<WorldModel> models() const;
   /// A number that changes when a robot or an object comes or goes. No other world of this process
   /// has it.
   std::uint64_t generation() const noexcept;
-  /// Names of all bodies, links included, for drawing: unnamed ones too, each once. The order is
-  /// that of framePoses(), as long as generation() is the same.
-  std::vector<std::string> frames() const;
-
   /// Plants stay valid until their robot is removed, also when other robots are added.
   /// @throws std::runtime_error when the robot has no joints `<arm_id>_joint1..7` (arm) or no
   /// `<arm_id>_finger_joint1..2` (hand).
@@ -261,40 +200,6 @@ class World {
   /// @throws std::runtime_error if the robots or objects differ; nothing has changed
   void restore(const Snapshot& snapshot);
 
-  // Limits of these arguments: physics/world_properties.h.
-  std::array<double, 3> gravity() const;                  ///< [m/s^2]
-  void setGravity(const std::array<double, 3>& gravity);  ///< [m/s^2]; a reset does not change it
-  Pose bodyPose(const std::string& body) const;           ///< in the world frame
-  /// Poses of all frames().
-  std::vector<Pose> framePoses() const;
-  /// @throws std::runtime_error if a body that is not free, or such a pose, cannot be set
-  void checkBodyPose(const std::string& body, const Pose& pose) const;
-  void setBodyPose(const std::string& body,
-                   const Pose& pose);  ///< free bodies only; velocity becomes 0
-  /// Velocity of a body, along world axes.
-  Twist bodyTwist(const std::string& body) const;
-  /// For many bodies in one call, which is faster. @throws std::runtime_error for an unknown one
-  std::vector<BodyState> bodyStates(const std::vector<std::string>& names) const;
-  void setBodyTwist(const std::string& body, const Twist& twist);  ///< free bodies only
-  /// Position, velocity and torque of a joint.
-  JointMeasurement joint(const std::string& joint) const;
-  void setJointPosition(const std::string& joint,
-                        double position);  ///< teleport; velocity becomes 0
-  void setJointVelocity(const std::string& joint, double velocity);  ///< [rad/s] or [m/s]
-  /// A force and torque on a body at its origin or at `point` (world), for `ticks` ticks from now.
-  /// @throws std::runtime_error with a sentence beyond the limits of world_properties.h
-  void push(const std::string& body, const std::array<double, 3>& force,
-            const std::array<double, 3>& torque, std::uint64_t ticks);
-  /// The same force at a point, without a torque of its own.
-  void pushAt(const std::string& body, const std::array<double, 3>& point,
-              const std::array<double, 3>& force, std::uint64_t ticks);
-  std::vector<Contact> contacts() const;  ///< at this tick
-  /// What contacts() shows of one body, in brief. @throws std::runtime_error for an unknown one
-  Touches touches(const std::string& body) const;
-  /// Where a robot penetrates other bodies, by more than 1 mm. Allocates.
-  std::vector<Overlap> overlaps(const std::string& robot) const;
-  /// A sentence about them; empty when there are none.
-  std::string describeOverlaps(const std::string& robot) const;
   /// Hash of the complete dynamic state: equal hash, equal future (decision 22).
   std::uint64_t stateHash() const noexcept;
 
@@ -305,7 +210,7 @@ class World {
   struct Impl;
 
  private:
-  friend Impl& implOf(World& world) noexcept;
+  friend Impl& implOf(const World& world) noexcept;
 
   /// Access to the implementation, which waits for what is being prepared.
   class Access {
