@@ -8,6 +8,8 @@
 #include <ctime>
 #include <utility>
 
+#include "serve/hosted_robots.h"
+
 namespace franka_sim::fci {
 
 namespace {
@@ -24,31 +26,6 @@ constexpr std::uint64_t kMaxDeferral = 10000;
 /// The host does not catch up after a longer delay (chosen here: a burst of ticks would lose more
 /// commands).
 constexpr std::chrono::milliseconds kMaxCatchUp{50};
-
-/// Sockets are polled at least this often, even if commands come too fast for a poll.
-constexpr std::chrono::milliseconds kMaxServeInterval{1};
-
-/// Robots without clients are served so often if a poll reports nothing (chosen here: opens and
-/// closes their ports in time). Serving one looks at three sockets, with a system call each.
-constexpr std::chrono::milliseconds kMaxIdleServeInterval{10};
-
-/// A client that waits for another one's answer gives up after a second without a state; genuine
-/// clients and ours drop a repeated state and wait on. Chosen here: three repeats fit into that
-/// second.
-constexpr std::chrono::milliseconds kRepeatPeriod{300};
-
-/// Before its first command a client needs two states that show the motion; they are sent at once.
-/// Further states are for a client that missed them. They come as slowly as the client's timeout of
-/// a second allows: each state that arrives while a starved client works on its first answer puts
-/// its clock, which counts states, ahead of the arm's, and runs would not repeat (chosen here).
-constexpr int kPromptStarts = 2;
-constexpr std::chrono::milliseconds kLaterStarts{600};
-
-/// The state that shows the end of a motion remains its client's newest one for so long, unless the
-/// client sends a request before: a client that runs too late would find a state of the braking arm
-/// in its place, and its exception would not repeat. Clients of libfranka send a StopMove within a
-/// millisecond; others may be silent, and the timeout of a second is theirs, too (chosen here).
-constexpr std::chrono::milliseconds kEndKept{600};
 
 /// While the host catches up after a delay, clients still get this time for each answer (chosen
 /// here).
@@ -87,27 +64,26 @@ bool HostClock::poll(std::vector<pollfd>& fds, Clock::duration limit) {
 
 Host::Host(std::function<void()> step, const Pace& pace, std::function<void()> prepare,
            HostClock clock)
-    : step_(std::move(step)), prepare_(std::move(prepare)), clock_(std::move(clock)) {
+    : step_(std::move(step)),
+      prepare_(std::move(prepare)),
+      clock_(std::move(clock)),
+      robots_(std::make_unique<HostedRobots>(pace_, clock_)) {
   setPace(pace);
   // By default the system groups wake-ups within 50 us.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
 }
 
-void Host::add(HostedRobot& robot) {
-  entries_.push_back({&robot});
-  fds_.reserve(16 * entries_.size());
-}
+Host::~Host() = default;
 
-void Host::add(Service& service) { services_.push_back(&service); }
+void Host::add(HostedRobot& robot) { robots_->add(robot); }
 
-void Host::remove(const HostedRobot& robot) noexcept {
-  const auto is_robot = [&](const Entry& entry) { return entry.robot == &robot; };
-  entries_.erase(std::remove_if(entries_.begin(), entries_.end(), is_robot), entries_.end());
-}
+void Host::add(Service& service) { robots_->add(service); }
 
-void Host::remove(const Service& service) noexcept {
-  services_.erase(std::remove(services_.begin(), services_.end(), &service), services_.end());
-}
+void Host::remove(const HostedRobot& robot) noexcept { robots_->remove(robot); }
+
+void Host::remove(const Service& service) noexcept { robots_->remove(service); }
+
+bool Host::empty() const noexcept { return robots_->empty(); }
 
 void Host::setPace(const Pace& pace) {
   pace_ = pace;
@@ -142,27 +118,21 @@ void Host::run(const std::atomic<bool>& stop) {
 bool Host::stopped() const { return stop_ != nullptr && stop_->load(std::memory_order_relaxed); }
 
 void Host::tick() {
-  for (const Entry& entry : entries_) {
-    entry.robot->observe();
-  }
+  robots_->observe();
   if (pace_.waitsForClients()) {
     waitInLockStep();
     if (followsClock()) {
       listenUntil(nextDeadline());
     }
   } else {
-    publishAll();
+    robots_->publish();
     prepare_();
     waitInRealTime();
   }
-  for (const Entry& entry : entries_) {
-    entry.robot->actuate();
-  }
+  robots_->actuate();
   step_();
   ticks_++;
-  for (Entry& entry : entries_) {
-    entry.unpublished_ticks++;
-  }
+  robots_->finishTick();
 }
 
 void Host::tickAtOnce() {
@@ -171,79 +141,23 @@ void Host::tickAtOnce() {
 }
 
 void Host::standStill() {
-  for (const Entry& entry : entries_) {
-    entry.robot->publish(entry.robot->expectsCommand() ? 0 : 1, true, false);
-  }
-  serveAll();
-  for (Service* service : services_) {
-    service->published();
-  }
+  robots_->publishHalted();
+  robots_->serve(holdsRequestsBack());
+  robots_->reportPublished();
   restartClock();
 }
 
-void Host::publishAll(bool same_tick) {
-  published_at_ = clock_.now();
-  for (Entry& entry : entries_) {
-    publish(entry, same_tick, published_at_);
-  }
-  for (Service* service : services_) {
-    service->published();
-  }
-}
-
-void Host::publish(Entry& entry, bool same_tick, Clock::time_point now) {
-  if (entry.robot->expectsCommand()) {
-    entry.ended_at.reset();
-  } else if (!entry.ended_at) {
-    entry.ended_at = now;
-  }
-  const bool keep_end =
-      pace_.waitsForClients() && entry.ended_at && now - *entry.ended_at < kEndKept;
-  entry.robot->publish(std::max<std::uint64_t>(entry.unpublished_ticks, 1), same_tick, keep_end);
-  entry.unpublished_ticks = 0;
-  entry.shown_at = now;
-}
-
-// System calls take longer than a control unit's tick, so sockets are read only when a poll reports
-// data.
 void Host::serveIfDue() {
-  if (requests_ready_ || requests_left_ || clock_.now() - served_at_ >= kMaxServeInterval) {
-    serveAll();
-  }
-}
-
-void Host::serveAll() {
-  served_at_ = clock_.now();
-  const bool reported = std::exchange(requests_ready_, false);
-  const bool polled = std::exchange(polled_, false);
-  const bool all = reported || !polled || served_at_ - served_idle_at_ >= kMaxIdleServeInterval;
-  served_idle_at_ = all ? served_at_ : served_idle_at_;
-  const bool stops_only = holdsRequestsBack();
-  requests_left_ = stops_only;
-  for (const Entry& entry : entries_) {
-    if (all || !entry.robot->idle()) {
-      entry.robot->serve(stops_only);
-    }
-  }
-  // The next states wait for commands, whose sender may itself wait for the answer of a service.
-  const bool states_wait = pace_.waitsForClients() && clientsAreDue();
-  for (Service* service : services_) {
-    if (all || !service->idle()) {
-      service->serve();
-    }
-    if (states_wait) {
-      service->published();
-    }
+  if (robots_->isServeDue()) {
+    robots_->serve(holdsRequestsBack());
   }
 }
 
 // While the world comes to rest, a request would take effect at a tick that depends on the client's
 // speed.
 bool Host::holdsRequestsBack() const {
-  const bool hand_busy = std::any_of(entries_.begin(), entries_.end(),
-                                     [](const Entry& entry) { return entry.robot->handBusy(); });
-  return pace_.standsStill() && rolling_ > 0 && held_back_ < kMaxDeferral && !hand_busy &&
-         !clientsAreDue() && !hasAsynchronousMotion();
+  return pace_.standsStill() && rolling_ > 0 && held_back_ < kMaxDeferral &&
+         !robots_->isHandBusy() && !robots_->clientsAreDue() && !robots_->hasAsynchronousMotion();
 }
 
 bool Host::settled() const { return !pace_.standsStill() || failsToSettle() || atRest(); }
@@ -251,49 +165,10 @@ bool Host::settled() const { return !pace_.standsStill() || failsToSettle() || a
 bool Host::failsToSettle() const { return pace_.standsStill() && held_back_ >= kMaxDeferral; }
 
 bool Host::atRest() const {
-  const auto moves = [](const Entry& entry) {
-    return entry.robot->expectsCommand() || entry.robot->settling() || entry.robot->handBusy();
-  };
-  return (!pace_.standsStill() || rolling_ == 0) &&
-         std::none_of(entries_.begin(), entries_.end(), moves);
+  return (!pace_.standsStill() || rolling_ == 0) && !robots_->isActive();
 }
 
-bool Host::inMotion() const {
-  return std::any_of(entries_.begin(), entries_.end(),
-                     [](const Entry& entry) { return entry.robot->expectsCommand(); });
-}
-
-bool Host::receiveAll() {
-  bool all = true;
-  for (Entry& entry : entries_) {
-    const bool here = entry.robot->receiveCommand();
-    if (here) {
-      entry.given_up = false;
-    }
-    all = all && (here || !entry.isDue());
-  }
-  return all;
-}
-
-void Host::pollUntil(Clock::time_point deadline) {
-  fds_.clear();
-  for (const Entry& entry : entries_) {
-    entry.robot->addCommandDescriptor(fds_);
-  }
-  const std::size_t commands = fds_.size();
-  for (const Entry& entry : entries_) {
-    entry.robot->addDescriptors(fds_);
-  }
-  for (const Service* service : services_) {
-    service->addDescriptors(fds_);
-  }
-  if (clock_.wait(fds_, std::max(deadline - clock_.now(), Clock::duration::zero()))) {
-    for (std::size_t i = commands; i < fds_.size(); i++) {
-      requests_ready_ = requests_ready_ || fds_[i].revents != 0;
-    }
-  }
-  polled_ = true;
-}
+bool Host::inMotion() const { return robots_->inMotion(); }
 
 Host::Clock::time_point Host::nextDeadline() {
   deadline_ += period_;
@@ -306,33 +181,26 @@ Host::Clock::time_point Host::nextDeadline() {
 
 void Host::waitInRealTime() {
   Clock::time_point end = nextDeadline();
-  if (idle_interval_ > Clock::duration::zero() && isIdle()) {
+  if (idle_interval_ > Clock::duration::zero() && robots_->isIdle()) {
     waitIdle(end);
     return;
   }
-  if (clientsAreDue()) {
+  if (robots_->clientsAreDue()) {
     end = std::max(end, clock_.now() + std::min<Clock::duration>(kMinTimeToAnswer, period_));
   }
   listenUntil(end);
   slept_until_ = end;
 }
 
-bool Host::isIdle() const {
-  return std::all_of(entries_.begin(), entries_.end(),
-                     [](const Entry& entry) { return entry.robot->idle(); }) &&
-         std::all_of(services_.begin(), services_.end(),
-                     [](const Service* service) { return service->idle(); });
-}
-
 void Host::waitIdle(Clock::time_point end) {
   if (end - slept_until_ < idle_interval_ && slept_until_ < end) {
     return;
   }
-  while (clock_.now() < end && isIdle()) {
-    pollUntil(end);
+  while (clock_.now() < end && robots_->isIdle()) {
+    robots_->pollUntil(end);
     serveIfDue();
   }
-  if (!isIdle()) {
+  if (!robots_->isIdle()) {
     restartClock();  // a client does not wait for the time that the ticks are ahead
   }
   slept_until_ = deadline_;
@@ -340,76 +208,45 @@ void Host::waitIdle(Clock::time_point end) {
 
 void Host::listenUntil(Clock::time_point end) {
   do {
-    pollUntil(end);
-    receiveAll();
+    robots_->pollUntil(end);
+    robots_->receiveCommands();
     serveIfDue();
   } while (clock_.now() < end);
-}
-
-bool Host::clientsAreDue() const {
-  return std::any_of(entries_.begin(), entries_.end(),
-                     [](const Entry& entry) { return entry.isDue(); });
-}
-
-bool Host::hasAsynchronousMotion() const {
-  return std::any_of(entries_.begin(), entries_.end(),
-                     [](const Entry& entry) { return entry.robot->asynchronous(); });
 }
 
 // In lock-step only the clock defines when the next tick of an asynchronous motion is due.
 bool Host::followsClock() const {
   return pace_.mode == PaceMode::kPatient ||
-         (pace_.mode != PaceMode::kFreeRunning && hasAsynchronousMotion());
-}
-
-// Whether an answer of a client that has not been given up is missing.
-bool Host::isAnswerMissing() const {
-  return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
-    return entry.isDue() && !entry.given_up && !entry.robot->receiveCommand();
-  });
+         (pace_.mode != PaceMode::kFreeRunning && robots_->hasAsynchronousMotion());
 }
 
 bool Host::mustAdvanceTime() {
-  for (const Entry& entry : entries_) {
-    if (entry.robot->settling() || entry.robot->handBusy() || entry.robot->asynchronous()) {
-      rolling_ = std::max(rolling_, kTicksAfterAction);
-    }
+  if (robots_->mustAdvanceTime()) {
+    rolling_ = std::max(rolling_, kTicksAfterAction);
   }
   return rolling_ > 0;
 }
 
-bool Host::settlesInKnownTime() const {
-  return std::any_of(entries_.begin(), entries_.end(),
-                     [](const Entry& entry) { return entry.robot->settlesInKnownTime(); });
-}
-
-void Host::dropSilentClients() {
-  for (Entry& entry : entries_) {
-    entry.given_up = entry.given_up || (entry.isDue() && !entry.robot->receiveCommand());
-  }
-}
-
 void Host::waitInLockStep() {
-  const bool news = std::any_of(entries_.begin(), entries_.end(),
-                                [](const Entry& entry) { return entry.robot->hasPendingState(); });
-  const bool due = clientsAreDue();
-  if (due || news || followsClock() || clock_.now() - published_at_ >= kTick) {
-    publishAll();
+  const bool news = robots_->hasPendingState();
+  const bool due = robots_->clientsAreDue();
+  if (due || news || followsClock() || clock_.now() - robots_->publishedAt() >= kTick) {
+    robots_->publish();
   }
   beginWait();
   const Clock::time_point begin = waited_until_;
   prepare_();
   // An answer takes a while; if none is expected, one look at the sockets is enough.
   if (due) {
-    spin_rule_.spin([this] { return receiveAll(); }, [this] { return clock_.now(); });
+    spin_rule_.spin([this] { return robots_->receiveCommands(); }, [this] { return clock_.now(); });
   }
-  if (!due || !receiveAll()) {
-    pollUntil(due ? begin + kTick : begin);
+  if (!due || !robots_->receiveCommands()) {
+    robots_->pollUntil(due ? begin + kTick : begin);
   }
   while (!stopped()) {
     serveIfDue();
-    receiveAll();
-    if (clientsAreDue()) {
+    robots_->receiveCommands();
+    if (robots_->clientsAreDue()) {
       if (!waitForClients()) {
         rolling_ = kTicksAfterAction;
         return;
@@ -420,26 +257,24 @@ void Host::waitInLockStep() {
       return;
     }
     if (mustAdvanceTime()) {
-      if (!settlesInKnownTime()) {
+      if (!robots_->settlesInKnownTime()) {
         held_back_ = holdsRequestsBack() ? held_back_ + 1 : 0;
       }
       rolling_--;
       return;
     }
     held_back_ = 0;
-    if (clock_.now() - published_at_ >= kTick) {
-      publishAll(true);
+    if (clock_.now() - robots_->publishedAt() >= kTick) {
+      robots_->publish(true);
     }
-    pollUntil(published_at_ + kTick);
+    robots_->pollUntil(robots_->publishedAt() + kTick);
   }
 }
 
 void Host::beginWait() {
   waited_until_ = keep_waiting_called_at_ = clock_.now();
   waited_ = {};
-  for (Entry& entry : entries_) {
-    entry.starts_shown = entry.isDue() ? 1 : 0;
-  }
+  robots_->beginWait();
 }
 
 // @returns whether there is still something to wait for.
@@ -449,15 +284,15 @@ bool Host::waitForClients() {
   const Clock::time_point now = clock_.now();
   waited_ += std::min<Clock::duration>(now - waited_until_, kMaxCountedTime);
   waited_until_ = now;
-  if (!isAnswerMissing() && (receiveAll() || waited_ >= kTick)) {
+  if (!robots_->isAnswerMissing() && (robots_->receiveCommands() || waited_ >= kTick)) {
     return false;
   }
   if (hasTimedOut(now)) {
-    dropSilentClients();
+    robots_->dropSilentClients();
     return true;
   }
-  publishWhileWaiting(now);
-  pollUntil(now + kTick);
+  robots_->publishWhileWaiting(now);
+  robots_->pollUntil(now + kTick);
   return true;
 }
 
@@ -470,29 +305,6 @@ bool Host::hasTimedOut(Clock::time_point now) {
   }
   keep_waiting_called_at_ = now;
   return !keep_waiting_();
-}
-
-// Other clients must see that the robots are there. A state that shows a motion's client nothing
-// new keeps its number: the motion's clock, which counts states, stands still as well. A client
-// that has not answered gets no new state; it must answer the last one.
-void Host::publishWhileWaiting(Clock::time_point now) {
-  for (Entry& entry : entries_) {
-    HostedRobot& robot = *entry.robot;
-    if (entry.isStarting()) {
-      // Before its first command a client receives states without answering them.
-      if (now - entry.shown_at >= (entry.starts_shown < kPromptStarts ? kTick : kLaterStarts)) {
-        publish(entry, true, now);
-        entry.starts_shown++;
-      }
-    } else if (!robot.expectsCommand()) {
-      if (now - entry.shown_at >= kTick) {
-        publish(entry, true, now);
-      }
-    } else if (now - entry.shown_at >= kRepeatPeriod) {
-      robot.repeat();
-      entry.shown_at = now;
-    }
-  }
 }
 
 }  // namespace franka_sim::fci

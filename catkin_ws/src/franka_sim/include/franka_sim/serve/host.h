@@ -12,7 +12,6 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <utility>
 #include <vector>
 
@@ -124,6 +123,8 @@ class Service {
   virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
 };
 
+class HostedRobots;
+
 /// Runs a world and its robots tick by tick: the host sends state k, waits for the answer to it,
 /// and runs the physics from k to k + 1 with that answer (decision 20).
 class Host {
@@ -133,6 +134,9 @@ class Host {
   Host(
       std::function<void()> step, const Pace& pace, std::function<void()> prepare = [] {},
       HostClock clock = {});
+  ~Host();
+  Host(const Host&) = delete;
+  Host& operator=(const Host&) = delete;
 
   /// Must outlive the host, or be removed.
   void add(HostedRobot& robot);
@@ -147,7 +151,7 @@ class Host {
   /// In real time, while all robots and services are idle: lets the ticks of this time run
   /// together, which needs fewer wake-ups. A world with other users must leave it at 0: one by one.
   void setIdleInterval(std::chrono::milliseconds interval) { idle_interval_ = interval; }
-  bool empty() const noexcept { return entries_.empty() && services_.empty(); }
+  bool empty() const noexcept;
 
   /// Runs until `stop` is set.
   void run(const std::atomic<bool>& stop);
@@ -186,42 +190,18 @@ class Host {
  private:
   using Clock = HostClock::Clock;
 
-  struct Entry {
-    HostedRobot* robot;
-    bool given_up{false};  // silent for too long in lock-step
-    int starts_shown{0};   // states sent to a client that has not sent its first command
-    Clock::time_point shown_at{};
-    std::optional<Clock::time_point> ended_at{};  // first shown without a motion
-    std::uint64_t unpublished_ticks{1};
-
-    bool isDue() const { return robot->expectsCommand() && !robot->asynchronous(); }
-    bool isStarting() const { return isDue() && !robot->motionHasBegun() && !given_up; }
-  };
-
-  void publishAll(bool same_tick = false);
-  void publish(Entry& entry, bool same_tick, Clock::time_point now);
-  void serveAll();
   void serveIfDue();
   bool holdsRequestsBack() const;
-  bool receiveAll();
-  void pollUntil(Clock::time_point deadline);
   void waitInRealTime();
   void waitIdle(Clock::time_point end);
-  bool isIdle() const;
   Clock::time_point nextDeadline();
   void listenUntil(Clock::time_point end);
   void waitInLockStep();
   void beginWait();
   bool waitForClients();
-  void publishWhileWaiting(Clock::time_point now);
-  bool clientsAreDue() const;
-  bool hasAsynchronousMotion() const;
   bool followsClock() const;
-  bool isAnswerMissing() const;
   bool mustAdvanceTime();
-  bool settlesInKnownTime() const;
   bool hasTimedOut(Clock::time_point now);
-  void dropSilentClients();
   bool stopped() const;
 
   std::function<void()> step_;
@@ -229,21 +209,13 @@ class Host {
   HostClock clock_;
   std::function<bool()> keep_waiting_;
   Pace pace_;
-  std::vector<Entry> entries_;
-  std::vector<Service*> services_;
-  std::vector<pollfd> fds_;
-  bool requests_ready_{true};
-  bool requests_left_{false};  // read, but deferred
-  bool polled_{false};         // since robots and services were served
+  std::unique_ptr<HostedRobots> robots_;
   Clock::duration idle_interval_{};
   Clock::time_point slept_until_{};  ///< in real time
-  Clock::time_point served_at_{};
-  Clock::time_point served_idle_at_{};
   const std::atomic<bool>* stop_{nullptr};
   Clock::duration period_{};
   Clock::time_point deadline_{};
   franka_core::SpinRule spin_rule_;
-  Clock::time_point published_at_{};
   Clock::time_point waited_until_{};
   Clock::time_point keep_waiting_called_at_{};
   Clock::duration waited_{};  // in this tick, without time in which this process did not run

@@ -1,0 +1,256 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include "serve/hosted_robots.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace franka_sim::fci {
+
+namespace {
+
+/// While time stands still, clients receive the last state so often.
+constexpr std::chrono::milliseconds kStateInterval{1};
+
+/// Sockets are polled at least this often, even if commands come too fast for a poll.
+constexpr std::chrono::milliseconds kMaxServeInterval{1};
+
+/// Robots without clients are served so often if a poll reports nothing (chosen here: opens and
+/// closes their ports in time). Serving one looks at three sockets, with a system call each.
+constexpr std::chrono::milliseconds kMaxIdleServeInterval{10};
+
+/// A client that waits for another one's answer gives up after a second without a state; genuine
+/// clients and ours drop a repeated state and wait on. Chosen here: three repeats fit into that
+/// second.
+constexpr std::chrono::milliseconds kRepeatPeriod{300};
+
+/// Before its first command a client needs two states that show the motion; they are sent at once.
+/// Further states are for a client that missed them. They come as slowly as the client's timeout of
+/// a second allows: each state that arrives while a starved client works on its first answer puts
+/// its clock, which counts states, ahead of the arm's, and runs would not repeat (chosen here).
+constexpr int kPromptStarts = 2;
+constexpr std::chrono::milliseconds kLaterStarts{600};
+
+/// The state that shows the end of a motion remains its client's newest one for so long, unless the
+/// client sends a request before: a client that runs too late would find a state of the braking arm
+/// in its place, and its exception would not repeat. Clients of libfranka send a StopMove within a
+/// millisecond; others may be silent, and the timeout of a second is theirs, too (chosen here).
+constexpr std::chrono::milliseconds kEndKept{600};
+
+}  // namespace
+
+void HostedRobots::add(HostedRobot& robot) {
+  entries_.push_back({&robot});
+  fds_.reserve(16 * entries_.size());
+}
+
+void HostedRobots::remove(const HostedRobot& robot) noexcept {
+  const auto is_robot = [&](const Entry& entry) { return entry.robot == &robot; };
+  entries_.erase(std::remove_if(entries_.begin(), entries_.end(), is_robot), entries_.end());
+}
+
+void HostedRobots::remove(const Service& service) noexcept {
+  services_.erase(std::remove(services_.begin(), services_.end(), &service), services_.end());
+}
+
+template <typename Predicate>
+bool HostedRobots::any(Predicate predicate) const {
+  return std::any_of(entries_.begin(), entries_.end(), predicate);
+}
+
+void HostedRobots::observe() {
+  for (const Entry& entry : entries_) {
+    entry.robot->observe();
+  }
+}
+
+void HostedRobots::actuate() {
+  for (const Entry& entry : entries_) {
+    entry.robot->actuate();
+  }
+}
+
+void HostedRobots::finishTick() noexcept {
+  for (Entry& entry : entries_) {
+    entry.unpublished_ticks++;
+  }
+}
+
+void HostedRobots::publish(bool same_tick) {
+  published_at_ = clock_.now();
+  for (Entry& entry : entries_) {
+    publish(entry, same_tick, published_at_);
+  }
+  reportPublished();
+}
+
+void HostedRobots::publish(Entry& entry, bool same_tick, Clock::time_point now) {
+  if (entry.robot->expectsCommand()) {
+    entry.ended_at.reset();
+  } else if (!entry.ended_at) {
+    entry.ended_at = now;
+  }
+  const bool keep_end =
+      pace_.waitsForClients() && entry.ended_at && now - *entry.ended_at < kEndKept;
+  entry.robot->publish(std::max<std::uint64_t>(entry.unpublished_ticks, 1), same_tick, keep_end);
+  entry.unpublished_ticks = 0;
+  entry.shown_at = now;
+}
+
+void HostedRobots::publishHalted() {
+  for (const Entry& entry : entries_) {
+    entry.robot->publish(entry.robot->expectsCommand() ? 0 : 1, true, false);
+  }
+}
+
+void HostedRobots::reportPublished() {
+  for (Service* service : services_) {
+    service->published();
+  }
+}
+
+// Other clients must see that the robots are there. A state that shows a motion's client nothing
+// new keeps its number: the motion's clock, which counts states, stands still as well. A client
+// that has not answered gets no new state; it must answer the last one.
+void HostedRobots::publishWhileWaiting(Clock::time_point now) {
+  for (Entry& entry : entries_) {
+    HostedRobot& robot = *entry.robot;
+    if (entry.isStarting()) {
+      // Before its first command a client receives states without answering them.
+      if (now - entry.shown_at >=
+          (entry.starts_shown < kPromptStarts ? kStateInterval : kLaterStarts)) {
+        publish(entry, true, now);
+        entry.starts_shown++;
+      }
+    } else if (!robot.expectsCommand()) {
+      if (now - entry.shown_at >= kStateInterval) {
+        publish(entry, true, now);
+      }
+    } else if (now - entry.shown_at >= kRepeatPeriod) {
+      robot.repeat();
+      entry.shown_at = now;
+    }
+  }
+}
+
+bool HostedRobots::isServeDue() const {
+  return requests_ready_ || requests_left_ || clock_.now() - served_at_ >= kMaxServeInterval;
+}
+
+void HostedRobots::serve(bool stops_only) {
+  served_at_ = clock_.now();
+  const bool reported = std::exchange(requests_ready_, false);
+  const bool polled = std::exchange(polled_, false);
+  const bool all = reported || !polled || served_at_ - served_idle_at_ >= kMaxIdleServeInterval;
+  served_idle_at_ = all ? served_at_ : served_idle_at_;
+  requests_left_ = stops_only;
+  for (const Entry& entry : entries_) {
+    if (all || !entry.robot->idle()) {
+      entry.robot->serve(stops_only);
+    }
+  }
+  // The next states wait for commands, whose sender may itself wait for the answer of a service.
+  const bool states_wait = pace_.waitsForClients() && clientsAreDue();
+  for (Service* service : services_) {
+    if (all || !service->idle()) {
+      service->serve();
+    }
+    if (states_wait) {
+      service->published();
+    }
+  }
+}
+
+bool HostedRobots::receiveCommands() {
+  bool all = true;
+  for (Entry& entry : entries_) {
+    const bool here = entry.robot->receiveCommand();
+    if (here) {
+      entry.given_up = false;
+    }
+    all = all && (here || !entry.isDue());
+  }
+  return all;
+}
+
+void HostedRobots::pollUntil(Clock::time_point deadline) {
+  fds_.clear();
+  for (const Entry& entry : entries_) {
+    entry.robot->addCommandDescriptor(fds_);
+  }
+  const std::size_t commands = fds_.size();
+  for (const Entry& entry : entries_) {
+    entry.robot->addDescriptors(fds_);
+  }
+  for (const Service* service : services_) {
+    service->addDescriptors(fds_);
+  }
+  if (clock_.wait(fds_, std::max(deadline - clock_.now(), Clock::duration::zero()))) {
+    for (std::size_t i = commands; i < fds_.size(); i++) {
+      requests_ready_ = requests_ready_ || fds_[i].revents != 0;
+    }
+  }
+  polled_ = true;
+}
+
+void HostedRobots::beginWait() {
+  for (Entry& entry : entries_) {
+    entry.starts_shown = entry.isDue() ? 1 : 0;
+  }
+}
+
+void HostedRobots::dropSilentClients() {
+  for (Entry& entry : entries_) {
+    entry.given_up = entry.given_up || (entry.isDue() && !entry.robot->receiveCommand());
+  }
+}
+
+bool HostedRobots::isAnswerMissing() const {
+  return any([](const Entry& entry) {
+    return entry.isDue() && !entry.given_up && !entry.robot->receiveCommand();
+  });
+}
+
+bool HostedRobots::isIdle() const {
+  return !any([](const Entry& entry) { return !entry.robot->idle(); }) &&
+         std::all_of(services_.begin(), services_.end(),
+                     [](const Service* service) { return service->idle(); });
+}
+
+bool HostedRobots::clientsAreDue() const {
+  return any([](const Entry& entry) { return entry.isDue(); });
+}
+
+bool HostedRobots::hasPendingState() const {
+  return any([](const Entry& entry) { return entry.robot->hasPendingState(); });
+}
+
+bool HostedRobots::hasAsynchronousMotion() const {
+  return any([](const Entry& entry) { return entry.robot->asynchronous(); });
+}
+
+bool HostedRobots::inMotion() const {
+  return any([](const Entry& entry) { return entry.robot->expectsCommand(); });
+}
+
+bool HostedRobots::isHandBusy() const {
+  return any([](const Entry& entry) { return entry.robot->handBusy(); });
+}
+
+bool HostedRobots::isActive() const {
+  return any([](const Entry& entry) {
+    return entry.robot->expectsCommand() || entry.robot->settling() || entry.robot->handBusy();
+  });
+}
+
+bool HostedRobots::mustAdvanceTime() const {
+  return any([](const Entry& entry) {
+    return entry.robot->settling() || entry.robot->handBusy() || entry.robot->asynchronous();
+  });
+}
+
+bool HostedRobots::settlesInKnownTime() const {
+  return any([](const Entry& entry) { return entry.robot->settlesInKnownTime(); });
+}
+
+}  // namespace franka_sim::fci
