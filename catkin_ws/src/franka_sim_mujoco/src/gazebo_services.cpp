@@ -94,9 +94,9 @@ void deleteModel(Simulation& simulation, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };
   if (has(inventory.robots)) {
-    simulation.remove(name);
+    simulation.robots().remove(name);
   } else if (has(inventory.objects)) {
-    simulation.removeObject(name);
+    simulation.robots().removeObject(name);
   } else if (has(inventory.bodies)) {
     throw std::runtime_error("'" + name +
                              "' belongs to the world file; only spawned models can be deleted.");
@@ -120,7 +120,7 @@ std::string spawnUrdf(Simulation& simulation, const gazebo_msgs::SpawnModel::Req
   order.urdf = request.model_xml;
   order.robot_namespace = request.robot_namespace;
   order.pose = spawnPose(simulation, request);
-  return simulation.spawn(order);
+  return simulation.robots().spawn(order);
 }
 
 /// Gazebo accepts a model's joints with or without the model's name as prefix.
@@ -146,7 +146,8 @@ void configure(Simulation& simulation, const gazebo_msgs::SetModelConfiguration:
       joints.push_back(found->name);
     }
   });
-  simulation.setJoints(joints, request.joint_positions, std::vector<double>(joints.size(), 0.0));
+  simulation.robots().setJoints(joints, request.joint_positions,
+                                std::vector<double>(joints.size(), 0.0));
 }
 
 }  // namespace
@@ -222,8 +223,8 @@ void SimServices::offerGazeboModels() {
                               });
   services_.offer<SpawnModel>(
       "spawn_sdf_model", [this](SpawnModel::Request& request, SpawnModel::Response& response) {
-        response.status_message = simulation_.spawnObject(request.model_name, request.model_xml,
-                                                          spawnPose(simulation_, request));
+        response.status_message = simulation_.robots().spawnObject(
+            request.model_name, request.model_xml, spawnPose(simulation_, request));
       });
   services_.offer<SetModelConfiguration>(
       "set_model_configuration",

@@ -69,7 +69,7 @@ void setJoints(Simulation& simulation, const SetJointStates::Request& request) {
         std::to_string(request.velocities.size()) +
         " velocities; each joint needs a position, and a velocity unless all are 0.");
   }
-  simulation.setJoints(request.names, request.positions, velocities);
+  simulation.robots().setJoints(request.names, request.positions, velocities);
 }
 
 }  // namespace
@@ -78,11 +78,11 @@ void SimServices::offerWorld() {
   services_.offer<SpawnObject>(
       "spawn_object", [this](SpawnObject::Request& request, SpawnObject::Response& response) {
         response.warning =
-            simulation_.spawnObject(request.name, request.xml, fromMessage(request.pose));
+            simulation_.robots().spawnObject(request.name, request.xml, fromMessage(request.pose));
       });
   services_.offer<DeleteObject>("delete_object",
                                 [this](DeleteObject::Request& request, DeleteObject::Response&) {
-                                  simulation_.removeObject(request.name);
+                                  simulation_.robots().removeObject(request.name);
                                 });
   services_.offer<GetWorld>("get_world",
                             [this](GetWorld::Request& /*request*/, GetWorld::Response& response) {

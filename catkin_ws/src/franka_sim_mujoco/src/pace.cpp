@@ -16,7 +16,8 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr double kClockRate = 1000.0;  ///< [Hz] one per tick
+constexpr double kClockRate = 1000.0;     ///< [Hz] one per tick
+constexpr double kMaxClockRate = 1000.0;  ///< [Hz] (decision 22)
 /// [Hz] Chosen here: the time in nodes is at most 5 ms old, and a Python node, which needs 0.1 ms
 /// per message, uses a fiftieth of a processor for it.
 constexpr double kFastClockRate = 200.0;
@@ -119,6 +120,39 @@ void ClockPublisher::standStill(const ros::Time& time) {
     published_ = time;
     published_ns_ = now;
   }
+}
+
+SimulationPace::SimulationPace(double factor, double clock_rate, franka_sim::fci::Host& host,
+                               franka_sim::World& world, ClockPublisher& clock)
+    : host_(host), world_(world), clock_(clock), factor_(factor), clock_rate_(clock_rate) {
+  if (!std::isfinite(clock_rate_) || clock_rate_ < 0.0 || clock_rate_ > kMaxClockRate) {
+    throw std::runtime_error("The clock rate " + franka_core::numberText(clock_rate_) +
+                             " Hz is wrong: it must be 0 (as fits the real time factor), or above "
+                             "it and at most " +
+                             std::to_string(static_cast<int>(kMaxClockRate)) + " Hz.");
+  }
+  apply();
+}
+
+void SimulationPace::setFactor(double factor) {
+  paceOf(factor);  // throws for an invalid factor
+  factor_ = factor;
+  apply();
+}
+
+void SimulationPace::review(bool starting) {
+  if (starting != starting_) {
+    starting_ = starting;
+    apply();
+  }
+}
+
+void SimulationPace::apply() {
+  const bool held = starting_ && (factor_ == 0.0 || factor_ > 1.0);
+  const double factor = held ? 1.0 : factor_;
+  host_.setPace(paceOf(factor));
+  world_.setPreparesBeside(factor == 0.0);
+  clock_.setRate(clock_rate_ > 0.0 ? clock_rate_ : clockRateOf(factor));
 }
 
 }  // namespace franka_sim_mujoco

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim/physics/world.h>
 #include <franka_sim/serve/host.h>
 #include <realtime_tools/realtime_publisher.h>
 #include <ros/node_handle.h>
@@ -68,6 +69,35 @@ class ClockPublisher {
   std::int64_t next_ns_{0};
   ros::Time published_;
   std::int64_t published_ns_{0};
+};
+
+/// The pace of a simulation: applies the real time factor to its host, its world and /clock. While
+/// robots start, time does not run faster than real time: the nodes that start their controllers
+/// need the processors. Stepping thread only.
+class SimulationPace {
+ public:
+  /// @param factor see paceOf
+  /// @param clock_rate maximum rate of /clock in wall time [Hz]; 0: clockRateOf
+  /// @param host, world, clock of the simulation; must outlive this
+  /// @throws std::runtime_error with a sentence for a wrong factor or rate
+  SimulationPace(double factor, double clock_rate, franka_sim::fci::Host& host,
+                 franka_sim::World& world, ClockPublisher& clock);
+
+  double factor() const noexcept { return factor_; }
+  /// @throws std::runtime_error as paceOf
+  void setFactor(double factor);
+  /// Call between ticks. @param starting whether robots start
+  void review(bool starting);
+
+ private:
+  void apply();
+
+  franka_sim::fci::Host& host_;
+  franka_sim::World& world_;
+  ClockPublisher& clock_;
+  double factor_;
+  double clock_rate_;
+  bool starting_{false};  ///< pace is limited now
 };
 
 }  // namespace franka_sim_mujoco

@@ -133,11 +133,11 @@ void SimServices::offerTime() {
 void SimServices::offerRobots() {
   services_.offer<SpawnRobot>("spawn_robot",
                               [this](SpawnRobot::Request& request, SpawnRobot::Response& response) {
-                                response.warning = simulation_.spawn(toOrder(request));
+                                response.warning = simulation_.robots().spawn(toOrder(request));
                               });
   services_.offer<DeleteRobot>(
       "delete_robot", [this](DeleteRobot::Request& request, DeleteRobot::Response& /*response*/) {
-        simulation_.remove(request.name);
+        simulation_.robots().remove(request.name);
       });
 }
 

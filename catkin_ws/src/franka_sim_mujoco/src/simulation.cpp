@@ -2,12 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "simulation.h"
 
-#include <franka_core/numbers.h>
 #include <franka_sim/physics/world_properties.h>
 #include <ros/console.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -22,12 +20,6 @@ namespace {
 constexpr std::uint32_t kTickNanoseconds = 1000000;
 constexpr std::chrono::milliseconds kServedIdleSleep{1};  ///< if clients wait
 constexpr std::chrono::milliseconds kIdleSleep{20};
-/// Compiling a world with several robots takes seconds on a slow machine.
-constexpr std::chrono::milliseconds kSpawnTimeout{60000};
-/// While time waits for the compiler, clients see so often that the robots are there (chosen here:
-/// they give up after a second, and what an idle one receives in lock-step hardly depends on it).
-constexpr std::chrono::milliseconds kStandStillPeriod{300};
-constexpr double kMaxClockRate = 1000.0;  ///< [Hz] (decision 22)
 
 /// The time for reading a thread's clock, which is a tenth of a tick [us].
 double microsecondsOfAReading() noexcept {
@@ -42,22 +34,15 @@ double microsecondsOfAReading() noexcept {
 }  // namespace
 
 Simulation::Simulation(const SimulationOptions& options, ros::NodeHandle& node)
-    : loader_("franka_sim_mujoco", "franka_sim_mujoco::RobotHWSim"),
-      world_(options.world_file, resolveUri),
+    : world_(options.world_file, resolveUri),
       clock_(node),
       host_([this] { advance(); }, paceOf(options.real_time_factor)),
-      scene_(world_, [this] { return sceneRobots(); }),
-      real_time_factor_(options.real_time_factor),
-      clock_rate_(options.clock_rate),
+      pace_(options.real_time_factor, options.clock_rate, host_, world_, clock_),
+      robots_(
+          requests_, world_, host_, [this] { reset(); },
+          [this] { return pace_.factor() > 0.0 && steps_left_ == 0; }),
       paused_(options.paused) {
-  if (!std::isfinite(clock_rate_) || clock_rate_ < 0.0 || clock_rate_ > kMaxClockRate) {
-    throw std::runtime_error("The clock rate " + franka_core::numberText(clock_rate_) +
-                             " Hz is wrong: it must be 0 (as fits the real time factor), or above "
-                             "it and at most " +
-                             std::to_string(static_cast<int>(kMaxClockRate)) + " Hz.");
-  }
-  applyPace();
-  reportWarnings();
+  reportWarnings(world_);
 }
 
 Simulation::~Simulation() { stop(); }
@@ -71,11 +56,7 @@ void Simulation::stop() {
   if (thread_.joinable()) {
     thread_.join();
   }
-  for (const auto& robot : robots_) {
-    if (robot->served() != nullptr) {
-      robot->served()->removeFrom(host_);
-    }
-  }
+  robots_.leaveHost();
   requests_.close();
 }
 
@@ -85,7 +66,7 @@ void Simulation::loop() {
   try {
     while (!stop_) {
       requests_.serve();
-      reviewPace();
+      pace_.review(robots_.isStarting());
       short_sleeps_.sleepIfDue();
       if (paused_ && steps_left_ == 0) {
         standStill();
@@ -116,23 +97,15 @@ void Simulation::standStill() {
 void Simulation::advance() {
   const ros::Time now = time();
   world_.prepareBeside();
-  for (const auto& robot : robots_) {
-    robot->tick(now, timing_ ? &times_ : nullptr);
-  }
+  robots_.tick(now, timing_ ? &times_ : nullptr);
   world_.step();
   watchWorld();
   ++tick_count_;
   clock_.tick(time());
 }
 
-void Simulation::reportWarnings() {
-  for (const std::string& warning : world_.takeWarnings()) {
-    ROS_WARN_NAMED(kLog, "%s", warning.c_str());
-  }
-}
-
 void Simulation::watchWorld() {
-  reportWarnings();
+  reportWarnings(world_);
   if (!world_.stopped() || paused_by_fault_) {
     return;
   }
@@ -140,32 +113,13 @@ void Simulation::watchWorld() {
                   ros::names::resolve("~reset").c_str());
   paused_by_fault_ = !paused_;
   paused_ = true;
-  for (const auto& robot : robots_) {
-    robot->halt();
-  }
+  robots_.halt();
 }
 
 void Simulation::requireRunningWorld() const {
   if (world_.stopped()) {
     throw std::runtime_error(world_.fault());
   }
-}
-
-void Simulation::reviewPace() {
-  const bool starting = std::any_of(robots_.begin(), robots_.end(),
-                                    [](const auto& robot) { return robot->isStarting(); });
-  if (starting != starting_) {
-    starting_ = starting;
-    applyPace();
-  }
-}
-
-void Simulation::applyPace() {
-  const bool held = starting_ && (real_time_factor_ == 0.0 || real_time_factor_ > 1.0);
-  const double factor = held ? 1.0 : real_time_factor_;
-  host_.setPace(paceOf(factor));
-  world_.setPreparesBeside(factor == 0.0);
-  clock_.setRate(clock_rate_ > 0.0 ? clock_rate_ : clockRateOf(factor));
 }
 
 void Simulation::finishStepping() {
@@ -200,11 +154,7 @@ void Simulation::setPaused(bool paused) {
 }
 
 void Simulation::setRealTimeFactor(double factor) {
-  requests_.run([&] {
-    paceOf(factor);  // throws for an invalid factor
-    real_time_factor_ = factor;
-    applyPace();
-  });
+  requests_.run([&] { pace_.setFactor(factor); });
 }
 
 SimulationState Simulation::step(std::uint32_t ticks) {
@@ -238,198 +188,19 @@ SimulationState Simulation::state() {
   return state;
 }
 
-void Simulation::requireRest() const {
-  if (world_.stopped()) {
-    return;  // nothing can move
-  }
-  for (const auto& robot : robots_) {
-    robot->requireRest();
-  }
-}
-
 void Simulation::reset() {
   requests_.run([&] {
-    requireRest();
+    robots_.requireRest();
     world_.reset();
     worldWasReset();
   });
 }
 
 void Simulation::worldWasReset() {
-  for (const auto& robot : robots_) {
-    robot->worldWasReset();
-  }
+  robots_.worldWasReset();
   if (std::exchange(paused_by_fault_, false)) {
     paused_ = false;
   }
-}
-
-RobotInstance* Simulation::find(const std::string& name) {
-  for (const auto& robot : robots_) {
-    if (robot->name() == name) {
-      return robot.get();
-    }
-  }
-  return nullptr;
-}
-
-OperatorAccess Simulation::operatorAccess() {
-  const auto reset_within_a_tick = [this] {
-    reset();
-    for (const auto& robot : robots_) {
-      if (robot->served() != nullptr) {
-        robot->served()->robot().observe();  // the tick's measurement is not valid any more
-      }
-    }
-  };
-  return {host_, scene_, reset_within_a_tick, requestShutdown};
-}
-
-std::vector<franka_sim::SceneRobot> Simulation::sceneRobots() const {
-  std::vector<franka_sim::SceneRobot> robots;
-  for (const auto& robot : robots_) {
-    robots.insert(robots.end(), robot->inScene().begin(), robot->inScene().end());
-  }
-  return robots;
-}
-
-std::string Simulation::spawn(const SpawnOrder& order) {
-  if (franka_sim::isUrdfOfObject(order.urdf)) {
-    const std::string notes = spawnObject(order.name, order.urdf, order.pose);
-    placeJoints(order);
-    return notes;
-  }
-  const RobotPlan plan = planRobot(order);
-  std::string notes;
-  change(
-      [&] {
-        if (find(order.name) != nullptr) {
-          throw std::runtime_error("There already is a robot named '" + order.name +
-                                   "': choose another name or delete that one first.");
-        }
-        return world_.beginAddRobot(plan.description);
-      },
-      [&](franka_sim::WorldChange& added) {
-        const BetweenTicks between_ticks = [this](const std::function<void()>& work) {
-          requests_.run(work);
-        };
-        auto robot = std::make_unique<RobotInstance>(plan, world_, added, loader_, between_ticks,
-                                                     operatorAccess());
-        if (robot->served() != nullptr) {
-          robot->served()->addTo(host_);
-        }
-        robots_.push_back(std::move(robot));
-        notes = world_.unsupported(order.name);
-        reportWarnings();
-        const std::string overlaps = describeOverlaps(world_, order.name);
-        if (!overlaps.empty()) {
-          ROS_WARN_NAMED(kLog, "%s Give it another place (x, y, z) or other joint positions.",
-                         overlaps.c_str());
-        }
-      });
-  return notes;
-}
-
-void Simulation::change(const std::function<franka_sim::WorldChange()>& begin,
-                        const std::function<void(franka_sim::WorldChange&)>& finish) {
-  const std::lock_guard<std::mutex> one_at_a_time(change_mutex_);
-  std::optional<franka_sim::WorldChange> change;
-  bool finished = false;
-  const auto finish_it = [&] {
-    finish(*change);
-    host_.restartClock();
-    finished = true;
-  };
-  requests_.run(
-      [&] {
-        change.emplace(begin());
-        if (real_time_factor_ > 0.0 && steps_left_ == 0) {
-          return;
-        }
-        auto compiled = std::async(std::launch::async, [&] { change->compile(); });
-        while (compiled.wait_for(kStandStillPeriod) != std::future_status::ready) {
-          host_.standStill();
-        }
-        compiled.get();
-        finish_it();
-      },
-      kSpawnTimeout);
-  if (!finished) {
-    change->compile();
-    requests_.run(finish_it, kSpawnTimeout);
-  }
-}
-
-void Simulation::placeJoints(const SpawnOrder& order) {
-  requests_.run([&] {
-    const std::vector<std::string> joints = world_.joints();
-    for (const auto& [name, position] : order.initial_positions) {
-      const std::string joint = order.name + "::" + name;
-      if (std::find(joints.begin(), joints.end(), joint) != joints.end()) {
-        setJointPosition(world_, joint, position);
-      } else {
-        ROS_WARN_NAMED(kLog, "'%s' has no joint '%s' that moves: its initial position is ignored.",
-                       order.name.c_str(), name.c_str());
-      }
-    }
-  });
-}
-
-void Simulation::remove(const std::string& name) {
-  std::unique_ptr<RobotInstance> removed;
-  change(
-      [&] {
-        const std::vector<std::string> objects = world_.objects();
-        if (std::find(objects.begin(), objects.end(), name) != objects.end()) {
-          return world_.beginRemoveObject(name);  // its URDF was that of an object
-        }
-        if (find(name) == nullptr) {
-          throw std::runtime_error("There is no robot named '" + name + "'.");
-        }
-        return world_.beginRemoveRobot(name);
-      },
-      [&](franka_sim::WorldChange& rest) {
-        const auto robot = std::find_if(robots_.begin(), robots_.end(), [&](const auto& candidate) {
-          return candidate->name() == name;
-        });
-        if (robot != robots_.end()) {
-          removed = std::move(*robot);
-          if (removed->served() != nullptr) {
-            removed->served()->removeFrom(host_);
-          }
-          robots_.erase(robot);
-        }
-        world_.apply(rest);
-      });
-  // Destroyed outside of the stepping thread: its action servers and services may wait for their
-  // threads.
-  removed.reset();
-}
-
-std::string Simulation::spawnObject(const std::string& name, const std::string& text,
-                                    const franka_sim::Pose& pose) {
-  std::string unsupported;
-  change([&] { return world_.beginAddObject(name, text, pose); },
-         [&](franka_sim::WorldChange& added) {
-           const std::vector<std::string> before = world_.bodies();
-           world_.apply(added);
-           unsupported = world_.unsupported(name);
-           reportWarnings();
-           for (const std::string& robot : world_.robots()) {
-             for (const franka_sim::Overlap& overlap : overlaps(world_, robot)) {
-               if (std::find(before.begin(), before.end(), overlap.body) == before.end()) {
-                 unsupported += (unsupported.empty() ? "" : " ") + overlap.body +
-                                " begins within " + overlap.link + ", which it will push.";
-               }
-             }
-           }
-         });
-  return unsupported;
-}
-
-void Simulation::removeObject(const std::string& name) {
-  change([&] { return world_.beginRemoveObject(name); },
-         [&](franka_sim::WorldChange& rest) { world_.apply(rest); });
 }
 
 SimulationInventory Simulation::inventory() {
@@ -444,36 +215,9 @@ SimulationInventory Simulation::inventory() {
     }
     result.gravity = gravity(world_);
     result.paused = paused_;
-    result.real_time_factor = real_time_factor_;
+    result.real_time_factor = pace_.factor();
   });
   return result;
-}
-
-void Simulation::setJoints(const std::vector<std::string>& names,
-                           const std::vector<double>& positions,
-                           const std::vector<double>& velocities) {
-  requests_.run([&] {
-    for (const auto& robot : robots_) {
-      if (robot->hasAnyOf(names)) {
-        robot->requireRest();
-      }
-    }
-    const franka_sim::Snapshot before = world_.snapshot();
-    try {
-      for (std::size_t i = 0; i < names.size(); ++i) {
-        setJointPosition(world_, names[i], positions[i]);
-        setJointVelocity(world_, names[i], velocities[i]);
-      }
-    } catch (...) {
-      world_.restore(before);
-      throw;
-    }
-    for (const auto& robot : robots_) {
-      if (robot->hasAnyOf(names)) {
-        robot->worldWasReset();
-      }
-    }
-  });
 }
 
 std::uint64_t Simulation::takeSnapshot(const std::string& name) {
@@ -497,7 +241,7 @@ std::uint64_t Simulation::restoreSnapshot(const std::string& name) {
     if (found == snapshots_.end()) {
       throw std::runtime_error("There is no snapshot named '" + name + "'.");
     }
-    requireRest();
+    robots_.requireRest();
     world_.restore(found->second);
     worldWasReset();
     hash = world_.stateHash();
@@ -515,17 +259,6 @@ double Simulation::timeTicks(std::uint32_t ticks) {
     host_.tickAtOnce();
   }
   return 1e-3 * static_cast<double>(threadNanoseconds() - start) / ticks;
-}
-
-std::vector<std::string> Simulation::conditions() const {
-  std::vector<std::string> lines;
-  for (const auto& robot : robots_) {
-    const std::string line = robot->condition();
-    if (!line.empty()) {
-      lines.push_back(line);
-    }
-  }
-  return lines;
 }
 
 Simulation::Benchmark Simulation::benchmark(std::uint32_t ticks) {

@@ -4,7 +4,6 @@
 
 #include <franka_sim/physics/world.h>
 #include <franka_sim/serve/host.h>
-#include <franka_sim/serve/operator_commands.h>
 
 #include <atomic>
 #include <cstdint>
@@ -12,7 +11,6 @@
 #include <future>
 #include <map>
 #include <memory>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <thread>
@@ -20,7 +18,7 @@
 
 #include "pace.h"
 #include "request_queue.h"
-#include "robot_instance.h"
+#include "robot_set.h"
 
 namespace franka_sim_mujoco {
 
@@ -50,9 +48,6 @@ struct SimulationState {
 /// keeps the pace and serves clients of served robots; then each other robot runs readSim,
 /// controllers, writeSim; then physics, then /clock.
 ///
-/// While a robot waits for the controllers that its launch file starts (RobotPlan), time does not
-/// run faster than real time: the nodes that start them need the processors.
-///
 /// ROS time starts at 1 ms and grows by 1 ms per tick; it never goes back, not even when the world
 /// is reset. All public functions throw std::runtime_error with a sentence. Thread-safe.
 class Simulation {
@@ -78,21 +73,9 @@ class Simulation {
   /// (World::stopped) runs again.
   void reset();
 
-  /// Adds a robot; as an object, if its URDF is that of one (franka_sim::isUrdfOfObject).
-  /// @returns World::unsupported of it
-  std::string spawn(const SpawnOrder& order);
-  void remove(const std::string& robot);  ///< or an object
-  /// @returns unsupported elements of the text, as World::unsupported, and robots that overlap the
-  /// object
-  std::string spawnObject(const std::string& name, const std::string& text,
-                          const franka_sim::Pose& pose);
-  void removeObject(const std::string& name);
+  /// Adds and removes robots and objects.
+  RobotSet& robots() noexcept { return robots_; }
   SimulationInventory inventory();
-
-  /// Teleports joints; robots that have one of them restart their controllers.
-  /// @param velocities one per name
-  void setJoints(const std::vector<std::string>& names, const std::vector<double>& positions,
-                 const std::vector<double>& velocities);
 
   /// Stores the world's state under a name (at most kMaxSnapshots). @returns its hash
   std::uint64_t takeSnapshot(const std::string& name);
@@ -100,11 +83,9 @@ class Simulation {
   std::uint64_t restoreSnapshot(const std::string& name);
   static constexpr std::size_t kMaxSnapshots = 32;
 
-  /// Runs work on the world in the stepping thread, between ticks.
+  /// Runs work on the world in the stepping thread, between ticks. The work may also call functions
+  /// of robots() that are for that thread.
   void withWorld(const std::function<void(franka_sim::World&)>& work);
-
-  /// One line per robot for the user: its mode and errors. Call it in the work of withWorld.
-  std::vector<std::string> conditions() const;
 
   /// Computing time of the stepping thread for a tick and for each of its parts [us]. Makes `ticks`
   /// ticks without waiting for the whole, and as many again for the parts. Physics includes the
@@ -117,51 +98,29 @@ class Simulation {
  private:
   void loop();
   void advance();
-  /// Changes the set of robots and objects. Ticks go on while the new model is compiled, unless
-  /// they do not follow the clock (factor 0, step()): then time stands still. Not in the stepping
-  /// thread.
-  /// @param begin, finish are called in the stepping thread: first step of the change, and last
-  void change(const std::function<franka_sim::WorldChange()>& begin,
-              const std::function<void(franka_sim::WorldChange&)>& finish);
   /// Makes ticks without waiting. @returns the mean computing time of one [us]
   double timeTicks(std::uint32_t ticks);
   void standStill();
   void finishStepping();
-  /// Of an object that a URDF describes.
-  void placeJoints(const SpawnOrder& order);
-  void reportWarnings();
   /// Reports faults of the world; one that has stopped pauses the simulation.
   void watchWorld();
   /// @throws std::runtime_error with a sentence if the world has stopped
   void requireRunningWorld() const;
   /// Call after the world was reset or restored.
   void worldWasReset();
-  /// Limits the pace while robots start, and restores it afterwards.
-  void reviewPace();
-  void applyPace();
   SimulationState stateNow() const;
   ros::Time time() const;
-  /// @throws std::runtime_error with a sentence while a client moves a robot
-  void requireRest() const;
-  RobotInstance* find(const std::string& name);
-  OperatorAccess operatorAccess();
-  std::vector<franka_sim::SceneRobot> sceneRobots() const;
 
   RequestQueue requests_;
-  std::mutex change_mutex_;  ///< held during a change: there is one at a time
-  HardwareLoader loader_;
   franka_sim::World world_;
-  std::vector<std::unique_ptr<RobotInstance>> robots_;
   std::map<std::string, franka_sim::Snapshot> snapshots_;
   ClockPublisher clock_;
   franka_sim::fci::Host host_;
-  franka_sim::SceneText scene_;
+  SimulationPace pace_;
+  RobotSet robots_;
   ShortSleeps short_sleeps_;
   TickTimes times_;
   bool timing_{false};
-  double real_time_factor_;
-  double clock_rate_;
-  bool starting_{false};  ///< pace is limited now
   bool paused_;
   bool paused_by_fault_{false};  ///< the world has stopped
   std::uint64_t tick_count_{0};

@@ -40,7 +40,7 @@ void WindowView::loop() {
       simulation_.withWorld([&](franka_sim::World& world) {
         push.act(world, window.push());
         scene = franka_sim::captureScene(world);
-        lines = simulation_.conditions();
+        lines = simulation_.robots().conditions();
       });
       open = window.draw(scene, lines);
       std::this_thread::sleep_until(next);
