@@ -157,7 +157,8 @@ void Host::serveIfDue() {
 // speed.
 bool Host::holdsRequestsBack() const {
   return pace_.standsStill() && rolling_ > 0 && held_back_ < kMaxDeferral &&
-         !robots_->isHandBusy() && !robots_->clientsAreDue() && !robots_->hasAsynchronousMotion();
+         !robots_->any(&HostedRobot::handBusy) && !robots_->clientsAreDue() &&
+         !robots_->any(&HostedRobot::asynchronous);
 }
 
 bool Host::settled() const { return !pace_.standsStill() || failsToSettle() || atRest(); }
@@ -165,10 +166,11 @@ bool Host::settled() const { return !pace_.standsStill() || failsToSettle() || a
 bool Host::failsToSettle() const { return pace_.standsStill() && held_back_ >= kMaxDeferral; }
 
 bool Host::atRest() const {
-  return (!pace_.standsStill() || rolling_ == 0) && !robots_->isActive();
+  return (!pace_.standsStill() || rolling_ == 0) && !inMotion() &&
+         !robots_->any(&HostedRobot::settling) && !robots_->any(&HostedRobot::handBusy);
 }
 
-bool Host::inMotion() const { return robots_->inMotion(); }
+bool Host::inMotion() const { return robots_->any(&HostedRobot::expectsCommand); }
 
 Host::Clock::time_point Host::nextDeadline() {
   deadline_ += period_;
@@ -217,18 +219,19 @@ void Host::listenUntil(Clock::time_point end) {
 // In lock-step only the clock defines when the next tick of an asynchronous motion is due.
 bool Host::followsClock() const {
   return pace_.mode == PaceMode::kPatient ||
-         (pace_.mode != PaceMode::kFreeRunning && robots_->hasAsynchronousMotion());
+         (pace_.mode != PaceMode::kFreeRunning && robots_->any(&HostedRobot::asynchronous));
 }
 
 bool Host::mustAdvanceTime() {
-  if (robots_->mustAdvanceTime()) {
+  if (robots_->any(&HostedRobot::settling) || robots_->any(&HostedRobot::handBusy) ||
+      robots_->any(&HostedRobot::asynchronous)) {
     rolling_ = std::max(rolling_, kTicksAfterAction);
   }
   return rolling_ > 0;
 }
 
 void Host::waitInLockStep() {
-  const bool news = robots_->hasPendingState();
+  const bool news = robots_->any(&HostedRobot::hasPendingState);
   const bool due = robots_->clientsAreDue();
   if (due || news || followsClock() || clock_.now() - robots_->publishedAt() >= kTick) {
     robots_->publish();
@@ -257,7 +260,7 @@ void Host::waitInLockStep() {
       return;
     }
     if (mustAdvanceTime()) {
-      if (!robots_->settlesInKnownTime()) {
+      if (!robots_->any(&HostedRobot::settlesInKnownTime)) {
         held_back_ = holdsRequestsBack() ? held_back_ + 1 : 0;
       }
       rolling_--;

@@ -53,11 +53,6 @@ void HostedRobots::remove(const Service& service) noexcept {
   services_.erase(std::remove(services_.begin(), services_.end(), &service), services_.end());
 }
 
-template <typename Predicate>
-bool HostedRobots::any(Predicate predicate) const {
-  return std::any_of(entries_.begin(), entries_.end(), predicate);
-}
-
 void HostedRobots::observe() {
   for (const Entry& entry : entries_) {
     entry.robot->observe();
@@ -206,51 +201,26 @@ void HostedRobots::dropSilentClients() {
 }
 
 bool HostedRobots::isAnswerMissing() const {
-  return any([](const Entry& entry) {
+  return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
     return entry.isDue() && !entry.given_up && !entry.robot->receiveCommand();
   });
 }
 
 bool HostedRobots::isIdle() const {
-  return !any([](const Entry& entry) { return !entry.robot->idle(); }) &&
+  return std::all_of(entries_.begin(), entries_.end(),
+                     [](const Entry& entry) { return entry.robot->idle(); }) &&
          std::all_of(services_.begin(), services_.end(),
                      [](const Service* service) { return service->idle(); });
 }
 
 bool HostedRobots::clientsAreDue() const {
-  return any([](const Entry& entry) { return entry.isDue(); });
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [](const Entry& entry) { return entry.isDue(); });
 }
 
-bool HostedRobots::hasPendingState() const {
-  return any([](const Entry& entry) { return entry.robot->hasPendingState(); });
-}
-
-bool HostedRobots::hasAsynchronousMotion() const {
-  return any([](const Entry& entry) { return entry.robot->asynchronous(); });
-}
-
-bool HostedRobots::inMotion() const {
-  return any([](const Entry& entry) { return entry.robot->expectsCommand(); });
-}
-
-bool HostedRobots::isHandBusy() const {
-  return any([](const Entry& entry) { return entry.robot->handBusy(); });
-}
-
-bool HostedRobots::isActive() const {
-  return any([](const Entry& entry) {
-    return entry.robot->expectsCommand() || entry.robot->settling() || entry.robot->handBusy();
-  });
-}
-
-bool HostedRobots::mustAdvanceTime() const {
-  return any([](const Entry& entry) {
-    return entry.robot->settling() || entry.robot->handBusy() || entry.robot->asynchronous();
-  });
-}
-
-bool HostedRobots::settlesInKnownTime() const {
-  return any([](const Entry& entry) { return entry.robot->settlesInKnownTime(); });
+bool HostedRobots::any(bool (HostedRobot::*is)() const) const {
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [is](const Entry& entry) { return (entry.robot->*is)(); });
 }
 
 }  // namespace franka_sim::fci

@@ -58,15 +58,8 @@ class HostedRobots {
   bool isIdle() const;
   /// Whether ticks wait for the client of a motion.
   bool clientsAreDue() const;
-  bool hasPendingState() const;
-  bool hasAsynchronousMotion() const;
-  bool inMotion() const;
-  bool isHandBusy() const;
-  /// Whether a robot moves or recovers, or a hand works.
-  bool isActive() const;
-  /// Whether time has to advance although no client requires it.
-  bool mustAdvanceTime() const;
-  bool settlesInKnownTime() const;
+  /// Whether this is true of a robot, as in any(&HostedRobot::handBusy).
+  bool any(bool (HostedRobot::*is)() const) const;
 
  private:
   struct Entry {
@@ -81,8 +74,6 @@ class HostedRobots {
     bool isStarting() const { return isDue() && !robot->motionHasBegun() && !given_up; }
   };
 
-  template <typename Predicate>
-  bool any(Predicate predicate) const;
   void publish(Entry& entry, bool same_tick, Clock::time_point now);
 
   const Pace& pace_;
