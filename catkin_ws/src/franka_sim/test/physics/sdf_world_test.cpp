@@ -327,8 +327,7 @@ TEST_F(SdfWorldTest, CamerasKeepTheirViewAndSize) {
   EXPECT_EQ(found[0].width, 320);
   EXPECT_EQ(found[0].height, 200);
   EXPECT_DOUBLE_EQ(found[0].rate, 5);
-  EXPECT_NEAR(found[0].field_of_view, 2 * std::atan(std::tan(0.6) * 200 / 320) * 180 / M_PI,
-              1e-9);
+  EXPECT_NEAR(found[0].field_of_view, 2 * std::atan(std::tan(0.6) * 200 / 320) * 180 / M_PI, 1e-9);
   // The camera looks along the link's x; MuJoCo's cameras look along their -z.
   const double* q = implOf(world).model->cam_quat;
   const Eigen::Matrix3d turn = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();

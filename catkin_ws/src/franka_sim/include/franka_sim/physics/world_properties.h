@@ -15,10 +15,10 @@
 
 /// @file
 /// What a World contains: functions that read and change its bodies, joints, contacts, gravity and
-/// lights by their names. The thread that uses the world calls them, between ticks. They are not
-/// real-time safe and throw std::runtime_error with a sentence for an unknown name; functions that
-/// change something also while the world has stopped (World::stopped), and for numbers beyond
-/// the limits in namespace sizes.
+/// lights by their names. The thread that uses the world calls them, between ticks. All throw
+/// std::runtime_error with a sentence for an unknown name; those that change something also while
+/// the world has stopped (World::stopped), and for numbers beyond the limits in namespace sizes.
+/// Not real-time safe.
 
 namespace franka_sim {
 
@@ -109,7 +109,7 @@ struct BodyInertia {
 };
 
 /// @throws std::runtime_error with a sentence for an unknown body, and for one that is fixed to
-/// another and belongs to that one's inertia. Not real-time safe.
+/// another and belongs to that one's inertia
 BodyInertia bodyInertia(const World& world, const std::string& body);
 
 /// @name Joints with one degree of freedom
@@ -146,7 +146,7 @@ struct WorldLight {
   std::array<double, 3> direction{{0, 0, -1}};   ///< likewise, of any length but 0
 };
 
-/// @name Lights by their names. Not real-time safe.
+/// @name Lights
 /// @throws std::runtime_error with a sentence for an unknown or removed one
 /// @{
 WorldLight light(const World& world, const std::string& name);
