@@ -18,6 +18,98 @@
 
 namespace franka_sim {
 
+/// The desired motion in the robot's state: q_d, O_T_EE_d, elbow_d and so on. Called by one thread.
+/// Real-time safe.
+class DesiredState {
+ public:
+  /// @param state outlives this.
+  explicit DesiredState(franka_core::RobotState& state) noexcept : state_(&state) {}
+
+  /// Sets the joints [rad, rad/s, rad/s^2]; the next update() computes the other fields.
+  void set(const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d,
+           const std::array<double, 7>& ddq_d) noexcept;
+  /// Sets all fields.
+  void set(const DesiredMotion& desired) noexcept;
+  /// Frames or loads have changed.
+  void invalidate() noexcept { stale_ = true; }
+  /// Computes what does not belong to the joints and frames any more.
+  void update(const franka_core::ArmModel& model) noexcept;
+
+ private:
+  FixedPointer<franka_core::RobotState> state_;
+  bool stale_{true};
+};
+
+/// A motion that a client commands: the Move request, its generator, filters and torques, and the
+/// count of its commands. Called by one thread. Real-time safe.
+class ClientMotion {
+ public:
+  /// @param max_torque of the motors [Nm]
+  ClientMotion(const MotionLimits& limits, const std::array<double, 7>& max_torque) noexcept
+      : generator_(limits), torque_(max_torque) {}
+
+  /// Starts the generator, if the request has one. Nothing changes if that is refused.
+  MotionStartResult start(const franka_core::fci::MoveRequest& request,
+                          const franka_core::RobotState& state,
+                          const franka_core::ArmModel& model) noexcept;
+  /// Filters begin at the desired motion of the state.
+  void beginFilters(const franka_core::RobotState& state) noexcept { filter_.begin(state); }
+
+  struct Step {
+    ErrorSet errors;
+    bool generated{false};  ///< desired() is new
+    bool finished{false};   ///< by the client
+  };
+  /// One tick. @param command nullptr if none arrived @param reflexes whether lost commands and
+  /// steps of torque are errors; without them, commands with torques that are not finite are lost
+  Step step(const franka_core::RobotCommand* command, bool reflexes,
+            const franka_core::ArmModel& model) noexcept;
+
+  /// The client is lost: from now on, missing commands count.
+  void clientIsLost() noexcept { request_.use_async_motion_generator = false; }
+  /// Torques and counts belong to one motion.
+  void clear() noexcept;
+  /// From the next motion on.
+  void setLimits(const MotionLimits& limits) noexcept { generator_ = MotionGenerator(limits); }
+  CommandFilter& filter() noexcept { return filter_; }
+
+  const franka_core::fci::MoveRequest& request() const noexcept { return request_; }
+  bool hasGenerator() const noexcept;
+  bool hasExternalController() const noexcept;
+  const DesiredMotion& desired() const noexcept { return generator_.desired(); }
+  const std::array<double, 7>& torque() const noexcept { return torque_.value(); }  ///< [Nm]
+  double successRate() const noexcept { return losses_.rate(); }
+  const MotionLimits& limits() const noexcept { return generator_.limits(); }
+
+ private:
+  franka_core::fci::MoveRequest request_;
+  MotionGenerator generator_;
+  CommandFilter filter_;
+  TorqueCommand torque_;
+  LossMonitor losses_;
+};
+
+/// The joints' brakes, which close on an arm that has come to rest (a stop of category 1,
+/// IEC 60204-1). Called by one thread. Real-time safe.
+class JointBrakes {
+ public:
+  bool closed() const noexcept { return closed_; }
+  void open() noexcept { closed_ = false; }
+  /// Begins to close them: at once if the arm rests.
+  void close(bool rests) noexcept;
+  /// One tick of an arm that is to come to rest. @returns whether it has been resting for a while
+  bool hasComeToRest(bool rests) noexcept;
+  /// One tick of brakes that wait for the arm, which no longer brakes by its motors.
+  void step(bool rests) noexcept;
+  /// Begins to count again. @param closed whether the brakes are closed
+  void restart(bool closed) noexcept;
+
+ private:
+  bool closed_{false};
+  int ticks_{0};          // since the end of braking
+  int resting_ticks_{0};  // in a row
+};
+
 /// Controls modes, motions and their commands, stops, reflexes and recovery. Writes the modes,
 /// errors and desired fields of the robot's state.
 ///
@@ -61,50 +153,38 @@ class MotionSupervisor {
   /// The arm was moved to another pose, see ControlUnit::restart.
   void restart() noexcept;
   /// Frames or loads have changed: the desired pose is computed again.
-  void framesChange() noexcept { desired_stale_ = true; }
+  void framesChange() noexcept { desired_.invalidate(); }
   /// The limits of the configured protocol version apply from the next motion on.
   void limitsChange() noexcept;
 
   bool isMoving() const noexcept { return mode() == franka_core::RobotMode::kMove; }
-  bool generates() const noexcept;
+  bool generates() const noexcept { return motion_.hasGenerator(); }
   bool acceptsSetters() const noexcept;
-  bool brakesClosed() const noexcept { return brakes_closed_; }
+  bool brakesClosed() const noexcept { return brakes_.closed(); }
   UnitStatus status() const noexcept;
-  const MotionLimits& limits() const noexcept { return generator_.limits(); }
+  const MotionLimits& limits() const noexcept { return motion_.limits(); }
   const VirtualWalls& walls() const noexcept { return safety_.walls(); }
 
  private:
   franka_core::RobotMode mode() const noexcept { return modes_.mode(); }
   bool hasReflexes() const noexcept { return configuration_->hasReflexes(); }
-  bool controlledOutside() const noexcept;
   const CollisionThresholds& thresholds() const noexcept;
-  const franka_core::ArmLimits& brakingLimits() const noexcept { return generator_.limits().arm; }
 
   // a tick
-  void initializeFromMeasurement() noexcept;
-  void updateDesired() noexcept;
   void advanceMotion(const franka_core::RobotCommand* command) noexcept;
-  const franka_core::RobotCommand* receive(const franka_core::RobotCommand* command) noexcept;
-  bool advanceGenerator(const franka_core::RobotCommand* command) noexcept;
-  bool takeTorque(const franka_core::RobotCommand& command) noexcept;
-  void finishMotion() noexcept;
   void advanceRest() noexcept;
   void advanceRecovery() noexcept;
   void advanceBrakes() noexcept;
-  bool hasComeToRest() noexcept;
-  bool standsStill() const noexcept;
+  bool rests() const noexcept;
 
   // transitions
   Answer startMotion(const franka_core::fci::MoveRequest& request) noexcept;
-  MotionStartResult startGenerator(const franka_core::fci::MoveRequest& request) noexcept;
   Answer recover() noexcept;
-  Answer recoverWithoutReflex() noexcept;
   void react() noexcept;
   void endMotion(ModeEvent event, Status status, bool at_rest) noexcept;
   void atRest() noexcept;
   bool change(ModeEvent event) noexcept;
   void enter(franka_core::RobotMode before) noexcept;
-  void enterMove() noexcept;
   void settle() noexcept;
   void clearMotionData() noexcept;
   void clearErrors() noexcept;
@@ -112,37 +192,26 @@ class MotionSupervisor {
   void stopAndClose() noexcept;
   void leaveStop(ModeEvent event) noexcept;
   void holdPosition() noexcept;
-  void followArm() noexcept;
   void guideFromHere() noexcept;
-  void showJoints(const std::array<double, 7>& q, const std::array<double, 7>& dq,
-                  const std::array<double, 7>& ddq) noexcept;
-  void showDesired(const DesiredMotion& desired) noexcept;
-  void showModes() noexcept;
+  void writeModes() noexcept;
 
   FixedPointer<const Configuration> configuration_;
   FixedPointer<StateEstimator> estimator_;
   FixedPointer<franka_core::RobotState> state_;
 
   ModeMachine modes_;
-  bool user_stop_{false}, brakes_requested_{false};
-  bool fci_active_{true};
+  struct OperatorInputs {
+    bool user_stop{false}, close_brakes{false}, fci_active{true};
+  } operator_;
   SafetyMonitor safety_;
+  ThresholdPhase phase_;
   PendingAnswers answers_;
 
-  franka_core::fci::MoveRequest move_;
-  MotionGenerator generator_;
-  CommandFilter filter_;
-  TorqueCommand torque_command_;
-  LossMonitor losses_;
-  bool accelerating_{false};
-  ThresholdPhase phase_;
-  bool in_acceleration_{false};  // the thresholds of acceleration apply
-
+  ClientMotion motion_;
+  DesiredState desired_;
   RestSequence rest_;
-  int recovery_ticks_{0}, still_ticks_{0};
-  bool brakes_closed_{false};
-  int closing_ticks_{0};      // since the end of braking
-  bool desired_stale_{true};  // q_d or the frames have changed
+  int recovery_ticks_{0};
+  JointBrakes brakes_;
   GuidingTask guiding_;
   LawSwitch law_switch_{LawSwitch::kNone};
 };

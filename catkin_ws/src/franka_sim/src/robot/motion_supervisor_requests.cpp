@@ -42,7 +42,7 @@ bool anyError(const franka_core::RobotState& state) noexcept {
 // --- motions -------------------------------------------------------------------------------------
 
 MotionSupervisor::Answer MotionSupervisor::handle(const codec::MoveRequest& request) noexcept {
-  return fci_active_ ? startMotion(request) : Status::kCommandNotPossibleRejected;
+  return operator_.fci_active ? startMotion(request) : Status::kCommandNotPossibleRejected;
 }
 
 MotionSupervisor::Answer MotionSupervisor::handle(const OperatorMove& request) noexcept {
@@ -59,33 +59,20 @@ MotionSupervisor::Answer MotionSupervisor::startMotion(const codec::MoveRequest&
       !isDeviation(request.max_goal_deviation)) {
     return Status::kInvalidArgumentRejected;
   }
-  if (with_generator) {
-    switch (startGenerator(request)) {
-      case MotionStartResult::kInvalidArgument:
-        return Status::kInvalidArgumentRejected;
-      case MotionStartResult::kSingular:
-        answers_.motionEnds(Status::kStartAtSingularPoseRejected);
-        return Status::kMotionStarted;
-      case MotionStartResult::kStarted:
-        break;
-    }
+  switch (motion_.start(request, *state_, configuration_->parameters().model)) {
+    case MotionStartResult::kInvalidArgument:
+      return Status::kInvalidArgumentRejected;
+    case MotionStartResult::kSingular:
+      answers_.motionEnds(Status::kStartAtSingularPoseRejected);
+      return Status::kMotionStarted;
+    case MotionStartResult::kStarted:
+      break;
   }
   atRest();  // a torque motion may start while the arm still brakes
-  move_ = request;
   answers_.motionBegins();
   state_->reflex_reason.fill(false);
   change(ModeEvent::kMotionStarted);
   return Status::kMotionStarted;
-}
-
-MotionStartResult MotionSupervisor::startGenerator(const codec::MoveRequest& request) noexcept {
-  MotionStart start;
-  start.mode = request.motion_generator_mode;
-  start.q_d = state_->q_d;
-  start.F_T_EE = state_->F_T_EE;
-  start.asynchronous = request.use_async_motion_generator;
-  start.maximum_velocity = request.maximum_velocity;
-  return generator_.start(start, configuration_->parameters().model);
 }
 
 MotionSupervisor::Answer MotionSupervisor::handle(const codec::StopMoveRequest& /*r*/) noexcept {
@@ -107,8 +94,14 @@ MotionSupervisor::Answer MotionSupervisor::handle(
     case RobotMode::kReflex:
       return recover();
     default:
-      return recoverWithoutReflex();
+      break;
   }
+  // Refused by the FCI outside Idle; ros_control may request it at any time.
+  if (configuration_->parameters().rules != InterfaceRules::kFci) {
+    clearErrors();
+    return Status::kSuccess;
+  }
+  return mode() == RobotMode::kIdle ? Status::kSuccess : Status::kCommandNotPossibleRejected;
 }
 
 MotionSupervisor::Answer MotionSupervisor::recover() noexcept {
@@ -117,29 +110,20 @@ MotionSupervisor::Answer MotionSupervisor::recover() noexcept {
   }
   answers_.recoveryBegins();
   recovery_ticks_ = 0;
-  still_ticks_ = 0;
+  brakes_.restart(brakes_.closed());
   change(ModeEvent::kRecoveryStarted);
   return std::nullopt;
 }
 
-// Refused by the FCI outside Idle; ros_control may request it at any time.
-MotionSupervisor::Answer MotionSupervisor::recoverWithoutReflex() noexcept {
-  if (configuration_->parameters().rules != InterfaceRules::kFci) {
-    clearErrors();
-    return Status::kSuccess;
-  }
-  return mode() == RobotMode::kIdle ? Status::kSuccess : Status::kCommandNotPossibleRejected;
-}
-
 MotionSupervisor::Answer MotionSupervisor::handle(const ClientLost& /*request*/) noexcept {
-  move_.use_async_motion_generator = false;
+  motion_.clientIsLost();
   return Status::kSuccess;
 }
 
 // --- the operator --------------------------------------------------------------------------------
 
 MotionSupervisor::Answer MotionSupervisor::handle(const UserStop& request) noexcept {
-  user_stop_ = request.pressed;
+  operator_.user_stop = request.pressed;
   if (request.pressed) {
     endMotion(ModeEvent::kUserStopPressed, Status::kEmergencyAborted, false);
   } else {
@@ -158,7 +142,7 @@ MotionSupervisor::Answer MotionSupervisor::handle(const Guiding& request) noexce
 }
 
 MotionSupervisor::Answer MotionSupervisor::handle(const Brakes& request) noexcept {
-  brakes_requested_ = request.closed;
+  operator_.close_brakes = request.closed;
   if (request.closed) {
     endMotion(ModeEvent::kBrakesClosed, Status::kAborted, false);
   } else {
@@ -168,7 +152,7 @@ MotionSupervisor::Answer MotionSupervisor::handle(const Brakes& request) noexcep
 }
 
 MotionSupervisor::Answer MotionSupervisor::handle(const FciActivation& request) noexcept {
-  fci_active_ = request.active;
+  operator_.fci_active = request.active;
   if (!request.active && isMoving()) {
     endMotion(ModeEvent::kMotionEnded, Status::kAborted, false);
   }
@@ -198,7 +182,7 @@ MotionSupervisor::Answer MotionSupervisor::handle(
   if (isMoving()) {
     return Status::kCommandNotPossibleRejected;
   }
-  return filter_.set(request) ? Status::kSuccess : Status::kInvalidArgumentRejected;
+  return motion_.filter().set(request) ? Status::kSuccess : Status::kInvalidArgumentRejected;
 }
 
 MotionSupervisor::Answer MotionSupervisor::handle(const SetVirtualWall& request) noexcept {
@@ -210,17 +194,16 @@ MotionSupervisor::Answer MotionSupervisor::handle(const SetVirtualWall& request)
 }
 
 void MotionSupervisor::limitsChange() noexcept {
-  generator_ =
-      MotionGenerator(motionLimitsOfProtocol(configuration_->parameters().protocol_version));
+  motion_.setLimits(motionLimitsOfProtocol(configuration_->parameters().protocol_version));
 }
 
 UnitStatus MotionSupervisor::status() const noexcept {
   UnitStatus status;
   status.brakes_closed = brakesClosed();
-  status.user_stop_pressed = user_stop_;
-  status.fci_active = fci_active_;
+  status.user_stop_pressed = operator_.user_stop;
+  status.fci_active = operator_.fci_active;
   status.settling = !rest_.isFinished() || mode() == RobotMode::kAutomaticErrorRecovery ||
-                    modes_.closesBrakes() != brakes_closed_;
+                    modes_.closesBrakes() != brakesClosed();
   const std::array<double, 7>& dq = estimator_->estimate().dq;
   status.resting =
       std::all_of(dq.begin(), dq.end(), [](double v) { return std::abs(v) <= kResting; });
@@ -239,8 +222,7 @@ void MotionSupervisor::restart() noexcept {
   atRest();
   clearMotionData();
   law_switch_ = LawSwitch::kNone;
-  still_ticks_ = 0;
-  brakes_closed_ = modes_.closesBrakes();
+  brakes_.restart(modes_.closesBrakes());
 }
 
 // --- transitions ---------------------------------------------------------------------------------
@@ -288,27 +270,33 @@ bool MotionSupervisor::change(ModeEvent event) noexcept {
   law_switch_ = LawSwitch::kBlend;
   clearMotionData();
   enter(before);
-  showModes();
+  writeModes();
   return true;
 }
 
 // Commands, losses and accelerations belong to one motion.
 void MotionSupervisor::clearMotionData() noexcept {
   phase_.restart();
-  accelerating_ = false;
-  losses_.restart();
+  motion_.clear();
   safety_.lawChanges();
-  torque_command_.clear();
 }
 
 void MotionSupervisor::enter(RobotMode before) noexcept {
   switch (mode()) {
     case RobotMode::kMove:
-      enterMove();
+      rest_.finish();
+      if (!generates()) {
+        holdPosition();
+      }
+      if (motion_.hasExternalController()) {
+        law_switch_ = LawSwitch::kFromZero;
+      }
+      safety_.motionBegins();
+      motion_.beginFilters(*state_);
       break;
     case RobotMode::kIdle:
     case RobotMode::kReflex:
-      if (brakes_closed_) {
+      if (brakesClosed()) {
         holdPosition();
       } else if (before != RobotMode::kAutomaticErrorRecovery) {
         brake();
@@ -324,18 +312,17 @@ void MotionSupervisor::enter(RobotMode before) noexcept {
       stopAndClose();
       return;
   }
-  brakes_closed_ = false;
+  brakes_.open();
 }
 
 // The user stop, or the brakes: an arm that moves is brought to rest first.
 void MotionSupervisor::stopAndClose() noexcept {
-  closing_ticks_ = 0;
-  still_ticks_ = 0;
-  if (brakes_closed_) {
+  const bool were_closed = brakesClosed();
+  brakes_.close(rests());
+  if (were_closed) {
     return;
   }
-  brakes_closed_ = standsStill() && !rest_.isBraking();
-  if (brakes_closed_) {
+  if (brakesClosed()) {
     holdPosition();
   } else {
     brake();
@@ -344,22 +331,10 @@ void MotionSupervisor::stopAndClose() noexcept {
 
 // A stop that is released while the arm still brakes continues until the brakes are closed.
 void MotionSupervisor::leaveStop(ModeEvent event) noexcept {
-  const bool braking = modes_.closesBrakes() && !brakes_closed_;
+  const bool braking = modes_.closesBrakes() && !brakesClosed();
   if (!braking && change(event)) {
     settle();
   }
-}
-
-void MotionSupervisor::enterMove() noexcept {
-  rest_.finish();
-  if (!generates()) {
-    holdPosition();
-  }
-  if (controlledOutside()) {
-    law_switch_ = LawSwitch::kFromZero;
-  }
-  safety_.motionBegins();
-  filter_.begin(*state_);
 }
 
 // Leaves Idle again if the user stop is still pressed or an error remains.
@@ -368,7 +343,7 @@ void MotionSupervisor::settle() noexcept {
     // The shock of closing brakes and the forces of guiding are not collisions.
     estimator_->clearContacts();
   }
-  if (user_stop_) {
+  if (operator_.user_stop) {
     change(ModeEvent::kUserStopPressed);
   } else if (anyError(*state_)) {
     change(ModeEvent::kError);
@@ -387,9 +362,9 @@ void MotionSupervisor::brake() noexcept {
                        state_->motion_generator_mode != MotionGeneratorMode::kNone &&
                        state_->controller_mode != ControllerMode::kExternalController;
   if (desired || rest_.isBraking()) {
-    rest_.brake(state_->q_d, state_->dq_d, state_->ddq_d, brakingLimits());
+    rest_.brake(state_->q_d, state_->dq_d, state_->ddq_d, limits().arm);
   } else {
-    rest_.brake(state_->q, estimator_->estimate().dq, {}, brakingLimits());
+    rest_.brake(state_->q, estimator_->estimate().dq, {}, limits().arm);
   }
 }
 

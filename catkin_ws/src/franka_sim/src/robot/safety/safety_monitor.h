@@ -70,16 +70,24 @@ class VirtualWalls {
 /// Real-time safe.
 class ThresholdPhase {
  public:
-  /// One tick. @param accelerating more than a tenth of an acceleration limit is commanded
-  /// @returns whether the thresholds of acceleration are in effect.
-  bool update(bool accelerating) noexcept {
-    remaining_ = accelerating ? kTicks : (remaining_ > 0 ? remaining_ - 1 : 0);
-    return accelerating || remaining_ > 0;
+  /// One tick.
+  void step() noexcept {
+    remaining_ = accelerating_ ? kTicks : (remaining_ > 0 ? remaining_ - 1 : 0);
+    in_acceleration_ = remaining_ > 0;
   }
-  void restart() noexcept { remaining_ = 0; }
+  /// Whether more than a tenth of an acceleration limit is commanded, from the next tick on.
+  void setAccelerating(bool accelerating) noexcept { accelerating_ = accelerating; }
+  /// Forgets earlier accelerations; the thresholds of this tick stay.
+  void restart() noexcept {
+    accelerating_ = false;
+    remaining_ = 0;
+  }
+  /// Whether the thresholds of acceleration are in effect in this tick.
+  bool inAcceleration() const noexcept { return in_acceleration_; }
 
  private:
   static constexpr int kTicks = 100;
+  bool accelerating_{false}, in_acceleration_{false};
   int remaining_{0};
 };
 
