@@ -41,7 +41,7 @@ class Robot:
         self.text = ""
         self.problem = f"The robot at {self.place} has not answered yet."
         self.number = 0
-        self._asked = self._published = 0
+        self._requested = self._published = 0
         self._listeners: list[Callable[[], None]] = []
         self._lines, self._urgent = asyncio.Semaphore(LINES), asyncio.Semaphore(URGENT_LINES)
         self._running: set[asyncio.Task[str]] = set()
@@ -101,7 +101,7 @@ class Robot:
     async def refresh(self) -> Report:
         """A report of the robot after this call. Raises RobotGone."""
         async with Connection(self.address, self.port) as connection:
-            await self._ask_report(connection)
+            await self._request_report(connection)
         return self.current_report()
 
     # ---- lines -------------------------------------------------------------------------------------------
@@ -118,7 +118,7 @@ class Robot:
                     return await connection.exchange(line, LINE_LIMIT)
                 finally:
                     with contextlib.suppress(RobotGone):
-                        await self._ask_report(connection)
+                        await self._request_report(connection)
 
     # ---- reports -----------------------------------------------------------------------------------------
 
@@ -127,16 +127,16 @@ class Robot:
             try:
                 async with Connection(self.address, self.port) as connection:
                     while True:
-                        await self._ask_report(connection)
+                        await self._request_report(connection)
                         await asyncio.sleep(self.period)
             except RobotGone as error:
                 self._lose(str(error))
             await asyncio.sleep(PAUSE)
 
     # An answer may overtake an older one on another connection: the older one is dropped.
-    async def _ask_report(self, connection: Connection) -> None:
-        self._asked += 1
-        number = self._asked
+    async def _request_report(self, connection: Connection) -> None:
+        self._requested += 1
+        number = self._requested
         try:
             text = await connection.exchange("report", REPORT_LIMIT)
         except Refused as refused:

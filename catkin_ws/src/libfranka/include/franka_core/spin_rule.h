@@ -41,7 +41,7 @@ bool hasTwoProcessors() noexcept;
 /// The pause is 32 times as long as the trial that led to it, so on a busy machine trials take 3 %
 /// of the time. Measurements: docs/design/decisions.md.
 ///
-/// Called by one thread at a time. Real-time safe. The only system calls are those of `look` and of
+/// Called by one thread at a time. Real-time safe. The only system calls are those of `poll` and of
 /// the clock.
 class SpinRule {
  public:
@@ -59,19 +59,19 @@ class SpinRule {
 
   WaitMode mode() const noexcept { return mode_; }  ///< as it was given
 
-  /// Calls `look` until it returns true, for kMaxSpin at most; not at all if the caller should
+  /// Calls `poll` until it returns true, for kMaxSpin at most; not at all if the caller should
   /// sleep instead.
   /// @param now the clock; tests have their own.
-  /// @returns whether `look` has returned true.
-  template <typename Look, typename Now>
-  bool spin(Look look, Now now) {
+  /// @returns whether `poll` has returned true.
+  template <typename Poll, typename Now>
+  bool spin(Poll poll, Now now) {
     const Clock::time_point begin = now();
     if (!begins(begin)) {
       return false;
     }
     Clock::duration away{};
     Clock::time_point before = begin;
-    bool answered = look();
+    bool answered = poll();
     Clock::time_point after = now();
     while (true) {
       away += after - before >= kGap ? after - before : Clock::duration{};
@@ -79,20 +79,20 @@ class SpinRule {
         break;
       }
       before = after;
-      answered = look();
+      answered = poll();
       after = now();
     }
     conclude(begin, after, away, answered);
     return answered;
   }
-  template <typename Look>
-  bool spin(Look look) {
-    return spin(look, [] { return Clock::now(); });
+  template <typename Poll>
+  bool spin(Poll poll) {
+    return spin(poll, [] { return Clock::now(); });
   }
 
  private:
-  /// A look that takes so long was interrupted: the thread did not run. Chosen here: ten times as
-  /// long as a look at several sockets.
+  /// A poll that takes so long was interrupted: the thread did not run. Chosen here: ten times as
+  /// long as a poll of several sockets.
   static constexpr std::chrono::microseconds kGap{40};
 
   bool begins(Clock::time_point now) noexcept;
