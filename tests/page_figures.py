@@ -230,7 +230,7 @@ def fidelity():
         ("# times the motors'", constant(ROBOT + "limits.cpp", "kTorqueMargin = #;")),
         ("# times the joints' jerk", constant(ROBOT + "motion/joint_motion.cpp", "kSolvedJerkFactor = #;")),
         ("been slower than # rad/s", constant(ROBOT + "motion_supervisor.cpp", "kStandstill = #;")),
-        ("for # ms, so that", constant(ROBOT + "motion_supervisor.cpp", "kStillTicks = #;")),
+        ("for # ms, so that", constant(ROBOT + "motion_supervisor.cpp", "kRestingTicks = #;")),
         ("or after # s in which", constant(ROBOT + "motion_supervisor.cpp", "kClosingTicks = #;") * tick),
         (
             "with # times, it would never",

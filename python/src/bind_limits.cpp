@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_core/limits.h>
+#include <franka_core/motion_limits.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
@@ -11,40 +11,19 @@ namespace pyfranka {
 namespace {
 
 using franka_core::DerivativeLimits;
-using franka_core::PositionVelocityLimits;
-
-/// The table of a robot, and its velocity limits that depend on the position.
-struct Limits {
-  unsigned version;
-  const franka_core::ArmLimits& arm;
-
-  explicit Limits(unsigned version)
-      : version(version), arm(franka_core::limitsOfProtocol(version)) {}
-
-  std::array<double, 2> velocityRange(std::size_t joint, double q) const {
-    if (version <= 5) {
-      return {-arm.dq[joint], arm.dq[joint]};
-    }
-    const PositionVelocityLimits& limits = version >= 10
-                                               ? franka_core::kFr3PositionVelocityLimitsFrom59
-                                               : franka_core::kFr3PositionVelocityLimits;
-    return {franka_core::lowerVelocityLimit(limits, joint, q),
-            franka_core::upperVelocityLimit(limits, joint, q)};
-  }
-};
+using franka_core::MotionLimits;
 
 using Positions = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-py::tuple velocityRanges(const Limits& limits, const Positions& q) {
+py::tuple velocityRanges(const MotionLimits& limits, const Positions& q) {
   if (q.ndim() < 1 || q.ndim() > 2 || q.shape(q.ndim() - 1) != 7) {
     throw std::invalid_argument("q must be 7 joint positions, or rows of 7.");
   }
   py::array_t<double> lower(q.request().shape), upper(q.request().shape);
   for (py::ssize_t i = 0; i < q.size(); i++) {
-    const std::array<double, 2> range =
-        limits.velocityRange(static_cast<std::size_t>(i % 7), q.data()[i]);
-    lower.mutable_data()[i] = range[0];
-    upper.mutable_data()[i] = range[1];
+    const auto joint = static_cast<std::size_t>(i % 7);
+    lower.mutable_data()[i] = limits.lowestVelocity(joint, q.data()[i]);
+    upper.mutable_data()[i] = limits.highestVelocity(joint, q.data()[i]);
   }
   return py::make_tuple(lower, upper);
 }
@@ -54,19 +33,21 @@ std::array<double, 3> derivatives(const DerivativeLimits& limits) {
 }
 
 template <typename Type>
-void vector(py::class_<Limits>& type, const char* name, Type franka_core::ArmLimits::* member,
+void vector(py::class_<MotionLimits>& type, const char* name, Type franka_core::ArmLimits::* member,
             const char* doc) {
   type.def_property_readonly(
-      name, [member](const Limits& self) { return copy(self.arm.*member, Shape::kVector); }, doc);
+      name, [member](const MotionLimits& self) { return copy(self.arm.*member, Shape::kVector); },
+      doc);
 }
 
 }  // namespace
 
 void bindLimits(py::module_& module) {
   using franka_core::ArmLimits;
-  py::class_<Limits> type(module, "ArmLimits", py::module_local(),
-                          "The limits of an arm's motions.");
-  type.def(py::init<unsigned>(), py::arg("version"),
+  py::class_<MotionLimits> type(module, "ArmLimits", py::module_local(),
+                                "The limits of an arm's motions.");
+  type.def(py::init([](unsigned version) { return franka_core::motionLimitsOfProtocol(version); }),
+           py::arg("version"),
            "Of robots with this protocol version, Robot.server_version: up to 5 a Panda, then an "
            "FR3, from 10 on one with system 5.9 or later.");
   vector(type, "q_min", &ArmLimits::q_min, "Lowest joint positions [rad].");
@@ -77,10 +58,10 @@ void bindLimits(py::module_& module) {
   vector(type, "tau", &ArmLimits::tau, "Torques [Nm].");
   vector(type, "dtau", &ArmLimits::dtau, "Torque rates [Nm/s].");
   type.def_property_readonly(
-          "translation", [](const Limits& self) { return derivatives(self.arm.translation); },
+          "translation", [](const MotionLimits& self) { return derivatives(self.arm.translation); },
           "Velocity, acceleration and jerk of EE [m/s and so on].")
       .def_property_readonly(
-          "rotation", [](const Limits& self) { return derivatives(self.arm.rotation); },
+          "rotation", [](const MotionLimits& self) { return derivatives(self.arm.rotation); },
           "The same of its rotation [rad/s and so on].")
       .def("velocity_range", &velocityRanges, py::arg("q"),
            "Lowest and highest joint velocities [rad/s] at joint positions, 7 or rows of 7 [rad]: "

@@ -103,9 +103,8 @@ std::vector<std::uint8_t> servedLibrary(const ArmModel& arm) {
 
 std::string servedUrdf(const ArmModel& arm, unsigned protocol_version) {
   const ArmLimits& limits = franka_core::limitsOfProtocol(protocol_version);
-  const PositionVelocityLimits& velocities = protocol_version >= 10
-                                                 ? franka_core::kFr3PositionVelocityLimitsFrom59
-                                                 : franka_core::kFr3PositionVelocityLimits;
+  const PositionVelocityLimits& velocities =
+      franka_core::fr3VelocityLimitsOfProtocol(protocol_version);
   std::string text = "<?xml version=\"1.0\"?>\n<robot name=\"fr3\">\n  <link name=\"link0\"/>\n";
   for (std::size_t i = 0; i < 7; i++) {
     text += linkText("link" + std::to_string(i + 1), arm.links()[i]);

@@ -1,6 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_core/numbers.h>
 #include <franka_sim/robot/limits.h>
 
 #include <algorithm>
@@ -10,76 +9,6 @@
 namespace franka_sim {
 
 using franka_core::RobotError;
-
-namespace {
-constexpr unsigned kFirstFr3 = 6;
-constexpr unsigned kFirstOf572 = 9;  // system 5.7.2: without flags 12 and 27
-constexpr unsigned kFirstOf59 = 10;  // system 5.9: floats on the wire, its own limit tables
-}  // namespace
-
-double MotionLimits::highestVelocity(std::size_t joint, double q) const noexcept {
-  const double limit = arm.dq[joint];
-  return position_velocity
-             ? std::min(limit, franka_core::upperVelocityLimit(velocity_near_ends, joint, q))
-             : limit;
-}
-
-double MotionLimits::lowestVelocity(std::size_t joint, double q) const noexcept {
-  const double limit = -arm.dq[joint];
-  return position_velocity
-             ? std::max(limit, franka_core::lowerVelocityLimit(velocity_near_ends, joint, q))
-             : limit;
-}
-
-franka_core::JointRange MotionLimits::reach(std::size_t joint) const noexcept {
-  franka_core::JointRange range{arm.q_min[joint], arm.q_max[joint]};
-  if (position_velocity) {
-    const franka_core::JointRange reachable = franka_core::reachOf(velocity_near_ends, joint);
-    range.lowest = std::max(range.lowest, reachable.lowest);
-    range.highest = std::min(range.highest, reachable.highest);
-  }
-  return range;
-}
-
-franka_core::JointRange MotionLimits::reachFrom(std::size_t joint, double q) const noexcept {
-  const franka_core::JointRange range = reach(joint);
-  return {std::min(range.lowest, q), std::max(range.highest, q)};
-}
-
-std::string MotionLimits::reachText(std::size_t joint, double q) const {
-  constexpr int kDecimals = 4;
-  constexpr double kDigits = 1e4;
-  const franka_core::JointRange range = reach(joint);
-  return "between " +
-         franka_core::fixedText(std::ceil(range.lowest * kDigits) / kDigits, kDecimals) + " and " +
-         franka_core::fixedText(std::floor(range.highest * kDigits) / kDigits, kDecimals) +
-         " rad, not at " + franka_core::numberText(q, 9);
-}
-
-franka_core::DerivativeLimits MotionLimits::elbow() const noexcept {
-  franka_core::DerivativeLimits limits = arm.elbow;
-  limits.velocity = std::max(limits.velocity, arm.documented_elbow_velocity);
-  return limits;
-}
-
-RobotError MotionLimits::positionFlag(bool solved) const noexcept {
-  if (!own_position_flags) {
-    return RobotError::kJointPositionLimitsViolation;
-  }
-  return solved ? RobotError::kCartesianMotionGeneratorJointPositionLimitsViolation
-                : RobotError::kJointMotionGeneratorPositionLimitsViolation;
-}
-
-MotionLimits motionLimitsOfProtocol(unsigned version) noexcept {
-  MotionLimits limits;
-  limits.arm = franka_core::limitsOfProtocol(version);
-  limits.position_velocity = version >= kFirstFr3;
-  limits.velocity_near_ends = version >= kFirstOf59 ? franka_core::kFr3PositionVelocityLimitsFrom59
-                                                    : franka_core::kFr3PositionVelocityLimits;
-  limits.own_position_flags = version < kFirstOf572;
-  limits.echoes_floats = version >= kFirstOf59;
-  return limits;
-}
 
 namespace {
 

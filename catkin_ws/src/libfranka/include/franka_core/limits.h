@@ -126,6 +126,12 @@ constexpr PositionVelocityLimits kFr3PositionVelocityLimitsFrom59 = [] {
   return limits;
 }();
 
+/// The joint velocity limits of an FR3 with this protocol version; clients of protocol 10 read them
+/// from the URDF.
+constexpr const PositionVelocityLimits& fr3VelocityLimitsOfProtocol(unsigned version) noexcept {
+  return version < 10 ? kFr3PositionVelocityLimits : kFr3PositionVelocityLimitsFrom59;
+}
+
 /// Highest velocity of a joint (0 to 6) at position q [rad]: min(V, max(0, -o + sqrt(c (q_max -
 /// q)))).
 inline double upperVelocityLimit(const PositionVelocityLimits& limits, std::size_t joint,

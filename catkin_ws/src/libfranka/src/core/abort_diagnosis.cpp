@@ -87,7 +87,7 @@ std::string rangeOf(const Position& position, const char* verb, const ArmLimits&
 class Diagnosis {
  public:
   Diagnosis(const std::vector<AbortRecord>& log, unsigned version)
-      : log_(log), version_(version), measures_(log, version), limits_(limitsOfProtocol(version)) {}
+      : log_(log), measures_(log, version), limits_(measures_.limits().arm) {}
 
   std::string sentence(std::size_t flag) const {
     return std::string(kErrorNames[flag]) + ": " + explain(flag);
@@ -115,7 +115,6 @@ class Diagnosis {
   std::string invalidFrame() const;
 
   const std::vector<AbortRecord>& log_;
-  unsigned version_;
   AbortMeasures measures_;
   const ArmLimits& limits_;
 };
@@ -163,7 +162,7 @@ std::string Diagnosis::positionViolation() const {
   if (measured.beyond <= 0.0 && commanded_position.beyond > 0.0) {
     return rangeOf(commanded_position, cartesian ? kWouldHaveFollowed : kWasCommanded, limits_);
   }
-  if (measured.beyond <= 0.0 && !cartesian && version_ >= 10) {
+  if (measured.beyond <= 0.0 && !cartesian) {
     const std::string text = unreachable();
     if (!text.empty()) {
       return text;
@@ -177,7 +176,7 @@ std::string Diagnosis::unreachable() const {
   for (auto record = log_.rbegin(); record != log_.rend(); ++record) {
     const std::array<double, 7>& q_c = record->command.q_c;
     for (std::size_t i = 0; isUsed(q_c) && i < 7; i++) {
-      const JointRange reach = reachOf(kFr3PositionVelocityLimitsFrom59, i);
+      const JointRange reach = measures_.limits().reach(i);
       if (q_c[i] < reach.lowest || q_c[i] > reach.highest) {
         return jointName(i) + " " + kWasCommanded + " " + number(q_c[i]) +
                " rad, and its velocity limit, which shrinks towards the ends of its range, is 0 "

@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "abort_measures.h"
 
-#include <franka_core/limits.h>
-#include <franka_core/rotations.h>
+#include <franka_core/motion_steps.h>
 #include <franka_core/tick.h>
 
-#include <Eigen/Geometry>
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -15,9 +14,7 @@ namespace franka_core {
 
 namespace {
 
-using Matrix4 = Eigen::Map<const Eigen::Matrix4d>;
-using Twist = Eigen::Matrix<double, 6, 1>;
-using Joints = std::array<double, 7>;
+using Twist = Eigen::Map<const Eigen::Matrix<double, 6, 1>>;
 
 /// Two successive records: the command answers the first one's state.
 struct Step {
@@ -47,29 +44,30 @@ std::optional<Excess> worstStep(const std::vector<AbortRecord>& log, Measure mea
   return worst;
 }
 
-/// Commanded joint velocity of either joint generator; empty if none runs.
-std::optional<Joints> velocityOf(const Step& step) {
+/// The step of the joints that either joint generator's command makes; empty if none runs.
+std::optional<JointSample> jointStep(const Step& step) {
+  const JointSample last{step.before.q_d, step.before.dq_d, step.before.ddq_d, {}};
   if (isUsed(step.command.q_c)) {
-    Joints dq{};
-    for (std::size_t i = 0; i < 7; i++) {
-      dq[i] = (step.command.q_c[i] - step.before.q_d[i]) / kTick;
-    }
-    return dq;
+    return stepToPositions(last, step.command.q_c);
   }
   if (isUsed(step.command.dq_c)) {
-    return step.command.dq_c;
+    return stepByVelocities(last, step.command.dq_c);
   }
   return std::nullopt;
 }
 
-/// Commanded twist [m/s, rad/s] of either Cartesian generator; empty if none runs.
-std::optional<Twist> twistOf(const Step& step) {
+/// The step of the end effector that either Cartesian generator's command makes; empty if none
+/// runs.
+std::optional<CartesianSample> cartesianStep(const Step& step) {
+  CartesianSample last;
+  last.pose = step.before.O_T_EE_c;
+  last.twist = step.before.O_dP_EE_c;
+  last.acceleration = step.before.O_ddP_EE_c;
   if (isUsed(step.command.O_T_EE_c)) {
-    return twistBetween(Matrix4(step.before.O_T_EE_c.data()), Matrix4(step.command.O_T_EE_c.data()),
-                        kTick);
+    return stepToPose(last, step.command.O_T_EE_c, 0.0);
   }
   if (isUsed(step.command.O_dP_EE_c)) {
-    return Eigen::Map<const Twist>(step.command.O_dP_EE_c.data());
+    return stepByTwist(last, step.command.O_dP_EE_c, 0.0);
   }
   return std::nullopt;
 }
@@ -83,35 +81,34 @@ double boundOf(int order, const DerivativeLimits& limits) {
   return pick(order, limits.velocity, limits.acceleration, limits.jerk);
 }
 
-/// Joints at one moment, with their derivatives.
-struct JointSample {
-  Joints q, dq, ddq, dddq;
-  std::uint64_t time;
+struct TimedSample {
+  JointSample joints;
+  std::uint64_t time;  // [ms]
 };
 
 /// The desired joints of the motion and of the step that would have followed. The last state is not
 /// included: the robot already brakes in it.
-std::vector<JointSample> solvedSamples(const std::vector<AbortRecord>& log) {
-  std::vector<JointSample> samples;
+std::vector<TimedSample> solvedSamples(const std::vector<AbortRecord>& log) {
+  std::vector<TimedSample> samples;
   for (std::size_t k = 0; k + 1 < log.size(); k++) {
     const RobotState& state = log[k].state;
-    JointSample sample{state.q_d, state.dq_d, state.ddq_d, {}, state.message_id};
+    JointSample joints{state.q_d, state.dq_d, state.ddq_d, {}};
     if (k > 0 && state.message_id > log[k - 1].state.message_id) {
       const RobotState& before = log[k - 1].state;
       const double period = kTick * static_cast<double>(state.message_id - before.message_id);
       for (std::size_t i = 0; i < 7; i++) {
-        sample.dddq[i] = (state.ddq_d[i] - before.ddq_d[i]) / period;
+        joints.dddq[i] = (state.ddq_d[i] - before.ddq_d[i]) / period;
       }
     }
-    samples.push_back(sample);
+    samples.push_back({joints, state.message_id});
   }
   if (!samples.empty()) {
-    JointSample next = samples.back();
+    TimedSample next = samples.back();
     next.time++;
     for (std::size_t i = 0; i < 7; i++) {
-      next.ddq[i] += next.dddq[i] * kTick;
-      next.dq[i] += next.ddq[i] * kTick;
-      next.q[i] += next.dq[i] * kTick;
+      next.joints.ddq[i] += next.joints.dddq[i] * kTick;
+      next.joints.dq[i] += next.joints.ddq[i] * kTick;
+      next.joints.q[i] += next.joints.dq[i] * kTick;
     }
     samples.push_back(next);
   }
@@ -130,65 +127,47 @@ double Excess::ratio() const {
 
 std::string jointName(std::size_t i) { return "joint " + std::to_string(i + 1); }
 
-AbortMeasures::AbortMeasures(const std::vector<AbortRecord>& log, unsigned version)
-    : log_(log), version_(version) {}
-
-double AbortMeasures::velocityLimit(std::size_t joint, double q, double direction) const {
-  if (version_ <= 5) {
-    return limitsOfProtocol(version_).dq[joint];
-  }
-  const PositionVelocityLimits& limits =
-      version_ >= 10 ? kFr3PositionVelocityLimitsFrom59 : kFr3PositionVelocityLimits;
-  return direction >= 0.0 ? upperVelocityLimit(limits, joint, q)
-                          : -lowerVelocityLimit(limits, joint, q);
+double AbortMeasures::jointLimit(int order, std::size_t joint, double q, double value) const {
+  const double velocity =
+      value >= 0.0 ? limits_.highestVelocity(joint, q) : -limits_.lowestVelocity(joint, q);
+  return pick(order, velocity, limits_.arm.ddq[joint], limits_.arm.dddq[joint]);
 }
 
 std::optional<Excess> AbortMeasures::commandedJoints(int order) const {
-  const ArmLimits& limits = limitsOfProtocol(version_);
   return worstStep(log_, [&](const Step& step, const auto& found) {
-    const auto dq = velocityOf(step);
-    for (std::size_t i = 0; dq && i < 7; i++) {
-      const double ddq = ((*dq)[i] - step.before.dq_d[i]) / kTick;
-      const double dddq = (ddq - step.before.ddq_d[i]) / kTick;
-      const double value = pick(order, (*dq)[i], ddq, dddq);
-      const double dq_max = velocityLimit(i, step.before.q_d[i], value);
-      found({jointName(i), "rad", value, pick(order, dq_max, limits.ddq[i], limits.dddq[i])});
+    const std::optional<JointSample> joints = jointStep(step);
+    for (std::size_t i = 0; joints && i < 7; i++) {
+      const double value = pick(order, joints->dq, joints->ddq, joints->dddq)[i];
+      found({jointName(i), "rad", value, jointLimit(order, i, step.before.q_d[i], value)});
     }
   });
 }
 
 std::optional<Excess> AbortMeasures::commandedTwist(int order) const {
-  const ArmLimits& limits = limitsOfProtocol(version_);
   return worstStep(log_, [&](const Step& step, const auto& found) {
-    const auto twist = twistOf(step);
-    if (!twist) {
+    const std::optional<CartesianSample> sample = cartesianStep(step);
+    if (!sample) {
       return;
     }
-    const Twist acceleration =
-        (*twist - Eigen::Map<const Twist>(step.before.O_dP_EE_c.data())) / kTick;
-    const Twist jerk =
-        (acceleration - Eigen::Map<const Twist>(step.before.O_ddP_EE_c.data())) / kTick;
-    const Twist& value = pick(order, *twist, acceleration, jerk);
-    found({"the translation", "m", value.head<3>().norm(), boundOf(order, limits.translation)});
-    found({"the rotation", "rad", value.tail<3>().norm(), boundOf(order, limits.rotation)});
+    const Twist value(pick(order, sample->twist, sample->acceleration, sample->jerk).data());
+    found(
+        {"the translation", "m", value.head<3>().norm(), boundOf(order, limits_.arm.translation)});
+    found({"the rotation", "rad", value.tail<3>().norm(), boundOf(order, limits_.arm.rotation)});
   });
 }
 
 std::optional<Excess> AbortMeasures::commandedElbow(int& order) const {
-  const ArmLimits& limits = limitsOfProtocol(version_);
-  DerivativeLimits bounds = limits.elbow;
-  bounds.velocity = std::max(bounds.velocity, limits.documented_elbow_velocity);
   std::optional<Excess> excess;
   for (order = 1; order <= 3; order++) {
     excess = worstStep(log_, [&](const Step& step, const auto& found) {
       if (!step.command.valid_elbow) {
         return;
       }
-      const double velocity = (step.command.elbow_c[0] - step.before.elbow_c[0]) / kTick;
-      const double acceleration = (velocity - step.before.delbow_c[0]) / kTick;
-      const double jerk = (acceleration - step.before.ddelbow_c[0]) / kTick;
-      found({"the elbow (joint 3)", "rad", pick(order, velocity, acceleration, jerk),
-             boundOf(order, bounds)});
+      const RobotState& before = step.before;
+      const ElbowSample elbow = stepToElbow(
+          {before.elbow_c[0], before.delbow_c[0], before.ddelbow_c[0]}, step.command.elbow_c[0]);
+      found({"the elbow (joint 3)", "rad", pick(order, elbow.dq3, elbow.ddq3, elbow.dddq3),
+             boundOf(order, limits_.elbow())});
     });
     if (!excess || excess->ratio() > 1.0) {
       return excess;
@@ -199,41 +178,36 @@ std::optional<Excess> AbortMeasures::commandedElbow(int& order) const {
 }
 
 std::optional<Excess> AbortMeasures::commandedTorques() const {
-  const ArmLimits& limits = limitsOfProtocol(version_);
   return worstStep(log_, [&](const Step& step, const auto& found) {
     for (std::size_t i = 0; i < 7; i++) {
       const double rate = (step.command.tau_J_d[i] - step.before.tau_J_d[i]) / kTick;
-      found({jointName(i), "Nm", rate, limits.dtau[i]});
+      found({jointName(i), "Nm", rate, limits_.arm.dtau[i]});
     }
   });
 }
 
 std::optional<Excess> AbortMeasures::solvedJoints(int order) const {
-  const ArmLimits& limits = limitsOfProtocol(version_);
   std::optional<Excess> worst;
-  for (const JointSample& sample : solvedSamples(log_)) {
+  for (const auto& [joints, time] : solvedSamples(log_)) {
     for (std::size_t i = 0; i < 7; i++) {
-      const double value = pick(order, sample.dq[i], sample.ddq[i], sample.dddq[i]);
-      const double dq_max = velocityLimit(i, sample.q[i], value);
-      keepWorse(worst,
-                {jointName(i), "rad", value, pick(order, dq_max, limits.ddq[i], limits.dddq[i])},
-                sample.time, log_);
+      const double value = pick(order, joints.dq, joints.ddq, joints.dddq)[i];
+      keepWorse(worst, {jointName(i), "rad", value, jointLimit(order, i, joints.q[i], value)}, time,
+                log_);
     }
   }
   return worst && worst->value != 0.0 ? worst : std::nullopt;
 }
 
 std::optional<std::array<double, 7>> AbortMeasures::solvedPositions() const {
-  const std::vector<JointSample> samples = solvedSamples(log_);
-  return samples.empty() ? std::nullopt : std::make_optional(samples.back().q);
+  const std::vector<TimedSample> samples = solvedSamples(log_);
+  return samples.empty() ? std::nullopt : std::make_optional(samples.back().joints.q);
 }
 
 std::optional<Excess> AbortMeasures::measuredJoints() const {
-  const ArmLimits& limits = limitsOfProtocol(version_);
   std::optional<Excess> worst;
   for (const AbortRecord& record : log_) {
     for (std::size_t i = 0; i < 7; i++) {
-      keepWorse(worst, {jointName(i), "rad", record.state.dq[i], limits.dq[i]},
+      keepWorse(worst, {jointName(i), "rad", record.state.dq[i], limits_.arm.dq[i]},
                 record.state.message_id, log_);
     }
   }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_core/abort_diagnosis.h>
+#include <franka_core/motion_limits.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -32,7 +33,10 @@ struct Excess {
 class AbortMeasures {
  public:
   /// @param log owned by the caller @param version of the robot's protocol
-  AbortMeasures(const std::vector<AbortRecord>& log, unsigned version);
+  AbortMeasures(const std::vector<AbortRecord>& log, unsigned version)
+      : log_(log), limits_(motionLimitsOfProtocol(version)) {}
+
+  const MotionLimits& limits() const { return limits_; }
 
   std::optional<Excess> commandedJoints(int order) const;
   std::optional<Excess> commandedTwist(int order) const;
@@ -47,10 +51,11 @@ class AbortMeasures {
   std::optional<std::array<double, 7>> solvedPositions() const;
 
  private:
-  double velocityLimit(std::size_t joint, double q, double direction) const;
+  /// The limit of a joint's derivative at q [rad], in the direction of `value`.
+  double jointLimit(int order, std::size_t joint, double q, double value) const;
 
   const std::vector<AbortRecord>& log_;
-  unsigned version_;
+  const MotionLimits limits_;
 };
 
 /// Whether a motion generator's command is in use: unused values are zero.

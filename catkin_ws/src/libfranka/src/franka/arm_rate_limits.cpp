@@ -125,8 +125,7 @@ ArmRateLimits rateLimitsOfProtocol(std::uint16_t version) {
   if (franka_core::fci::isPandaVersion(version)) {
     return pandaLimits();
   }
-  return fr3Limits(version < 10 ? franka_core::kFr3PositionVelocityLimits
-                                : franka_core::kFr3PositionVelocityLimitsFrom59);
+  return fr3Limits(franka_core::fr3VelocityLimitsOfProtocol(version));
 }
 
 std::optional<franka_core::PositionVelocityLimits> velocityLimitsFromUrdf(const std::string& urdf) {

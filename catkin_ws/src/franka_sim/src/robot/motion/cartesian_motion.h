@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
+#include <franka_core/motion_steps.h>
 #include <franka_sim/robot/limits.h>
 
 #include <array>
@@ -36,18 +37,8 @@ class InverseKinematics {
                         const Transform& F_T_EE, const franka_core::ArmModel& model) noexcept;
 };
 
-/// The elbow's joint (the third) at one tick; derivatives by backward differences.
-struct ElbowSample {
-  double q3{0.0}, dq3{0.0}, ddq3{0.0}, dddq3{0.0};  ///< [rad], [rad/s], ...
-};
-
-/// The end effector in O at one tick, derivatives by backward differences over 1 ms.
-struct CartesianSample {
-  Transform pose{};               ///< O_T_EE
-  std::array<double, 6> twist{};  ///< [m/s, rad/s]
-  std::array<double, 6> acceleration{}, jerk{};
-  ElbowSample elbow;
-};
+using franka_core::CartesianSample;
+using franka_core::ElbowSample;
 
 /// A commanded elbow.
 struct ElbowCommand {

@@ -72,7 +72,7 @@ ErrorSet JointMotion::takePositions(const std::array<double, 7>& q_c,
     step = JointSample{};
     step.q = q_c;
   }
-  const ErrorSet errors = started_ ? checkWithEcho(stepToPositions, q_c, last_, limits)
+  const ErrorSet errors = started_ ? checkWithEcho(franka_core::stepToPositions, q_c, last_, limits)
                                    : checkStep(step, last_, commanded(limits), limits);
   if (!errors) {
     last_ = step;
@@ -86,7 +86,7 @@ ErrorSet JointMotion::takeVelocities(const std::array<double, 7>& dq_c,
   if (!franka_core::allFinite(dq_c)) {
     return RobotError::kJointMotionGeneratorVelocityLimitsViolation;
   }
-  const ErrorSet errors = checkWithEcho(stepByVelocities, dq_c, last_, limits);
+  const ErrorSet errors = checkWithEcho(franka_core::stepByVelocities, dq_c, last_, limits);
   if (!errors) {
     last_ = stepByVelocities(last_, dq_c);
     started_ = true;

@@ -2,19 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/motion_steps.h>
 #include <franka_sim/robot/limits.h>
 
 #include <array>
 
 namespace franka_sim {
 
-/// Seven joints at one tick, derivatives by backward differences over 1 ms.
-struct JointSample {
-  std::array<double, 7> q{};     ///< [rad]
-  std::array<double, 7> dq{};    ///< [rad/s]
-  std::array<double, 7> ddq{};   ///< [rad/s^2]
-  std::array<double, 7> dddq{};  ///< [rad/s^3]
-};
+using franka_core::JointSample;
 
 /// The commanded motion of the joints, with the check of its next step (decision 14).
 ///

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/motion/motion_checks.h"
 
-#include <franka_core/arm_model.h>
-#include <franka_core/rotations.h>
 #include <franka_sim/robot/plant.h>
 
+#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -112,13 +111,6 @@ bool jerksFail(const JointSample& step, const JointSample& last, double factor,
   return false;
 }
 
-void differentiate(const JointSample& last, JointSample& step) noexcept {
-  for (std::size_t i = 0; i < 7; i++) {
-    step.ddq[i] = (step.dq[i] - last.dq[i]) / kTick;
-    step.dddq[i] = (step.ddq[i] - last.ddq[i]) / kTick;
-  }
-}
-
 }  // namespace
 
 ErrorSet checkStep(const JointSample& step, const JointSample& last, const JointFlags& flags,
@@ -137,36 +129,6 @@ ErrorSet checkJerk(const JointSample& step, const JointSample& last, const Joint
   return errors;
 }
 
-JointSample stepToPositions(const JointSample& last, const std::array<double, 7>& q) noexcept {
-  JointSample step;
-  step.q = q;
-  for (std::size_t i = 0; i < 7; i++) {
-    step.dq[i] = (q[i] - last.q[i]) / kTick;
-  }
-  differentiate(last, step);
-  return step;
-}
-
-JointSample stepByVelocities(const JointSample& last, const std::array<double, 7>& dq) noexcept {
-  JointSample step;
-  step.dq = dq;
-  for (std::size_t i = 0; i < 7; i++) {
-    step.q[i] = last.q[i] + dq[i] * kTick;
-  }
-  differentiate(last, step);
-  return step;
-}
-
-JointSample stepByAcceleration(const JointSample& last) noexcept {
-  JointSample step;
-  step.ddq = last.ddq;
-  for (std::size_t i = 0; i < 7; i++) {
-    step.dq[i] = last.dq[i] + last.ddq[i] * kTick;
-    step.q[i] = last.q[i] + step.dq[i] * kTick;
-  }
-  return step;
-}
-
 JointSample asEchoed(const JointSample& sample) noexcept {
   return {asEchoed(sample.q), asEchoed(sample.dq), asEchoed(sample.ddq), sample.dddq};
 }
@@ -177,8 +139,6 @@ namespace {
 
 using Eigen::Vector3d;
 using Derivative = std::array<double, 6>;
-using Matrix = Eigen::Map<const Eigen::Matrix4d>;
-using MutableMatrix = Eigen::Map<Eigen::Matrix4d>;
 
 // A client's rate limiter shortens an acceleration that would leave the sphere of allowed speeds,
 // if necessary in one tick and beyond the jerk limit. A rate-limited client is never aborted, so
@@ -270,32 +230,6 @@ bool elbowFails(const ElbowSample& step, const ElbowSample& last,
          !(std::abs(step.ddq3) <= elbow.acceleration) || elbowJerks(step, last, limits);
 }
 
-void moveElbow(const ElbowSample& last, double q3, ElbowSample& step) noexcept {
-  step.q3 = q3;
-  step.dq3 = (q3 - last.q3) / kTick;
-  step.ddq3 = (step.dq3 - last.dq3) / kTick;
-  step.dddq3 = (step.ddq3 - last.ddq3) / kTick;
-}
-
-void differentiate(const CartesianSample& last, CartesianSample& step) noexcept {
-  for (std::size_t i = 0; i < 6; i++) {
-    step.acceleration[i] = (step.twist[i] - last.twist[i]) / kTick;
-    step.jerk[i] = (step.acceleration[i] - last.acceleration[i]) / kTick;
-  }
-}
-
-// The pose one tick later at a twist in O.
-Transform moved(const Transform& pose, const Derivative& twist) noexcept {
-  const Matrix from(pose.data());
-  Transform result = franka_core::kIdentityTransform;
-  MutableMatrix to(result.data());
-  const Eigen::Matrix3d turned =
-      franka_core::rotationFrom(part(twist, 3) * kTick) * from.topLeftCorner<3, 3>();
-  to.topLeftCorner<3, 3>() = franka_core::orthonormalized(turned);
-  to.topRightCorner<3, 1>() = from.topRightCorner<3, 1>() + part(twist, 0) * kTick;
-  return result;
-}
-
 }  // namespace
 
 ErrorSet checkStep(const CartesianSample& step, const CartesianSample& last,
@@ -312,41 +246,6 @@ ErrorSet checkStep(const CartesianSample& step, const CartesianSample& last,
                    jerkFails(step, last, 3, limits.arm.rotation),
                RobotError::kCartesianMotionGeneratorAccelerationDiscontinuity);
   return errors;
-}
-
-CartesianSample stepToPose(const CartesianSample& last, const Transform& pose, double q3) noexcept {
-  const Matrix from(last.pose.data());
-  const Matrix to(pose.data());
-  CartesianSample step;
-  step.pose = pose;
-  Eigen::Map<Eigen::Matrix<double, 6, 1>>(step.twist.data()) =
-      franka_core::twistBetween(from, to, kTick);
-  differentiate(last, step);
-  moveElbow(last.elbow, q3, step.elbow);
-  return step;
-}
-
-CartesianSample stepByTwist(const CartesianSample& last, const Derivative& twist,
-                            double q3) noexcept {
-  CartesianSample step;
-  step.twist = twist;
-  step.pose = moved(last.pose, twist);
-  differentiate(last, step);
-  moveElbow(last.elbow, q3, step.elbow);
-  return step;
-}
-
-CartesianSample stepByAcceleration(const CartesianSample& last) noexcept {
-  CartesianSample step;
-  step.acceleration = last.acceleration;
-  for (std::size_t i = 0; i < 6; i++) {
-    step.twist[i] = last.twist[i] + last.acceleration[i] * kTick;
-  }
-  step.pose = moved(last.pose, step.twist);
-  step.elbow.ddq3 = last.elbow.ddq3;
-  step.elbow.dq3 = last.elbow.dq3 + last.elbow.ddq3 * kTick;
-  step.elbow.q3 = last.elbow.q3 + step.elbow.dq3 * kTick;
-  return step;
 }
 
 CartesianSample asEchoed(const CartesianSample& sample) noexcept {

@@ -43,11 +43,6 @@ ErrorSet checkStep(const JointSample& step, const JointSample& last, const Joint
 ErrorSet checkJerk(const JointSample& step, const JointSample& last, const JointFlags& flags,
                    const MotionLimits& limits) noexcept;
 
-/// The step from last to positions [rad], or by velocities [rad/s].
-JointSample stepToPositions(const JointSample& last, const std::array<double, 7>& q) noexcept;
-JointSample stepByVelocities(const JointSample& last, const std::array<double, 7>& dq) noexcept;
-/// The step that keeps the acceleration.
-JointSample stepByAcceleration(const JointSample& last) noexcept;
 /// A history as a client reads it from states of 32 bit floats.
 JointSample asEchoed(const JointSample& sample) noexcept;
 
@@ -56,12 +51,6 @@ JointSample asEchoed(const JointSample& sample) noexcept;
 ErrorSet checkStep(const CartesianSample& step, const CartesianSample& last,
                    const MotionLimits& limits) noexcept;
 
-/// The step from last to a pose, or by a twist in O, with the elbow at q3 [rad].
-CartesianSample stepToPose(const CartesianSample& last, const Transform& pose, double q3) noexcept;
-CartesianSample stepByTwist(const CartesianSample& last, const std::array<double, 6>& twist,
-                            double q3) noexcept;
-/// The step that keeps the accelerations.
-CartesianSample stepByAcceleration(const CartesianSample& last) noexcept;
 /// A history as a client reads it from states of 32 bit floats.
 CartesianSample asEchoed(const CartesianSample& sample) noexcept;
 
