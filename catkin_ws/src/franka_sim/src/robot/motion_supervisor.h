@@ -32,7 +32,7 @@ class DesiredState {
   void set(const DesiredMotion& desired) noexcept;
   /// Frames or loads have changed.
   void invalidate() noexcept { stale_ = true; }
-  /// Computes what does not belong to the joints and frames any more.
+  /// Computes the other fields again if the joints or frames have changed.
   void update(const franka_core::ArmModel& model) noexcept;
 
  private:
