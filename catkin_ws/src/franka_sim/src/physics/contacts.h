@@ -107,4 +107,11 @@ void setContactCapacity(mjModel* model, const std::vector<int>& robot_of_body,
 /// nothing.
 void firstHalf(const mjModel* model, mjData* data);
 
+/// mj_fwdConstraint. MuJoCo's Newton method factorizes a matrix of all objects that touch each
+/// other, at a cost that grows with the cube of their number: a pile of 200 cubes takes 0.8 s a
+/// step. With many contacts between objects, conjugate gradients solve the constraints instead, in
+/// 0.01 to 0.06 s (docs/performance.md). It depends on the present contacts alone, so that runs
+/// repeat. A model that asks for another solver keeps it. Allocates nothing.
+void solveConstraints(const mjModel& model, mjData* data);
+
 }  // namespace franka_sim::physics

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <utility>
 
+#include "physics/contacts.h"
 #include "physics/rotations.h"
 
 namespace franka_sim::physics {
@@ -63,7 +64,7 @@ bool EqualitySolver::factorize(const mjData& data) noexcept {
 
 void EqualitySolver::solve(const mjModel& model, mjData* data) {
   if (!handles(*data)) {
-    mj_fwdConstraint(&model, data);
+    solveConstraints(model, data);
     return;
   }
   multiply(model, data);

@@ -23,7 +23,7 @@ namespace franka_sim::physics {
 ///     f = -(J M^-1 J^T + R)^-1 (J a_smooth - a_ref),   a = a_smooth + M^-1 J^T f
 ///
 /// which needs one Cholesky factor of their few rows, where MuJoCo's Newton method needs several of
-/// all degrees of freedom. All other constraints are left to MuJoCo.
+/// all degrees of freedom. All other constraints are left to solveConstraints.
 ///
 /// Called by the stepping thread; allocates only in `fit`.
 class EqualitySolver {

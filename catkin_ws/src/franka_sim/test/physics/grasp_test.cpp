@@ -110,6 +110,45 @@ TEST_P(GraspTest, GraspHoldsWithClosedBrakes) {
   EXPECT_LT((stoneInHand() - start).norm(), 1e-4);
 }
 
+/// With so many contacts between cubes, conjugate gradients solve all constraints, those of the
+/// grasp included.
+TEST_P(GraspTest, GraspHoldsBesideAPile) {
+  placeStone();
+  int cubes = 0;
+  for (int layer = 0; layer < 4; ++layer) {
+    const int side = 4 - layer;
+    for (int i = 0; i < side * side; ++i) {
+      const double x = 2 + 0.041 * (i % side + 0.5 * layer);
+      const double y = 0.041 * (i / side + 0.5 * layer);
+      const Pose pose{{x, y, 0.02 + 0.041 * layer}};
+      world_.addObject(
+          "cube" + std::to_string(cubes++),
+          "<body><freejoint/><geom type='box' size='0.02 0.02 0.02' mass='0.05' solref='0.01 1'/>"
+          "</body>",
+          pose);
+    }
+  }
+  for (int k = 0; k < 500; ++k) {
+    tick(kFingerForce, kHome);
+  }
+  EXPECT_GT(contacts(world_).size(), 250u);
+  const Eigen::Vector3d left = forceFrom("leftfinger");
+  const Eigen::Vector3d right = forceFrom("rightfinger");
+  EXPECT_NEAR(kWeight, left.z() + right.z(), 1e-2 * kWeight);
+  const auto fingers = hand_->measure().q;
+  EXPECT_NEAR(fingers[0], fingers[1], 1e-5);
+  const Eigen::Vector3d start = stoneInHand();
+  for (int k = 0; k < 500; ++k) {
+    tick(kFingerForce, kHome);
+  }
+  EXPECT_LT((stoneInHand() - start).norm(), 1e-4);
+  for (int i = 0; i < cubes; ++i) {
+    const double layer = i < 16 ? 0 : i < 25 ? 1 : i < 29 ? 2 : 3;
+    EXPECT_NEAR(0.02 + 0.04 * layer, bodyPose(world_, "cube" + std::to_string(i)).position[2], 1e-3)
+        << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Robots, GraspTest, ::testing::Values("panda", "fr3"));
 
 }  // namespace
