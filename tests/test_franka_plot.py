@@ -18,9 +18,10 @@ from waiting import wait_for
 
 PATIENCE = 180.0  # [s] for what it shows or prints, on a busy machine
 LAUNCH = """<launch>
+  <param name="left/arm_id" value="left_fr3"/>
   <node name="states" pkg="rostopic" type="rostopic" output="screen"
     args="pub -r 50 /left/franka_states franka_msgs/FrankaState
-      '{header: {frame_id: left_fr3_link0}, q: [0.1, 0.2, 0.3, -2, 0.5, 1.5, 0.7], robot_mode: 2}'"/>
+      '{q: [0.1, 0.2, 0.3, -2, 0.5, 1.5, 0.7], robot_mode: 2}'"/>
   <node name="other" pkg="rostopic" type="rostopic" args="pub -r 1 /chatter std_msgs/String hello"/>
 </launch>"""
 

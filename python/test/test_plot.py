@@ -244,22 +244,27 @@ def test_a_bag_is_plotted(tmp_path):
     rosbag = pytest.importorskip("rosbag", reason="python3-rosbag is not installed")
     import rospy
     from franka_msgs.msg import FrankaState
+    from geometry_msgs.msg import WrenchStamped
+    from sensor_msgs.msg import JointState
+    from std_msgs.msg import Header
 
     file = tmp_path / "states.bag"
     with rosbag.Bag(str(file), "w") as bag:
         for i in range(50):
             message = FrankaState(time=10 + 0.03 * i, q=[0.01 * i] * 7, robot_mode=1 if i < 10 else 2)
-            message.header.frame_id = "fr3_link0"
             if i >= 40:
                 message.robot_mode, message.current_errors.cartesian_reflex = 4, True
             for topic in ("/a/franka_states",) if i else ("/a/franka_states", "/b/franka_states"):
                 bag.write(topic, message, rospy.Time(1 + i))
+        bag.write("/a/joint_states", JointState(name=["fr3_joint1"]), rospy.Time(1))
+        bag.write("/b/F_ext", WrenchStamped(header=Header(frame_id="panda_K")), rospy.Time(1))
     with pytest.raises(plot.BadInput, match="several topics.*/a/franka_states, /b/franka_states"):
         read_bag(file)
     with pytest.raises(plot.BadInput, match="no topic /c"):
         read_bag(file, "/c")
     recording = read_bag(file, "/a/franka_states")
     assert recording.version == 10 and len(recording) == 50
+    assert read_bag(file, "/b/franka_states").version == 5
     assert recording.errors == [(pytest.approx(11.2), ("cartesian_reflex",))]
     text = drawn(plot.plot(recording, ["q"]), tmp_path)
     assert "cartesian_reflex" in text and "reflex" in text and "idle" in text

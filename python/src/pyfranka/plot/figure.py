@@ -124,7 +124,7 @@ class Plot:
                 Line2D([], [], color="black", linestyle=style, label=name)
                 for (name, _), style in zip(drawn, STYLES)
             ]
-            axes.add_artist(axes.legend(handles=handles, loc="upper left", fontsize=7, framealpha=0.8))
+            axes.add_artist(axes.legend(handles=handles, loc="lower left", fontsize=7, framealpha=0.8))
         axes.legend(loc="center left", bbox_to_anchor=(1.005, 0.5), fontsize=8, frameon=False)
 
     def _draw_limits(self, axes: Axes, name: str, values, recording: Recording, step: int) -> None:

@@ -116,10 +116,21 @@ def read_bag(file: Path, topic: str = "", version: int = 0) -> Recording:
             collector = Collector(f"{topic} in {file.name}")
             for _, message, _ in bag.read_messages([topic]):
                 collector.add(message)
-                collector.version = version or kind_of(message.header.frame_id) or kind_of(topic)
+            collector.version = version or kind_of(topic) or _kind_beside(bag, topic)
     except (OSError, rosbag.ROSBagException) as error:
         raise BadInput(f"{file} cannot be read as a bag: {error}.") from None
     return collector.recording()
+
+
+def _kind_beside(bag, topic: str) -> int:
+    """The states have no name: joint states and wrenches of the same robot have one."""
+    node = topic.rsplit("/", 1)[0]
+    for name in (f"{node}/joint_states", f"{node}/F_ext", "/joint_states"):
+        for _, message, _ in bag.read_messages([name]):
+            if version := kind_of(" ".join([message.header.frame_id, *getattr(message, "name", ())])):
+                return version
+            break
+    return 0
 
 
 def _topic_in(file: Path, topic: str, topics, found: list[str]) -> str:
@@ -220,6 +231,10 @@ class FromTopic(Live):
         self._shutdown: Callable[[str], None] = rospy.signal_shutdown
         super().__init__(Collector(topic, version, most, fields))
         self._require_type(topic)
+        if not version:
+            name = rospy.resolve_name(topic)
+            arm_id = str(rospy.get_param(f"{name.rsplit('/', 1)[0]}/arm_id", ""))  # of the state controller
+            self.collector.version = kind_of(name) or kind_of(arm_id)
         self._subscriber = rospy.Subscriber(topic, FrankaState, self._take, queue_size=100)
 
     def _require_type(self, topic: str) -> None:
@@ -235,10 +250,7 @@ class FromTopic(Live):
             raise BadInput(f"No node publishes {name}.{others}")
 
     def _take(self, message) -> None:
-        collector = self.collector
-        if not len(collector) and not collector.version:
-            collector.version = kind_of(message.header.frame_id) or kind_of(collector.name)
-        collector.add(message)
+        self.collector.add(message)
 
     def close(self) -> None:
         self._subscriber.unregister()
