@@ -51,7 +51,10 @@ LAYERS = "python/src/pyfranka/desk/__init__.py"
 READS_BY_LOCALE = (
     r"\b(strto(d|f|ld)|sto(d|f|ld)|atof|sscanf|Query(Double|Float)\w*|(Double|Float)(Text|Attribute|Value))\("
 )
-WRITES_BY_LOCALE = r"\bsn?printf\([^;]*%[-+ #0-9.*]*[aefgAEFG]"
+WRITES_BY_LOCALE = (
+    r"\b(sn?printf|ROS_(DEBUG|INFO|WARN|ERROR|FATAL)\w*)"
+    r"\((?:[^;\"]|\"[^\"]*\")*?\"[^\"]*%[-+#0-9.*]*[aefgAEFG]"
+)
 MARKERS = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
 # A word between two lines of a comment or of a documentation text.
 GAP = r"(?:[ -]|\s*\n\s*(?:///?|#|\*)?\s*)"
@@ -209,11 +212,10 @@ def word_findings(name: str, text: str) -> Iterator[str]:
 
 def locale_findings(name: str, text: str) -> Iterator[str]:
     """Calls that read or write a number with a decimal comma after setlocale()."""
-    # ros_control stands alone, and writes numbers in sentences only.
-    own = "" if "/ros_control/" in name else rf"|{WRITES_BY_LOCALE}"
-    for match in re.finditer(READS_BY_LOCALE + own, text):
+    instead = "a stream" if "/ros_control/" in name else "franka_core/numbers.h or a stream"
+    for match in re.finditer(rf"{READS_BY_LOCALE}|{WRITES_BY_LOCALE}", text):
         line = text.count("\n", 0, match.start()) + 1
-        yield f"{name}:{line}: '{match[0].split('(')[0]}' depends on the locale: use franka_core/numbers.h"
+        yield f"{name}:{line}: '{match[0].split('(')[0]}' depends on the locale: use {instead}"
 
 
 def text_findings(path: Path) -> Iterator[str]:

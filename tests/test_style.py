@@ -84,6 +84,12 @@ def run(*arguments: str, monkeypatch) -> int:
             LICENCE + 'std::snprintf(a, n, "%i", i);\nstd::printf("%g", x);\n',
             LICENCE + 'std::snprintf(a, n,\n              "%i %.3f", i, x);\n',
         ),
+        (
+            "text",
+            "a.cpp",
+            LICENCE + 'ROS_ERROR("%s: 5 % of %i", name, i);\n',
+            LICENCE + 'ROS_WARN_NAMED(kLog,\n  "%s; " "%g", name, x);\n',
+        ),
         ("ruff", "a.py", "import os\n\nprint(os.name)\n", "import os\n"),
         ("ruff", "program", "#!/usr/bin/env python3\nprint(1)\n", "#!/usr/bin/env python3\nprint( 1 )\n"),
         ("clang-format", "a.cpp", "int a = 1;\n", "int a=1;\n"),

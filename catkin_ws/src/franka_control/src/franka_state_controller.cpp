@@ -3,6 +3,7 @@
 #include <franka/robot_state.h>
 #include <franka_control/franka_state_controller.h>
 #include <franka_control/state_conversions.h>
+#include <franka_core/numbers.h>
 #include <hardware_interface/hardware_interface.h>
 #include <hardware_interface/robot_hw.h>
 #include <pluginlib/class_list_macros.h>
@@ -79,8 +80,8 @@ bool FrankaStateController::readParameters(const ros::NodeHandle& controller_nod
     return false;
   }
   if (!std::isfinite(publish_rate_) || publish_rate_ <= 0.0) {
-    ROS_ERROR("FrankaStateController: the parameter %s/publish_rate must be above 0 Hz; it is %g.",
-              where.c_str(), publish_rate_);
+    ROS_ERROR("FrankaStateController: the parameter %s/publish_rate must be above 0 Hz; it is %s.",
+              where.c_str(), franka_core::numberText(publish_rate_).c_str());
     return false;
   }
   return true;

@@ -92,13 +92,12 @@ void CartesianImpedanceExampleController::equilibriumPoseCallback(
       Eigen::Quaterniond(orientation.w, orientation.x, orientation.y, orientation.z);
   const double length = equilibrium.orientation.norm();
   if (!equilibrium.position.allFinite() || !std::isfinite(length) || length < kMinQuaternionNorm) {
-    ROS_ERROR_THROTTLE(
-        kLogPeriod,
-        "%s: an equilibrium pose was ignored, since its position (%g, %g, %g) is not "
-        "finite or its quaternion (%g, %g, %g, %g) is not a rotation; send numbers, and a "
-        "quaternion of length 1.",
-        kName, position.x, position.y, position.z, orientation.x, orientation.y, orientation.z,
-        orientation.w);
+    ROS_ERROR_STREAM_THROTTLE(
+        kLogPeriod, kName << ": an equilibrium pose was ignored, since its position (" << position.x
+                          << ", " << position.y << ", " << position.z
+                          << ") is not finite or its quaternion (" << orientation.x << ", "
+                          << orientation.y << ", " << orientation.z << ", " << orientation.w
+                          << ") is not a rotation; send numbers, and a quaternion of length 1.");
     return;
   }
   equilibrium.orientation.normalize();

@@ -60,7 +60,8 @@ bool JointImpedanceExampleController::readParameters(const ros::NodeHandle& node
     return false;
   }
   if (!(std::abs(radius_) >= kMinRadius)) {
-    ROS_INFO("%s: a radius of %g m is too small for a circle; using 0.1 m.", kName, radius_);
+    ROS_INFO_STREAM(kName << ": a radius of " << radius_
+                          << " m is too small for a circle; using 0.1 m.");
     radius_ = 0.1;
   }
   return true;

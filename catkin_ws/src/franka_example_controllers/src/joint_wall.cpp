@@ -14,7 +14,8 @@ namespace {
 
 double positive(double value, const char* name) {
   if (value < 0.0) {
-    ROS_WARN("JointWall: %s is %g, but must not be negative; using %g.", name, value, -value);
+    ROS_WARN_STREAM("JointWall: " << name << " is " << value << ", but must not be negative; using "
+                                  << -value << ".");
   }
   return std::abs(value);
 }

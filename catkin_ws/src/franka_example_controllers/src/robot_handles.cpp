@@ -4,6 +4,7 @@
 #include <franka_example_controllers/robot_handles.h>
 
 #include <cmath>
+#include <iomanip>
 
 namespace franka_example_controllers {
 
@@ -18,11 +19,11 @@ constexpr double kTolerance = 0.1;                                         // [r
 bool isAtStartPose(const char* controller, const std::array<double, 7>& q) {
   for (std::size_t i = 0; i < q.size(); ++i) {
     if (std::abs(q[i] - kStartPose[i]) > kTolerance) {
-      ROS_ERROR(
-          "%s: joint %zu stands at %.3f rad, and this motion begins at %.3f. Run `roslaunch "
-          "franka_example_controllers move_to_start.launch robot_ip:=<robot-ip> "
-          "load_gripper:=<has-attached-gripper>` first.",
-          controller, i + 1, q[i], kStartPose[i]);
+      ROS_ERROR_STREAM(
+          std::fixed << std::setprecision(3) << controller << ": joint " << i + 1 << " stands at "
+                     << q[i] << " rad, and this motion begins at " << kStartPose[i]
+                     << ". Run `roslaunch franka_example_controllers move_to_start.launch "
+                        "robot_ip:=<robot-ip> load_gripper:=<has-attached-gripper>` first.");
       return false;
     }
   }

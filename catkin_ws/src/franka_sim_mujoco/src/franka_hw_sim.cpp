@@ -349,8 +349,8 @@ void FrankaHWSim::report() {
   }
   if (model_->takeSingularityWarning()) {
     ROS_WARN_NAMED(kHardwareLog,
-                   "%s: the arm is close to a singularity (singularity_warning_threshold %g).",
-                   arm_id_.c_str(), singularity_threshold_);
+                   "%s: the arm is close to a singularity (singularity_warning_threshold %s).",
+                   arm_id_.c_str(), franka_core::numberText(singularity_threshold_).c_str());
   }
 }
 

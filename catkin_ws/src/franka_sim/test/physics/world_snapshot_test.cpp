@@ -142,7 +142,7 @@ TEST(EngineErrors, StopTheWorldWithASentence) {
   // files whose stack is too small for the beginning.
   std::string boxes;
   for (int i = 0; i < 8; i++) {
-    boxes += "<body pos='0 0 " + std::to_string(0.15 + 0.3 * i) +
+    boxes += "<body pos='0 0 " + franka_core::numberText(0.15 + 0.3 * i) +
              "'><freejoint/><geom type='box' size='.1 .1 .1'/></body>";
   }
   std::unique_ptr<World> world;

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/fci/texts.h>
 #include <franka_core/limits.h>
+#include <franka_core/numbers.h>
 
 #include <array>
-#include <cstdio>
 
 namespace franka_core::fci {
 
@@ -44,13 +44,12 @@ std::string hint(Command command) {
   if (command != Command::kSetLoad) {
     return "";
   }
-  char text[240];
-  std::snprintf(
-      text, sizeof text,
-      " Give mass [kg], center from the flange [m] and symmetric inertia [kg m^2] of what "
-      "the arm can carry; simulated arms take at most %g kg, %g m and %g kg m^2.",
-      kMaxPayloadMass, kMaxPayloadDistance, kMaxPayloadInertia);
-  return text;
+  return " Give mass [kg], center from the flange [m] and symmetric inertia [kg m^2] of what the "
+         "arm "
+         "can carry; simulated arms take at most " +
+         franka_core::numberText(kMaxPayloadMass) + " kg, " +
+         franka_core::numberText(kMaxPayloadDistance) + " m and " +
+         franka_core::numberText(kMaxPayloadInertia) + " kg m^2.";
 }
 
 // Text after the command's name; empty for a status that is not a failure of this command.

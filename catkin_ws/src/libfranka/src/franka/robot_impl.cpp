@@ -7,6 +7,7 @@
 #include <franka_core/fci/command_codec.h>
 #include <franka_core/fci/reply_codec.h>
 #include <franka_core/fci/texts.h>
+#include <franka_core/numbers.h>
 #include <franka_core/realtime_rule.h>
 #include <franka_core/spin_rule.h>
 #include <franka_core/to_franka.h>
@@ -45,9 +46,8 @@ fci::CodecError findMessage(fci::Bytes stream, std::uint32_t& id, std::size_t& s
 }
 
 std::string inSeconds(std::chrono::milliseconds time) {
-  std::string text = std::to_string(std::chrono::duration<double>(time).count());
-  text.erase(text.find_last_not_of('0') + 1);
-  return text + (text.back() == '.' ? "0 s" : " s");
+  const std::string text = franka_core::numberText(std::chrono::duration<double>(time).count());
+  return text + (text.find('.') == std::string::npos ? ".0 s" : " s");
 }
 
 franka_core::WaitMode waitMode() {

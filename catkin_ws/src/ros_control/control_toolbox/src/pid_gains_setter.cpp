@@ -27,8 +27,8 @@ void PidGainsSetter::advertise(const ros::NodeHandle& n) {
 bool PidGainsSetter::setGains(SetPidGains::Request& req, SetPidGains::Response& /*resp*/) {
   for (const double gain : {req.p, req.i, req.d, req.i_clamp}) {
     if (!std::isfinite(gain)) {
-      ROS_ERROR("The gains given to %s are refused: %f is not a finite number.",
-                serve_set_gains_.getService().c_str(), gain);
+      ROS_ERROR_STREAM("The gains given to " << serve_set_gains_.getService() << " are refused: "
+                                             << gain << " is not a finite number.");
       return false;
     }
   }

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <controller_manager/internal/controller_watch.h>
 
-#include <array>
 #include <chrono>
-#include <cstdio>
+#include <iomanip>
+#include <sstream>
 #include <utility>
 
 namespace controller_manager {
@@ -116,11 +116,10 @@ std::string ControllerWatch::reason() const {
     case Fault::kNotFinite:
       return std::string("it commanded joint '") + text_.data() + "' a value that is not a number";
     case Fault::kTooSlow: {
-      std::array<char, 128> text;
-      std::snprintf(text.data(), text.size(),
-                    "its update took %.3f ms, and controller_manager/max_update_time allows %.3f",
-                    1e3 * elapsed_, 1e3 * max_update_time_);
-      return text.data();
+      std::ostringstream text;
+      text << std::fixed << std::setprecision(3) << "its update took " << 1e3 * elapsed_
+           << " ms, and controller_manager/max_update_time allows " << 1e3 * max_update_time_;
+      return text.str();
     }
     case Fault::kNone:
       break;

@@ -124,10 +124,10 @@ void reportOutcome(const SwitchRequest& request) {
                   start.info.name.c_str());
         break;
       case SwitchRequest::Outcome::kTimeout:
-        ROS_ERROR(
-            "Controller '%s' was not started, because the robot was not ready for it after "
-            "%g s",
-            start.info.name.c_str(), request.timeout);
+        ROS_ERROR_STREAM("Controller '" << start.info.name
+                                        << "' was not started, because the robot was not ready for "
+                                           "it after "
+                                        << request.timeout << " s");
         break;
       case SwitchRequest::Outcome::kThrew:
         ROS_ERROR("Controller '%s' was not started, because its %s threw: %s",
@@ -214,10 +214,9 @@ bool ControllerManager::carryOut(const Names& start_controllers, const Names& st
       ROS_WARN("Could not switch controllers, because the controller manager is shutting down");
       return false;
     }
-    ROS_ERROR(
-        "Could not switch controllers, because the switch before this one has not finished "
-        "after %g s. Is the control loop running?",
-        turn.elapsed());
+    ROS_ERROR_STREAM(
+        "Could not switch controllers, because the switch before this one has not finished after "
+        << turn.elapsed() << " s. Is the control loop running?");
     return false;
   }
   std::list<hardware_interface::ControllerInfo> start_list;
@@ -249,11 +248,10 @@ bool ControllerManager::carryOut(const Names& start_controllers, const Names& st
       }
       return true;
     case SwitchHandover::Result::kAbandoned:
-      ROS_ERROR(
+      ROS_ERROR_STREAM(
           "Could not finish switching controllers, because the control loop stood still for "
-          "%g s after it had begun. The controllers to start will be aborted when it runs "
-          "again.",
-          turn.elapsed());
+          << turn.elapsed()
+          << " s after it had begun. The controllers to start will be aborted when it runs again.");
       return false;
     case SwitchHandover::Result::kWithdrawn:
       break;
@@ -271,10 +269,8 @@ void ControllerManager::explainWithdrawal(double elapsed) const {
   if (handover_->mustEnd()) {
     ROS_WARN("Could not switch controllers, because the controller manager is shutting down");
   } else {
-    ROS_ERROR(
-        "Could not switch controllers, because the control loop did not run for %g s. Is the "
-        "robot connected, or the simulation paused?",
-        elapsed);
+    ROS_ERROR_STREAM("Could not switch controllers, because the control loop did not run for "
+                     << elapsed << " s. Is the robot connected, or the simulation paused?");
   }
 }
 

@@ -23,10 +23,10 @@ bool JointVelocityController::init(hardware_interface::EffortJointInterface* rob
 
 void JointVelocityController::setCommand(double cmd) {
   if (!std::isfinite(cmd)) {
-    ROS_ERROR_THROTTLE(1.0,
-                       "The command for joint '%s' is %f, which is not a finite number. Not "
-                       "executing; the last command stays.",
-                       joint_.getName().c_str(), cmd);
+    ROS_ERROR_STREAM_THROTTLE(
+        1.0, "The command for joint '"
+                 << joint_.getName() << "' is " << cmd
+                 << ", which is not a finite number. Not executing; the last command stays.");
     return;
   }
   command_.writeFromNonRT(cmd);

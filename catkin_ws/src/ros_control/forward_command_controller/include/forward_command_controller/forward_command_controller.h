@@ -65,10 +65,10 @@ class ForwardCommandController : public controller_interface::Controller<T> {
  private:
   void commandCB(const std_msgs::Float64ConstPtr& msg) {
     if (!std::isfinite(msg->data)) {
-      ROS_ERROR_THROTTLE(1.0,
-                         "The command for joint '%s' is %f, which is not a finite number. Not "
-                         "executing; the last command stays.",
-                         joint_.getName().c_str(), msg->data);
+      ROS_ERROR_STREAM_THROTTLE(
+          1.0, "The command for joint '"
+                   << joint_.getName() << "' is " << msg->data
+                   << ", which is not a finite number. Not executing; the last command stays.");
       return;
     }
     command_buffer_.writeFromNonRT(msg->data);

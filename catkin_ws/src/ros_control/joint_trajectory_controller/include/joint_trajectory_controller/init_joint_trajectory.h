@@ -11,7 +11,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
+#include <ios>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -160,13 +161,12 @@ class TrajectoryInitializer {
     if (first_point_ == msg_.points.end()) {
       const ros::Duration since =
           time_ - (startTime(msg_, time_) + msg_.points.back().time_from_start);
-      char text[200];
-      std::snprintf(text, sizeof(text),
-                    "Dropping all %zu trajectory point(s), as they occur before the current "
-                    "time.\nLast point is %fs in the past.",
-                    msg_.points.size(), since.toSec());
-      ROS_WARN_STREAM(text);
-      options_.setErrorString(text);
+      std::ostringstream text;
+      text << "Dropping all " << msg_.points.size()
+           << " trajectory point(s), as they occur before the current time.\nLast point is "
+           << std::fixed << since.toSec() << "s in the past.";
+      ROS_WARN_STREAM(text.str());
+      options_.setErrorString(text.str());
       return false;
     }
     if (options_.current_trajectory == nullptr && first_point_ + 1 == msg_.points.end()) {

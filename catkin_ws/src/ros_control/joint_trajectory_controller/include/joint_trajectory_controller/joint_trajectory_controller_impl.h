@@ -7,9 +7,26 @@
 #include <joint_trajectory_controller/joint_trajectory_controller.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
 
 namespace joint_trajectory_controller {
+namespace internal {
+
+/// A number with six decimals, as %f of C, and a decimal point in every locale. Real-time safe.
+struct FixedText {
+  explicit FixedText(double value) noexcept {
+    char* const end = text + sizeof(text) - 1;
+    auto written = std::to_chars(text, end, value, std::chars_format::fixed, 6);
+    if (written.ec != std::errc()) {  // too many digits
+      written = std::to_chars(text, end, value);
+    }
+    *written.ptr = '\0';
+  }
+  char text[40];
+};
+
+}  // namespace internal
 
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::starting(const ros::Time& time) {
@@ -239,13 +256,14 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::failGoal(
     return;
   }
   char text[kReasonCapacity];
+  using internal::FixedText;
   const int length = std::snprintf(
       text, sizeof(text),
-      "%s %s error %f (velocity error %f) is beyond the %s tolerance of %f (velocity %f; 0 means "
+      "%s %s error %s (velocity error %s) is beyond the %s tolerance of %s (velocity %s; 0 means "
       "unchecked). The joints now hold their position.",
-      joint_names_[joint].c_str(), kind, double(state_error_.position[joint]),
-      double(state_error_.velocity[joint]), kind, double(tolerance.position),
-      double(tolerance.velocity));
+      joint_names_[joint].c_str(), kind, FixedText(state_error_.position[joint]).text,
+      FixedText(state_error_.velocity[joint]).text, kind, FixedText(tolerance.position).text,
+      FixedText(tolerance.velocity).text);
   // The string has sufficient capacity: see goalOf().
   control_msgs::FollowJointTrajectoryResult& result = *goal.handle()->preallocated_result_;
   result.error_string.assign(text, std::min<std::size_t>(std::max(length, 0), sizeof(text) - 1));

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ios>
 #include <string>
 #include <vector>
 
@@ -77,9 +78,10 @@ bool checkStateTolerancePerJoint(const State& state_error,
                                  bool show_errors = false) {
   const bool within = isWithinTolerance(state_error, 0, state_tolerance);
   if (!within && show_errors) {
-    ROS_ERROR("A joint is outside its tolerances: position error %f of %f.",
-              state_error.position.empty() ? 0.0 : double(state_error.position[0]),
-              double(state_tolerance.position));
+    ROS_ERROR_STREAM("A joint is outside its tolerances: position error "
+                     << std::fixed
+                     << (state_error.position.empty() ? 0.0 : double(state_error.position[0]))
+                     << " of " << double(state_tolerance.position) << ".");
   }
   return within;
 }
@@ -93,9 +95,10 @@ bool checkStateTolerance(
   for (std::size_t i = 0; i < state_tolerance.size(); ++i) {
     if (!isWithinTolerance(state_error, i, state_tolerance[i])) {
       if (show_errors) {
-        ROS_ERROR("Joint %zu is outside its tolerances: position error %f of %f.", i,
-                  i < state_error.position.size() ? double(state_error.position[i]) : 0.0,
-                  double(state_tolerance[i].position));
+        ROS_ERROR_STREAM(
+            "Joint " << i << " is outside its tolerances: position error " << std::fixed
+                     << (i < state_error.position.size() ? double(state_error.position[i]) : 0.0)
+                     << " of " << double(state_tolerance[i].position) << ".");
       }
       return false;
     }

@@ -61,10 +61,11 @@ inline void acceptCommands(const std::vector<double>& data, const std::vector<st
   const auto bad = std::find_if(data.begin(), data.end(),
                                 [](double command) { return !std::isfinite(command); });
   if (bad != data.end()) {
-    ROS_ERROR_THROTTLE(1.0,
-                       "The command for joint '%s' is %f, which is not a finite number. Not "
-                       "executing for any joint; the last command stays.",
-                       names[static_cast<std::size_t>(bad - data.begin())].c_str(), *bad);
+    ROS_ERROR_STREAM_THROTTLE(1.0, "The command for joint '"
+                                       << names[static_cast<std::size_t>(bad - data.begin())]
+                                       << "' is " << *bad
+                                       << ", which is not a finite number. Not executing for any "
+                                          "joint; the last command stays.");
     return;
   }
   buffer.writeFromNonRT(data);

@@ -90,10 +90,11 @@ class JointPositionController : public controller_interface::Controller<T>, publ
 
   void accept(double position, double velocity, bool has_velocity) {
     if (!std::isfinite(position) || !std::isfinite(velocity)) {
-      ROS_ERROR_THROTTLE(1.0,
-                         "The command for joint '%s' (position %f, velocity %f) is not finite. Not "
-                         "executing; the last command stays.",
-                         joint_.getName().c_str(), position, velocity);
+      ROS_ERROR_STREAM_THROTTLE(1.0, "The command for joint '"
+                                         << joint_.getName() << "' (position " << position
+                                         << ", velocity " << velocity
+                                         << ") is not finite. Not executing; the last command "
+                                            "stays.");
       return;
     }
     Commands command;
