@@ -73,8 +73,6 @@ sim_test(unit_in_world_test SOURCES test/robot/unit_in_world_test.cpp
   LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})
 sim_test(realism_test SOURCES test/world/realism_test.cpp
   LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})
-sim_test(arm_in_world_test SOURCES test/world/arm_in_world_test.cpp
-  LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})
 
 sim_test(steps_test
   SOURCES test/physics/robot_clearance_test.cpp test/physics/adaptive_steps_test.cpp
