@@ -10,11 +10,7 @@ import json
 import sys
 import time
 
-
-def smooth(x):
-    """From 0 to 1 with velocity and acceleration zero at both ends."""
-    x = min(max(x, 0.0), 1.0)
-    return x * x * x * (10.0 + x * (6.0 * x - 15.0))
+from session_parts import smooth
 
 
 class Motion:

@@ -7,16 +7,10 @@ import math
 import sys
 
 from panda_py import libfranka
+from session_parts import LOOSE, SENSITIVE, attempt, down, joints, pose, rise, torques
 
 IMPEDANCE = libfranka.ControllerMode.kJointImpedance
 CARTESIAN = libfranka.ControllerMode.kCartesianImpedance
-LOOSE = ([100.0] * 7, [100.0] * 7, [200.0] * 6, [200.0] * 6)
-
-
-def smooth(x):
-    """From 0 to 1 with velocity and acceleration zero at both ends."""
-    x = min(max(x, 0.0), 1.0)
-    return x * x * x * (10.0 + x * (6.0 * x - 15.0))
 
 
 class Motion:
@@ -37,57 +31,11 @@ class Motion:
         return command
 
 
-def joints(amplitude):
-    def command(first, x):
-        q = list(first["q"])
-        q[3] += amplitude * smooth(x)
-        return libfranka.JointPositions(q)
-
-    return command
-
-
 def joint_velocities(amplitude):
     def command(_, x):
         return libfranka.JointVelocities([0, 0, 0, 0, amplitude * math.sin(math.pi * min(x, 1.0)) ** 2, 0, 0])
 
     return command
-
-
-def pose(amplitude):
-    def command(first, x):
-        values = list(first["pose"])
-        values[14] += amplitude * (smooth(2 * x) - smooth(2 * x - 1))
-        return libfranka.CartesianPose(values)
-
-    return command
-
-
-def rise(height):
-    def command(first, x):
-        values = list(first["pose"])
-        values[14] += height * smooth(x)
-        return libfranka.CartesianPose(values)
-
-    return command
-
-
-def down(speed):
-    def command(_, x):
-        return libfranka.CartesianVelocities([0, 0, -speed * smooth(x / 0.1), 0, 0, 0])
-
-    return command
-
-
-def torques(_, x):
-    return libfranka.Torques([0.0] * 7)
-
-
-def attempt(act):
-    try:
-        act()
-        return "ok"
-    except Exception as error:  # noqa: BLE001 - its text is tested
-        return f"{type(error).__name__}: {error}"
 
 
 def mode(robot):
@@ -118,17 +66,23 @@ def session(address):
     }
 
     motions = {
-        "torque": (Motion(1.0, torques), lambda m: robot.control(m, False)),
+        "torque": (Motion(1.0, torques(libfranka)), lambda m: robot.control(m, False)),
         "joint position": (
-            Motion(2.0, joints(0.2)),
+            Motion(2.0, joints(libfranka, 0.2)),
             lambda m: robot.control_joint_position(m, IMPEDANCE, False),
         ),
         "joint velocity": (
             Motion(1.0, joint_velocities(0.2)),
             lambda m: robot.control_joint_velocity(m, IMPEDANCE, False),
         ),
-        "pose": (Motion(2.0, pose(-0.03)), lambda m: robot.control_cartesian_pose(m, CARTESIAN, False)),
-        "limited": (Motion(2.0, joints(-0.2)), lambda m: robot.control_joint_position(m, IMPEDANCE, True)),
+        "pose": (
+            Motion(2.0, pose(libfranka, -0.03)),
+            lambda m: robot.control_cartesian_pose(m, CARTESIAN, False),
+        ),
+        "limited": (
+            Motion(2.0, joints(libfranka, -0.2)),
+            lambda m: robot.control_joint_position(m, IMPEDANCE, True),
+        ),
     }
     seen["motions"] = {}
     for name, (motion, run) in motions.items():
@@ -147,7 +101,7 @@ def session(address):
     seen["leap"] = attempt(lambda: robot.control_joint_position(leap, IMPEDANCE, False))
     seen["mode after leap"] = mode(robot)
     seen["motion in reflex"] = attempt(
-        lambda: robot.control_joint_position(Motion(1.0, joints(0.1)), IMPEDANCE, False)
+        lambda: robot.control_joint_position(Motion(1.0, joints(libfranka, 0.1)), IMPEDANCE, False)
     )
     seen["recovery"] = attempt(robot.automatic_error_recovery)
     seen["mode after recovery"] = mode(robot)
@@ -158,16 +112,16 @@ def session(address):
     seen["callback throws"] = attempt(lambda: robot.control_joint_position(throw, IMPEDANCE, False))
     seen["second client"] = attempt(lambda: libfranka.Robot(address))
 
-    seen["thresholds"] = attempt(
-        lambda: robot.set_collision_behavior([20.0] * 7, [20.0] * 7, [10.0] * 6, [15.0] * 6)
-    )
+    seen["thresholds"] = attempt(lambda: robot.set_collision_behavior(*SENSITIVE))
     seen["contact"] = attempt(
-        lambda: robot.control_cartesian_velocity(Motion(5.0, down(0.1)), IMPEDANCE, False)
+        lambda: robot.control_cartesian_velocity(Motion(5.0, down(libfranka, 0.1)), IMPEDANCE, False)
     )
     seen["mode after contact"] = mode(robot)
     seen["height"] = robot.read_once().O_T_EE[14]
     seen["recovery after contact"] = attempt(robot.automatic_error_recovery)
-    seen["retreat"] = attempt(lambda: robot.control_cartesian_pose(Motion(2.0, rise(0.05)), IMPEDANCE, False))
+    seen["retreat"] = attempt(
+        lambda: robot.control_cartesian_pose(Motion(2.0, rise(libfranka, 0.05)), IMPEDANCE, False)
+    )
 
     seen["height after retreat"] = robot.read_once().O_T_EE[14]
 

@@ -6,23 +6,10 @@ import json
 import sys
 
 import pylibfranka as franka
+from session_parts import LOOSE, SENSITIVE, attempt, down, joints, pose, rise, torques
 
 IMPEDANCE = franka.ControllerMode.JointImpedance
 FRAME = [1.0, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.05, 1]
-
-
-def smooth(x):
-    """From 0 to 1 with velocity and acceleration zero at both ends."""
-    x = min(max(x, 0.0), 1.0)
-    return x * x * x * (10.0 + x * (6.0 * x - 15.0))
-
-
-def attempt(act):
-    try:
-        act()
-        return "ok"
-    except Exception as error:  # noqa: BLE001 - its text is tested
-        return f"{type(error).__name__}: {error}"
 
 
 def fresh(robot):
@@ -46,55 +33,19 @@ def drive(control, seconds, command):
             return cycles, passed
 
 
-def joints(amplitude):
-    def command(first, x):
-        q = list(first["q"])
-        q[3] += amplitude * smooth(x)
-        return franka.JointPositions(q)
-
-    return command
-
-
-def pose(amplitude):
-    def command(first, x):
-        values = list(first["pose"])
-        values[14] += amplitude * (smooth(2 * x) - smooth(2 * x - 1))
-        return franka.CartesianPose(values)
-
-    return command
-
-
-def down(speed):
-    def command(_, x):
-        return franka.CartesianVelocities([0, 0, -speed * smooth(x / 0.1), 0, 0, 0])
-
-    return command
-
-
-def rise(height):
-    def command(first, x):
-        values = list(first["pose"])
-        values[14] += height * smooth(x)
-        return franka.CartesianPose(values)
-
-    return command
-
-
 def meet_a_block(robot):
     """Moves down at 0.1 m/s until it hits something, and back up."""
-    seen = {
-        "thresholds": attempt(
-            lambda: robot.set_collision_behavior([20.0] * 7, [20.0] * 7, [10.0] * 6, [15.0] * 6)
-        )
-    }
+    seen = {"thresholds": attempt(lambda: robot.set_collision_behavior(*SENSITIVE))}
     seen["contact"] = attempt(
-        lambda: drive(robot.start_cartesian_velocity_control(IMPEDANCE), 5.0, down(0.1))
+        lambda: drive(robot.start_cartesian_velocity_control(IMPEDANCE), 5.0, down(franka, 0.1))
     )
     state = fresh(robot)
     seen["mode after contact"] = state.robot_mode.name
     seen["height"] = state.O_T_EE[14]
     seen["recovery after contact"] = attempt(robot.automatic_error_recovery)
-    seen["retreat"] = attempt(lambda: drive(robot.start_cartesian_pose_control(IMPEDANCE), 2.0, rise(0.05)))
+    seen["retreat"] = attempt(
+        lambda: drive(robot.start_cartesian_pose_control(IMPEDANCE), 2.0, rise(franka, 0.05))
+    )
     seen["height after retreat"] = fresh(robot).O_T_EE[14]
     return seen
 
@@ -115,16 +66,14 @@ def session(address):
         "EE_T_K": fresh(robot).EE_T_K[14],
         "joint impedance": attempt(lambda: robot.set_joint_impedance([2000.0] * 7)),
         "cartesian impedance": attempt(lambda: robot.set_cartesian_impedance([1000.0] * 3 + [100.0] * 3)),
-        "collision behavior": attempt(
-            lambda: robot.set_collision_behavior([100.0] * 7, [100.0] * 7, [200.0] * 6, [200.0] * 6)
-        ),
+        "collision behavior": attempt(lambda: robot.set_collision_behavior(*LOOSE)),
         "bad impedance": attempt(lambda: robot.set_joint_impedance([1e6] * 7)),
         "bad cartesian impedance": attempt(lambda: robot.set_cartesian_impedance([1e6] * 6)),
     }
     starts = {
-        "torque": (robot.start_torque_control, (), lambda first, x: franka.Torques([0.0] * 7), 1.0),
-        "joint position": (robot.start_joint_position_control, (IMPEDANCE,), joints(0.2), 2.0),
-        "pose": (robot.start_cartesian_pose_control, (IMPEDANCE,), pose(-0.03), 2.0),
+        "torque": (robot.start_torque_control, (), torques(franka), 1.0),
+        "joint position": (robot.start_joint_position_control, (IMPEDANCE,), joints(franka, 0.2), 2.0),
+        "pose": (robot.start_cartesian_pose_control, (IMPEDANCE,), pose(franka, -0.03), 2.0),
     }
     seen["motions"] = {}
     for name, (start, arguments, command, seconds) in starts.items():
@@ -154,7 +103,9 @@ def session(address):
     seen["mode after leap"] = fresh(robot).robot_mode.name
     seen["recovery"] = attempt(robot.automatic_error_recovery)
     seen["mode after recovery"] = fresh(robot).robot_mode.name
-    seen["again"] = attempt(lambda: drive(robot.start_joint_position_control(IMPEDANCE), 1.0, joints(-0.1)))
+    seen["again"] = attempt(
+        lambda: drive(robot.start_joint_position_control(IMPEDANCE), 1.0, joints(franka, -0.1))
+    )
     seen["second client"] = attempt(lambda: franka.Robot(address, franka.RealtimeConfig.kIgnore))
     seen.update(meet_a_block(robot))
     gripper = franka.Gripper(address)

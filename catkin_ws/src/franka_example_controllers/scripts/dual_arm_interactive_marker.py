@@ -14,47 +14,37 @@ when the controller starts again.
 import argparse
 import os
 import sys
-import threading
 
 import rospy
 import rospy_connections
 from franka_msgs.msg import FrankaState
 from geometry_msgs.msg import PoseStamped
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
-from visualization_msgs.msg import InteractiveMarker, InteractiveMarkerFeedback
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
-from interactive_marker import axis_controls  # noqa: E402
+from interactive_marker import PoseMarker  # noqa: E402
 
-NAME = "target_pose"
 CONTROLLER = "dual_arm_cartesian_impedance_example_controller"
 FRAME_TOPIC = CONTROLLER + "/centering_frame"
 TARGET_TOPIC = CONTROLLER + "/centering_frame_target_pose"
 PUBLISH_PERIOD = 0.1  # [s]
-MARKER_SCALE = 0.3  # [m]
 
 
-class CenteringFrameMarker:
-    """The marker in rviz, and the topic with its pose."""
+class CenteringFrameMarker(PoseMarker):
+    """The marker of the dual-arm controller; it follows the frame while an arm is not controlled."""
 
     def __init__(self, frame_id, pose):
-        self._frame_id = frame_id
-        self._pose = pose  # of the marker
-        self._lock = threading.Lock()
         self._moving = {}  # arm -> whether a controller moves it
-        self._publisher = rospy.Publisher(TARGET_TOPIC, PoseStamped, queue_size=1)
-        self._server = InteractiveMarkerServer("target_pose_marker")
-        marker = InteractiveMarker()
-        marker.header.frame_id = frame_id
-        marker.name = NAME
-        marker.description = "Centering frame\nBoth arms follow it and keep their relative pose"
-        marker.scale = MARKER_SCALE
-        marker.pose = pose
-        marker.controls = axis_controls()
-        self._server.insert(marker, self._feedback)
-        self._server.applyChanges()
+        super().__init__(
+            frame_id,
+            pose,
+            name="target_pose",
+            description="Centering frame\nBoth arms follow it and keep their relative pose",
+            server=InteractiveMarkerServer("target_pose_marker"),
+            publisher=rospy.Publisher(TARGET_TOPIC, PoseStamped, queue_size=1),
+            period=PUBLISH_PERIOD,
+        )
         self._frames = rospy.Subscriber(FRAME_TOPIC, PoseStamped, self._frame, queue_size=1)
-        self._timer = rospy.Timer(rospy.Duration(PUBLISH_PERIOD), self._publish, reset=True)
 
     def watch(self, arm):
         """Subscribes to the state of this arm."""
@@ -69,32 +59,12 @@ class CenteringFrameMarker:
         return all(self._moving.values())
 
     def _frame(self, message):
-        if self._all_moving():
-            return
-        with self._lock:
-            self._pose = message.pose
-        self._server.setPose(NAME, message.pose)
-        self._server.applyChanges()
-
-    def _feedback(self, feedback):
-        if feedback.event_type != InteractiveMarkerFeedback.POSE_UPDATE:
-            return
-        with self._lock:
-            self._pose = feedback.pose
-        self._server.applyChanges()
-
-    def _publish(self, _event):
         if not self._all_moving():
-            return
-        message = PoseStamped()
-        message.header.frame_id = self._frame_id
-        message.header.stamp = rospy.Time.now()
-        with self._lock:
-            message.pose = self._pose
-        try:
-            self._publisher.publish(message)
-        except rospy.ROSException:  # the node exits while the timer still runs
-            pass
+            self._set_pose(message.pose)
+
+    def _publish(self, event):
+        if self._all_moving():
+            super()._publish(event)
 
 
 def wait_for_frame():

@@ -75,43 +75,48 @@ def axis_controls():
     return controls
 
 
-class EquilibriumPoseMarker:
-    """The marker in rviz, and the topic with its pose."""
+class PoseMarker:
+    """A marker in rviz whose pose is published once per period [s] of ROS time.
 
-    def __init__(self, link_name, pose):
-        self._link_name = link_name
+    A callback of rviz moves the marker, a timer's thread publishes.
+    """
+
+    def __init__(self, frame_id, pose, *, name, description, server, publisher, period):
+        self._frame_id = frame_id
         self._pose = pose
-        self._lock = threading.Lock()  # rviz's thread moves the marker, a timer's thread publishes
-        self._publisher = rospy.Publisher("equilibrium_pose", PoseStamped, queue_size=10)
-        self._server = InteractiveMarkerServer("equilibrium_pose_marker")
-        self._insert_marker()
-        # reset: a restarted simulation sets the time back, and publishing must continue.
-        self._timer = rospy.Timer(rospy.Duration(PUBLISH_PERIOD), self._publish, reset=True)
-
-    def _insert_marker(self):
+        self._name = name
+        self._lock = threading.Lock()
+        self._publisher = publisher
+        self._server = server
         marker = InteractiveMarker()
-        marker.header.frame_id = self._link_name
-        marker.name = "equilibrium_pose"
-        marker.description = "Equilibrium pose\nThe impedance controller draws the end effector here"
+        marker.header.frame_id = frame_id
+        marker.name = name
+        marker.description = description
         marker.scale = MARKER_SCALE
-        marker.pose = self._pose
+        marker.pose = pose
         marker.controls = axis_controls()
         self._server.insert(marker, self._feedback)
         self._server.applyChanges()
+        # reset: a restarted simulation sets the time back, and publishing must continue.
+        self._timer = rospy.Timer(rospy.Duration(period), self._publish, reset=True)
 
-    def _feedback(self, feedback):
-        if feedback.event_type != InteractiveMarkerFeedback.POSE_UPDATE:
-            return
-        pose = feedback.pose
-        clamp_position(pose.position)
+    def _dragged(self, pose):
+        """The user has dragged the marker here."""
+        self._set_pose(pose)
+
+    def _set_pose(self, pose):
         with self._lock:
             self._pose = pose
-        self._server.setPose("equilibrium_pose", pose)
+        self._server.setPose(self._name, pose)
         self._server.applyChanges()
+
+    def _feedback(self, feedback):
+        if feedback.event_type == InteractiveMarkerFeedback.POSE_UPDATE:
+            self._dragged(feedback.pose)
 
     def _publish(self, _event):
         message = PoseStamped()
-        message.header.frame_id = self._link_name
+        message.header.frame_id = self._frame_id
         message.header.stamp = rospy.Time.now()
         with self._lock:
             message.pose = self._pose
@@ -119,6 +124,25 @@ class EquilibriumPoseMarker:
             self._publisher.publish(message)
         except rospy.ROSException:  # the node exits while the timer still runs
             pass
+
+
+class EquilibriumPoseMarker(PoseMarker):
+    """The marker of the impedance controller, which stays within POSITION_LIMITS."""
+
+    def __init__(self, link_name, pose):
+        super().__init__(
+            link_name,
+            pose,
+            name="equilibrium_pose",
+            description="Equilibrium pose\nThe impedance controller draws the end effector here",
+            server=InteractiveMarkerServer("equilibrium_pose_marker"),
+            publisher=rospy.Publisher("equilibrium_pose", PoseStamped, queue_size=10),
+            period=PUBLISH_PERIOD,
+        )
+
+    def _dragged(self, pose):
+        clamp_position(pose.position)
+        self._set_pose(pose)
 
 
 def wait_for_pose():

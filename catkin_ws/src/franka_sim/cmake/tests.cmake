@@ -42,23 +42,19 @@ sim_test(robot_unit_test
   SOURCES
     test/robot/command_filter_test.cpp
     test/robot/command_link_test.cpp
-    test/robot/contact_monitor_test.cpp
     test/robot/control_laws_test.cpp
     test/robot/error_flags_test.cpp
-    test/robot/external_wrench_test.cpp
+    test/robot/estimator_test.cpp
     test/robot/finger_motion_test.cpp
-    test/robot/link_accelerometers_test.cpp
     test/robot/operator_motion_test.cpp
-    test/robot/pending_answers_test.cpp
     test/robot/rest_sequence_test.cpp
     test/robot/safety_controller_test.cpp
     test/robot/self_collision_test.cpp
-    test/robot/torque_command_test.cpp
+    test/robot/supervisor_parts_test.cpp
     test/robot/transform_entrances_test.cpp
     test/robot/unit_limits_test.cpp
     test/robot/unit_motion_test.cpp
     test/robot/unit_restart_test.cpp
-    test/robot/virtual_walls_test.cpp
   LIBRARIES franka_sim_robot)
 
 sim_test(robot_motion_test
@@ -76,8 +72,6 @@ sim_test(robot_motion_test
 sim_test(unit_in_world_test SOURCES test/robot/unit_in_world_test.cpp
   LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})
 sim_test(realism_test SOURCES test/world/realism_test.cpp
-  LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})
-sim_test(arm_in_world_test SOURCES test/world/arm_in_world_test.cpp
   LIBRARIES franka_sim_physics franka_sim_robot ${MUJOCO_LIBRARY})
 
 sim_test(steps_test

@@ -57,8 +57,6 @@ class TeleopFollow {
   /// Torques of the follower in this cycle [Nm].
   const Vector7d& followerTorque() const noexcept { return tau_follower_; }
 
-  /// Whether the follower has reached the leader and follows it; before, it aligns.
-  bool isTracking() const noexcept { return tracking_; }
   const Vector7d& target() const noexcept { return q_target_; }           ///< of the follower [rad]
   const Vector7d& targetVelocity() const noexcept { return dq_target_; }  ///< [rad/s]
   double leaderContact() const noexcept { return leader_contact_; }  ///< 0 not touched, 1 guided

@@ -9,7 +9,6 @@
 #include "physics/mjcf_files.h"
 #include "physics/sdf_frames.h"
 #include "physics/sdf_scene.h"
-#include "physics/sdf_shapes.h"
 #include "physics/sdf_text.h"
 #include "physics/xml_util.h"
 

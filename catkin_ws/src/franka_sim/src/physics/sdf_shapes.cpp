@@ -1,7 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/sdf_shapes.h"
-
 #include <franka_core/numbers.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <string_view>
 #include <system_error>
 
+#include "physics/sdf_scene.h"
 #include "physics/xml_util.h"
 
 namespace franka_sim::physics {

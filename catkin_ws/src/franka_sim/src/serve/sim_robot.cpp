@@ -77,10 +77,6 @@ std::uint16_t SimRobot::gripperPort() const noexcept {
   return servers_->hand ? servers_->hand->port() : 0;
 }
 
-std::uint16_t SimRobot::vacuumPort() const noexcept {
-  return servers_->vacuum ? servers_->vacuum->port() : 0;
-}
-
 bool SimRobot::hasPendingState() const { return servers_->arm.hasPendingState(); }
 
 bool SimRobot::receiveCommand() { return servers_->arm.receiveCommand(); }

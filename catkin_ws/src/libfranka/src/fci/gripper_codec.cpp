@@ -43,7 +43,7 @@ std::uint16_t lastStatus(std::uint16_t command) noexcept {
 }
 
 std::size_t sizeOfReply(std::uint16_t command) noexcept {
-  return kPlainReplySize + (command == kConnect ? sizeof(std::uint16_t) : 0);
+  return kHeaderSize + sizeof(std::uint16_t) + (command == kConnect ? sizeof(std::uint16_t) : 0);
 }
 
 }  // namespace
@@ -66,42 +66,25 @@ CodecError nextMessage(Bytes stream, std::size_t max_size, Header& header) noexc
 }
 
 std::size_t requestSize(Command command) noexcept {
-  const auto index = static_cast<std::size_t>(command);
-  return index < kPayload.size() ? kHeaderSize + kPayload[index] : 0;
-}
-
-std::size_t replySize(Command command) noexcept {
-  return sizeOfReply(static_cast<std::uint16_t>(command));
+  return sizeOfRequest(kPayload, static_cast<std::size_t>(command));
 }
 
 void encodeRequest(std::uint32_t command_id, const Request& request,
                    RequestMessage& message) noexcept {
-  const Command command = commandOf(request);
-  message.size = requestSize(command);
-  wire::Writer writer(message.data);
-  writeHeader(static_cast<std::uint16_t>(command), command_id, message.size, writer);
-  std::visit([&](const auto& fields) noexcept { write(fields, writer); }, request);
+  writeRequest(kPayload, command_id, request, message,
+               [](const auto& fields, wire::Writer& writer) noexcept { write(fields, writer); });
 }
 
 CodecError decodeRequest(Bytes message, Header& header, Request& request) noexcept {
-  if (!isWhole(message, kMaxRequestSize, header)) {
-    return CodecError::kWrongSize;
-  }
-  if (header.command >= kPayload.size()) {
-    return CodecError::kUnknownCommand;
-  }
-  const auto command = static_cast<Command>(header.command);
-  if (message.size != requestSize(command)) {
-    return CodecError::kWrongSize;
+  const CodecError error = readRequestHeader(kPayload, kMaxRequestSize, message, header);
+  if (error != CodecError::kNone) {
+    return error;
   }
   wire::Reader reader(message.data + kHeaderSize);
-  switch (command) {
-    case Command::kConnect: {
-      ConnectRequest connect;
-      readConnect(reader, connect);
-      request = connect;
+  switch (static_cast<Command>(header.command)) {
+    case Command::kConnect:
+      request = readConnect(reader);
       break;
-    }
     case Command::kHoming:
       request = HomingRequest{};
       break;
@@ -118,8 +101,8 @@ CodecError decodeRequest(Bytes message, Header& header, Request& request) noexce
   return CodecError::kNone;
 }
 
-CodecError writeReply(std::uint16_t command, std::uint32_t command_id, const Reply& reply,
-                      ReplyMessage& message) noexcept {
+CodecError encodeReply(std::uint16_t command, std::uint32_t command_id, const Reply& reply,
+                       ReplyMessage& message) noexcept {
   message.size = 0;
   const auto status = static_cast<std::uint16_t>(reply.status);
   if (status > lastStatus(command)) {
@@ -135,7 +118,8 @@ CodecError writeReply(std::uint16_t command, std::uint32_t command_id, const Rep
   return CodecError::kNone;
 }
 
-CodecError readReply(std::uint16_t command, Bytes message, Header& header, Reply& reply) noexcept {
+CodecError decodeReply(std::uint16_t command, Bytes message, Header& header,
+                       Reply& reply) noexcept {
   // As with the robot, a reply to Connect may be longer.
   const std::size_t size = sizeOfReply(command);
   if (!isWhole(message, kMaxReceivedReplySize, header) || message.size < size ||
@@ -153,15 +137,6 @@ CodecError readReply(std::uint16_t command, Bytes message, Header& header, Reply
     reply.server_version = reader.integer<std::uint16_t>();
   }
   return CodecError::kNone;
-}
-
-CodecError encodeReply(Command command, std::uint32_t command_id, const Reply& reply,
-                       ReplyMessage& message) noexcept {
-  return writeReply(static_cast<std::uint16_t>(command), command_id, reply, message);
-}
-
-CodecError decodeReply(Command command, Bytes message, Header& header, Reply& reply) noexcept {
-  return readReply(static_cast<std::uint16_t>(command), message, header, reply);
 }
 
 void encodeState(const State& state, StateBuffer& buffer) noexcept {

@@ -40,42 +40,26 @@ CodecError readVacuum(wire::Reader& reader, Request& request) noexcept {
 }  // namespace
 
 std::size_t requestSize(Command command) noexcept {
-  const auto index = static_cast<std::size_t>(command);
-  return index < kPayload.size() ? gripper::kHeaderSize + kPayload[index] : 0;
-}
-
-std::size_t replySize(Command command) noexcept {
-  return gripper::kPlainReplySize + (command == Command::kConnect ? sizeof(std::uint16_t) : 0);
+  return gripper::sizeOfRequest(kPayload, static_cast<std::size_t>(command));
 }
 
 void encodeRequest(std::uint32_t command_id, const Request& request,
                    RequestMessage& message) noexcept {
-  const Command command = commandOf(request);
-  message.size = requestSize(command);
-  wire::Writer writer(message.data);
-  gripper::writeHeader(static_cast<std::uint16_t>(command), command_id, message.size, writer);
-  std::visit([&](const auto& fields) noexcept { write(fields, writer); }, request);
+  gripper::writeRequest(
+      kPayload, command_id, request, message,
+      [](const auto& fields, wire::Writer& writer) noexcept { write(fields, writer); });
 }
 
 CodecError decodeRequest(Bytes message, Header& header, Request& request) noexcept {
-  if (!gripper::isWhole(message, kMaxRequestSize, header)) {
-    return CodecError::kWrongSize;
-  }
-  if (header.command >= kPayload.size()) {
-    return CodecError::kUnknownCommand;
-  }
-  const auto command = static_cast<Command>(header.command);
-  if (message.size != requestSize(command)) {
-    return CodecError::kWrongSize;
+  const CodecError error = gripper::readRequestHeader(kPayload, kMaxRequestSize, message, header);
+  if (error != CodecError::kNone) {
+    return error;
   }
   wire::Reader reader(message.data + gripper::kHeaderSize);
-  switch (command) {
-    case Command::kConnect: {
-      ConnectRequest connect;
-      gripper::readConnect(reader, connect);
-      request = connect;
+  switch (static_cast<Command>(header.command)) {
+    case Command::kConnect:
+      request = gripper::readConnect(reader);
       break;
-    }
     case Command::kVacuum:
       return readVacuum(reader, request);
     case Command::kDropOff:
@@ -86,15 +70,6 @@ CodecError decodeRequest(Bytes message, Header& header, Request& request) noexce
       break;
   }
   return CodecError::kNone;
-}
-
-CodecError encodeReply(Command command, std::uint32_t command_id, const Reply& reply,
-                       ReplyMessage& message) noexcept {
-  return gripper::writeReply(static_cast<std::uint16_t>(command), command_id, reply, message);
-}
-
-CodecError decodeReply(Command command, Bytes message, Header& header, Reply& reply) noexcept {
-  return gripper::readReply(static_cast<std::uint16_t>(command), message, header, reply);
 }
 
 void encodeState(const State& state, StateBuffer& buffer) noexcept {

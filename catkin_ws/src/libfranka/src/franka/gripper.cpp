@@ -11,27 +11,13 @@ namespace gripper_codec = franka_core::fci::gripper;
 
 struct HandProtocol {
   using Request = gripper_codec::Request;
-  using Reply = gripper_codec::Reply;
   using State = gripper_codec::State;
-  using ConnectRequest = gripper_codec::ConnectRequest;
   using RequestMessage = gripper_codec::RequestMessage;
   using StateBuffer = gripper_codec::StateBuffer;
   static constexpr std::uint16_t kPort = fci::kGripperPort;
   static constexpr std::uint16_t kOldest = fci::kOldestGripperVersion;
   static constexpr std::uint16_t kNewest = fci::kNewestGripperVersion;
-  static constexpr std::size_t kMaxReplySize = gripper_codec::kMaxReceivedReplySize;
   static constexpr const char* kTextPrefix = fci::kGripper;
-
-  static void encodeRequest(std::uint32_t id, const Request& request, RequestMessage& message) {
-    gripper_codec::encodeRequest(id, request, message);
-  }
-  static fci::CodecError decodeReply(const Request& request, fci::Bytes message,
-                                     gripper_codec::Header& header, Reply& reply) {
-    return gripper_codec::decodeReply(gripper_codec::commandOf(request), message, header, reply);
-  }
-  static fci::CodecError decodeState(fci::Bytes datagram, State& state) {
-    return gripper_codec::decodeState(datagram, state);
-  }
 };
 
 class Gripper::Impl : public GripperConnection<HandProtocol> {

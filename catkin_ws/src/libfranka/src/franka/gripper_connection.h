@@ -26,15 +26,16 @@ namespace franka {
 /// Common part of hand and vacuum gripper: requests with one reply, and states that arrive
 /// continuously.
 ///
-/// Protocol describes one of the two: its types and codec, kPort, kOldest, kNewest, and
-/// kTextPrefix, the start of its texts. Threads: execute from any number, readOnce from one at a
-/// time.
+/// Protocol describes one of the two: the types of its codec, kPort, kOldest, kNewest, and
+/// kTextPrefix, the start of its texts. The functions of the codec are found by these types.
+/// Threads: execute from any number, readOnce from one at a time.
 template <typename Protocol>
 class GripperConnection {
  public:
   using Request = typename Protocol::Request;
   using State = typename Protocol::State;
   using Status = franka_core::fci::gripper::Status;
+  using Reply = franka_core::fci::gripper::Reply;
 
   /// @throws NetworkException, IncompatibleVersionException
   explicit GripperConnection(const std::string& address)
@@ -59,8 +60,7 @@ class GripperConnection {
   /// @throws CommandException if the command failed or was aborted.
   /// @throws NetworkException if no reply arrives within `bound`.
   bool execute(const Request& request, std::chrono::milliseconds bound) {
-    const typename Protocol::Reply reply =
-        decode(request, await(request, network::Clock::now() + bound, bound));
+    const Reply reply = decode(request, await(request, network::Clock::now() + bound, bound));
     switch (reply.status) {
       case Status::kSuccess:
         return true;
@@ -96,8 +96,7 @@ class GripperConnection {
       received = datagrams_.receive(buffer.data(), buffer.size());
     }
     State state;
-    if (Protocol::decodeState({buffer.data(), received.size}, state) !=
-        franka_core::fci::CodecError::kNone) {
+    if (decodeState({buffer.data(), received.size}, state) != franka_core::fci::CodecError::kNone) {
       throw ProtocolException(franka_core::fci::kWrongObjectSize);
     }
     datagrams_.accept();
@@ -124,8 +123,8 @@ class GripperConnection {
   static franka_core::fci::CodecError findMessage(franka_core::fci::Bytes stream, std::uint32_t& id,
                                                   std::size_t& size) {
     franka_core::fci::gripper::Header header;
-    const auto error =
-        franka_core::fci::gripper::nextMessage(stream, Protocol::kMaxReplySize, header);
+    const auto error = franka_core::fci::gripper::nextMessage(
+        stream, franka_core::fci::gripper::kMaxReceivedReplySize, header);
     id = header.command_id;
     size = header.size;
     return error;
@@ -136,9 +135,8 @@ class GripperConnection {
                                      Deadline deadline) {
     channel_.reset();
     channel_ = std::make_unique<network::CommandChannel>(endpoint, findMessage, deadline);
-    const Request request = typename Protocol::ConnectRequest{version, datagrams_.port()};
-    const typename Protocol::Reply reply =
-        decode(request, await(request, deadline, timeouts_.connect));
+    const Request request = franka_core::fci::gripper::ConnectRequest{version, datagrams_.port()};
+    const Reply reply = decode(request, await(request, deadline, timeouts_.connect));
     version_ = reply.status == Status::kSuccess ? reply.server_version : version;
     return reply.status == Status::kSuccess ? std::nullopt
                                             : std::make_optional(reply.server_version);
@@ -154,7 +152,7 @@ class GripperConnection {
     const std::uint32_t id = channel_->expect();
     const ReplyEraser eraser{*channel_, id};
     typename Protocol::RequestMessage message;
-    Protocol::encodeRequest(id, request, message);
+    encodeRequest(id, request, message);
     channel_->send(message.bytes());
     auto reply = channel_->receive(id, deadline);
     if (!reply) {
@@ -165,12 +163,11 @@ class GripperConnection {
     return std::move(*reply);
   }
 
-  typename Protocol::Reply decode(const Request& request,
-                                  const network::CommandChannel::Message& message) {
+  Reply decode(const Request& request, const network::CommandChannel::Message& message) {
     franka_core::fci::gripper::Header header;
-    typename Protocol::Reply reply;
+    Reply reply;
     const auto error =
-        Protocol::decodeReply(request, {message.data(), message.size()}, header, reply);
+        decodeReply(commandOf(request), {message.data(), message.size()}, header, reply);
     if (error != franka_core::fci::CodecError::kNone) {
       throw ProtocolException(text("Unexpected response while handling a command!"));
     }

@@ -15,27 +15,13 @@ namespace vacuum_codec = franka_core::fci::vacuum;
 
 struct VacuumProtocol {
   using Request = vacuum_codec::Request;
-  using Reply = vacuum_codec::Reply;
   using State = vacuum_codec::State;
-  using ConnectRequest = vacuum_codec::ConnectRequest;
   using RequestMessage = vacuum_codec::RequestMessage;
   using StateBuffer = vacuum_codec::StateBuffer;
   static constexpr std::uint16_t kPort = fci::kVacuumGripperPort;
   static constexpr std::uint16_t kOldest = fci::kVacuumGripperVersion;
   static constexpr std::uint16_t kNewest = fci::kVacuumGripperVersion;
-  static constexpr std::size_t kMaxReplySize = franka_core::fci::gripper::kMaxReceivedReplySize;
   static constexpr const char* kTextPrefix = fci::kVacuumGripper;
-
-  static void encodeRequest(std::uint32_t id, const Request& request, RequestMessage& message) {
-    vacuum_codec::encodeRequest(id, request, message);
-  }
-  static fci::CodecError decodeReply(const Request& request, fci::Bytes message,
-                                     vacuum_codec::Header& header, Reply& reply) {
-    return vacuum_codec::decodeReply(vacuum_codec::commandOf(request), message, header, reply);
-  }
-  static fci::CodecError decodeState(fci::Bytes datagram, State& state) {
-    return vacuum_codec::decodeState(datagram, state);
-  }
 };
 
 std::uint16_t unsigned16(std::int32_t value) {

@@ -5,22 +5,17 @@
 // A robot with a revolute arm (limits -1 to 2 rad), a continuous wheel and a slide (limits -0.5 to
 // 0.5 m), its controller manager, and time that the test advances.
 
-#include <controller_manager/controller_manager.h>
 #include <gmock/gmock.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/ros.h>
-#include <ros_test/eventually.h>
+#include <ros_test/controller_loop.h>
 #include <ros_test/log_catcher.h>
 #include <std_msgs/Float64.h>
 
 #include <array>
-#include <chrono>
-#include <future>
-#include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace three_joints {
@@ -49,6 +44,9 @@ class Robot : public hardware_interface::RobotHW {
     registerInterface(&efforts_);
   }
 
+  /// The test writes what the robot measures.
+  void move(double /*dt*/) {}
+
   std::array<double, 3> position_{{0.3, 0.2, 0.1}}, velocity_{}, effort_{};
   std::array<double, 3> position_command_{}, velocity_command_{}, effort_command_{};
 
@@ -60,10 +58,9 @@ class Robot : public hardware_interface::RobotHW {
 };
 
 /// Each test has its own namespace, named after it.
-class ControllerTest : public testing::Test {
+class ControllerTest : public ros_test::ControllerLoop<Robot>, public testing::Test {
  protected:
-  ControllerTest()
-      : nh_(testing::UnitTest::GetInstance()->current_test_info()->name()), manager_(&robot_, nh_) {
+  ControllerTest() : ControllerLoop(testing::UnitTest::GetInstance()->current_test_info()->name()) {
     nh_.deleteParam("c");  // for a master that outlives a run
     ros::param::set("robot_description", R"(
       <robot name="three_joints">
@@ -103,33 +100,13 @@ class ControllerTest : public testing::Test {
     nh_.setParam(where + "/d", d);
   }
 
-  void start() { ASSERT_TRUE(doSwitch({"c"}, {})); }
-  void stop() { ASSERT_TRUE(doSwitch({}, {"c"})); }
-
-  void step() {
-    time_ += period_;
-    manager_.update(time_, period_);
-  }
-
-  bool doSwitch(const Names& start, const Names& stop) {
-    std::future<bool> answer =
-        std::async(std::launch::async, [&] { return manager_.switchController(start, stop, 2); });
-    EXPECT_TRUE(stepsUntil([&] {
-      return answer.wait_for(std::chrono::milliseconds(0)) == std::future_status::ready;
-    }));
-    const bool succeeded = answer.get();
+  void start() {
+    ASSERT_TRUE(doSwitch({"c"}, {}));
     step();
-    return succeeded;
   }
-
-  /// Steps until a condition holds.
-  template <class Condition>
-  bool stepsUntil(Condition condition) {
-    const auto after_a_step = [&] {
-      step();
-      return condition();
-    };
-    return eventually(after_a_step, std::chrono::microseconds(200));
+  void stop() {
+    ASSERT_TRUE(doSwitch({}, {"c"}));
+    step();
   }
 
   /// A connected publisher to the controller's topic `command`.
@@ -139,12 +116,6 @@ class ControllerTest : public testing::Test {
     EXPECT_TRUE(eventually([&] { return publisher.getNumSubscribers() > 0; }));
     return publisher;
   }
-
-  ros::NodeHandle nh_;
-  Robot robot_;
-  controller_manager::ControllerManager manager_;
-  ros::Time time_{100.0};
-  const ros::Duration period_{0.001};
 };
 
 }  // namespace three_joints

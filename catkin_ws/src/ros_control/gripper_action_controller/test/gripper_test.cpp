@@ -4,29 +4,23 @@
 // time.
 #include <actionlib/client/action_client.h>
 #include <control_msgs/GripperCommandAction.h>
-#include <controller_manager/controller_manager.h>
 #include <gtest/gtest.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/ros.h>
-#include <ros_test/eventually.h>
+#include <ros_test/controller_loop.h>
 #include <rt_guard/rt_guard.h>
 
 #include <algorithm>
-#include <chrono>
-#include <future>
 #include <limits>
 #include <memory>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace {
 
 typedef actionlib::ActionClient<control_msgs::GripperCommandAction> Client;
 typedef actionlib::TerminalState Terminal;
-
-constexpr double kPeriod = 0.001;
 
 /// A finger of 1 kg that cannot pass an obstacle.
 class Gripper : public hardware_interface::RobotHW {
@@ -39,9 +33,9 @@ class Gripper : public hardware_interface::RobotHW {
     registerInterface(&effort_interface_);
   }
 
-  void move(double dt, bool by_effort) {
+  void move(double dt) {
     const double before = position_;
-    if (by_effort) {
+    if (by_effort_) {
       velocity_ += effort_command_ * dt;
       position_ += velocity_ * dt;
     } else {
@@ -58,16 +52,18 @@ class Gripper : public hardware_interface::RobotHW {
   double position_command_{0.04};
   double effort_command_{0.0};
   double obstacle_{-1.0};
+  bool by_effort_{false};
 
  private:
   hardware_interface::PositionJointInterface position_interface_;
   hardware_interface::EffortJointInterface effort_interface_;
 };
 
-class GripperTest : public testing::TestWithParam<const char*> {
+class GripperTest : public ros_test::ControllerLoop<Gripper>,
+                    public testing::TestWithParam<const char*> {
  protected:
-  GripperTest() : nh_("gripper_test"), manager_(&gripper_, nh_) {
-    by_effort_ = std::string(GetParam()) == "effort";
+  GripperTest() : ControllerLoop("gripper_test") {
+    robot_.by_effort_ = std::string(GetParam()) == "effort";
     nh_.setParam("gripper/type", std::string(GetParam()) + "_controllers/GripperActionController");
     nh_.setParam("gripper/joint", "finger");
     nh_.setParam("gripper/goal_tolerance", 0.001);
@@ -81,32 +77,9 @@ class GripperTest : public testing::TestWithParam<const char*> {
 
   void start() {
     ASSERT_TRUE(manager_.loadController("gripper"));
-    switchTo({"gripper"}, {});
+    ASSERT_TRUE(doSwitch({"gripper"}, {}));
     client_ = std::make_unique<Client>(nh_, "gripper/gripper_cmd");
     until([&] { return client_->isServerConnected(); }, "the action server");
-  }
-
-  void switchTo(std::vector<std::string> starting, std::vector<std::string> stopping) {
-    auto answer = std::async(std::launch::async,
-                             [&] { return manager_.switchController(starting, stopping, 2); });
-    until([&] { return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready; },
-          "the switch");
-    ASSERT_TRUE(answer.get());
-  }
-
-  void steps(int count) {
-    for (int i = 0; i < count; ++i) {
-      time_ += ros::Duration(kPeriod);
-      manager_.update(time_, ros::Duration(kPeriod));
-      gripper_.move(kPeriod, by_effort_);
-    }
-  }
-
-  template <class Condition>
-  void until(Condition condition, const std::string& what, int cycles = 1) {
-    const auto after_cycles = [&] { return condition() || (steps(cycles), false); };
-    ASSERT_TRUE(ros_test::eventually(after_cycles, std::chrono::microseconds(20)))
-        << "in vain: waited for " << what;
   }
 
   Client::GoalHandle send(double position, double max_effort = 20.0) {
@@ -134,12 +107,7 @@ class GripperTest : public testing::TestWithParam<const char*> {
     return handle.getTerminalState().state_;
   }
 
-  bool by_effort_;
-  ros::NodeHandle nh_;
-  Gripper gripper_;
-  controller_manager::ControllerManager manager_;
   std::unique_ptr<Client> client_;
-  ros::Time time_{100.0};
 };
 
 INSTANTIATE_TEST_SUITE_P(All, GripperTest, testing::Values("position", "effort"));
@@ -156,7 +124,7 @@ TEST_P(GripperTest, ReachesItsGoal) {
 
 TEST_P(GripperTest, StallsAtAnObstacleAndKeepsPressing) {
   start();
-  gripper_.obstacle_ = 0.02;
+  robot_.obstacle_ = 0.02;
   Client::GoalHandle handle = send(0.0, 5.0);
   untilActive(handle);
   const ros::Time begin = time_;
@@ -168,11 +136,11 @@ TEST_P(GripperTest, StallsAtAnObstacleAndKeepsPressing) {
   // It took at least the motion time and then the timeout.
   EXPECT_GT((time_ - begin).toSec(), 0.2);
   steps(100);
-  if (by_effort_) {
-    EXPECT_DOUBLE_EQ(-5.0, gripper_.effort_command_);
+  if (robot_.by_effort_) {
+    EXPECT_DOUBLE_EQ(-5.0, robot_.effort_command_);
     EXPECT_DOUBLE_EQ(-5.0, result.effort);
   } else {
-    EXPECT_DOUBLE_EQ(0.0, gripper_.position_command_);
+    EXPECT_DOUBLE_EQ(0.0, robot_.position_command_);
   }
 }
 
@@ -185,8 +153,8 @@ TEST_P(GripperTest, CancelHolds) {
   end(handle, 0);
   EXPECT_EQ(Terminal::PREEMPTED, how(handle));
   steps(2000);
-  EXPECT_GT(gripper_.position_, 0.005);
-  EXPECT_NEAR(0.0, gripper_.velocity_, 1e-6);
+  EXPECT_GT(robot_.position_, 0.005);
+  EXPECT_NEAR(0.0, robot_.velocity_, 1e-6);
 }
 
 TEST_P(GripperTest, AnotherGoalPreempts) {
@@ -211,22 +179,22 @@ TEST_P(GripperTest, RefusesImpossibleGoals) {
     end(handle);
     EXPECT_EQ(Terminal::REJECTED, how(handle));
   }
-  EXPECT_DOUBLE_EQ(0.04, gripper_.position_);
+  EXPECT_DOUBLE_EQ(0.04, robot_.position_);
 }
 
 TEST_P(GripperTest, StoppingCancelsAndRefusesUntilTheNextStart) {
   start();
-  gripper_.obstacle_ = 0.02;
+  robot_.obstacle_ = 0.02;
   Client::GoalHandle handle = send(0.0);
   untilActive(handle);
   steps(20);
-  switchTo({}, {"gripper"});
+  ASSERT_TRUE(doSwitch({}, {"gripper"}));
   end(handle);
   EXPECT_EQ(Terminal::PREEMPTED, how(handle));
   Client::GoalHandle refused = send(0.0);
   end(refused);
   EXPECT_EQ(Terminal::REJECTED, how(refused));
-  switchTo({"gripper"}, {});
+  ASSERT_TRUE(doSwitch({"gripper"}, {}));
   Client::GoalHandle again = send(0.03);
   end(again);
   EXPECT_EQ(Terminal::SUCCEEDED, how(again));
@@ -234,7 +202,7 @@ TEST_P(GripperTest, StoppingCancelsAndRefusesUntilTheNextStart) {
 
 TEST_P(GripperTest, NeitherAllocatesNorLocks) {
   start();
-  gripper_.obstacle_ = 0.02;
+  robot_.obstacle_ = 0.02;
   Client::GoalHandle handle = send(0.0);
   untilActive(handle);
   rt_guard::Scope scope;
@@ -253,7 +221,7 @@ TEST_P(GripperTest, RefusesInvalidParameters) {
   EXPECT_FALSE(manager_.loadController("gripper"));
   nh_.setParam("gripper/joint", "finger");
   nh_.deleteParam("gripper/gains");
-  EXPECT_EQ(!by_effort_, manager_.loadController("gripper"));
+  EXPECT_EQ(!robot_.by_effort_, manager_.loadController("gripper"));
 }
 
 }  // namespace

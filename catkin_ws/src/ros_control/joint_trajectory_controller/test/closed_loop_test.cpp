@@ -6,11 +6,10 @@
 #include <control_msgs/FollowJointTrajectoryAction.h>
 #include <control_msgs/JointTrajectoryControllerState.h>
 #include <control_msgs/QueryTrajectoryState.h>
-#include <controller_manager/controller_manager.h>
 #include <gtest/gtest.h>
 #include <joint_trajectory_controller/joint_trajectory_controller.h>
 #include <ros/ros.h>
-#include <ros_test/eventually.h>
+#include <ros_test/controller_loop.h>
 #include <rt_guard/rt_guard.h>
 #include <trajectory_interface/quintic_spline_segment.h>
 
@@ -19,7 +18,6 @@
 #include <chrono>
 #include <cmath>
 #include <functional>
-#include <future>
 #include <limits>
 #include <memory>
 #include <string>
@@ -42,9 +40,9 @@ constexpr double kPeriod = 0.001;
 const std::vector<std::string> kNames{"j0", "j1", "j2"};
 
 /// A manager with one controller of each interface; time advances only by the test's steps.
-class ClosedLoop : public testing::Test {
+class ClosedLoop : public ros_test::ControllerLoop<closed_loop::TestRobot>, public testing::Test {
  protected:
-  ClosedLoop() : nh_("closed_loop"), manager_(&robot_, nh_) {
+  ClosedLoop() : ControllerLoop("closed_loop") {
     nh_.setParam("robot_description", closed_loop::urdf());
   }
 
@@ -67,43 +65,9 @@ class ClosedLoop : public testing::Test {
   void start(const std::string& interface = "position") {
     describe(interface);
     ASSERT_TRUE(manager_.loadController(name_));
-    switchTo({name_}, {});
+    ASSERT_TRUE(doSwitch({name_}, {}));
     client_ = std::make_unique<Client>(nh_, name_ + "/follow_joint_trajectory");
     until([&] { return client_->isServerConnected(); }, "the action server");
-  }
-
-  void switchTo(std::vector<std::string> starting, std::vector<std::string> stopping) {
-    auto answer = std::async(std::launch::async,
-                             [&] { return manager_.switchController(starting, stopping, 2); });
-    until([&] { return answer.wait_for(std::chrono::seconds(0)) == std::future_status::ready; },
-          "the switch");
-    ASSERT_TRUE(answer.get());
-  }
-
-  void step() {
-    time_ += ros::Duration(kPeriod);
-    manager_.update(time_, ros::Duration(kPeriod));
-    robot_.move(kPeriod);
-  }
-
-  void steps(int count) {
-    for (int i = 0; i < count; ++i) {
-      step();
-    }
-  }
-
-  /// Steps until a condition holds, while callbacks get processor time.
-  template <class Condition>
-  void until(Condition condition, const std::string& what) {
-    const auto after_a_step = [&] { return condition() || (step(), false); };
-    ASSERT_TRUE(ros_test::eventually(after_a_step, std::chrono::microseconds(20)))
-        << "in vain: waited for " << what;
-  }
-
-  /// Waits without steps until a condition holds in the callbacks.
-  template <class Condition>
-  void standStillUntil(Condition condition, const std::string& what) {
-    ASSERT_TRUE(ros_test::eventually(condition)) << "in vain: waited for " << what;
   }
 
   /// From the present position to `target` in `duration`, in `count` points on a cosine.
@@ -130,14 +94,13 @@ class ClosedLoop : public testing::Test {
   Client::GoalHandle send(const Goal& goal) { return client_->sendGoal(goal); }
 
   void untilActive(Client::GoalHandle& handle) {
-    standStillUntil([&] { return handle.getCommState() == actionlib::CommState::ACTIVE; },
-                    "the goal to be accepted");
+    until([&] { return handle.getCommState() == actionlib::CommState::ACTIVE; },
+          "the goal to be accepted", 0);
   }
 
   /// Waits for the end of a goal by a message in transit, which the robot must not overtake.
   Result endByMessage(Client::GoalHandle& handle) {
-    standStillUntil([&] { return handle.getCommState() == actionlib::CommState::DONE; },
-                    "the goal's end");
+    until([&] { return handle.getCommState() == actionlib::CommState::DONE; }, "the goal's end", 0);
     return handle.getResult() ? *handle.getResult() : Result();
   }
 
@@ -166,11 +129,7 @@ class ClosedLoop : public testing::Test {
 
   const std::string name_{"trajectory"};
   const std::vector<double> target_{0.6, 0.3, -0.4};
-  ros::NodeHandle nh_;
-  closed_loop::TestRobot robot_;
-  controller_manager::ControllerManager manager_;
   std::unique_ptr<Client> client_;
-  ros::Time time_{100.0};
 };
 
 class EveryInterface : public ClosedLoop, public testing::WithParamInterface<const char*> {};
@@ -366,7 +325,7 @@ TEST_F(ClosedLoop, StoppingCancelsAndRefuses) {
   Client::GoalHandle handle = send(goalTo(target_));
   untilActive(handle);
   steps(100);
-  switchTo({}, {name_});
+  ASSERT_TRUE(doSwitch({}, {name_}));
   const Result result = end(handle);
   EXPECT_EQ(Terminal::PREEMPTED, handle.getTerminalState().state_);
   EXPECT_NE(std::string::npos, result.error_string.find("stopped"));
@@ -397,8 +356,8 @@ TEST_F(ClosedLoop, ResetEndsTheGoalAndAcceptsTheNext) {
 TEST_F(ClosedLoop, AGoalRightAfterASwitchIsFollowed) {
   start();
   for (int run = 0; run < 20; ++run) {
-    switchTo({}, {name_});
-    switchTo({name_}, {});
+    ASSERT_TRUE(doSwitch({}, {name_}));
+    ASSERT_TRUE(doSwitch({name_}, {}));
     const std::vector<double> target{0.01 * run, 0.0, 0.1};
     Client::GoalHandle handle = send(goalTo(target, 0.1, 5));
     ASSERT_EQ(Result::SUCCESSFUL, end(handle).error_code) << run;

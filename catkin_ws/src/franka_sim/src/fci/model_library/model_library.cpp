@@ -59,83 +59,29 @@ extern "C" {
 
 #define FRANKA_EXPORT __attribute__((visibility("default")))
 
-FRANKA_EXPORT void O_T_J1(const double* q, double* out) {
-  write(kArm.pose(ArmFrame::kJoint1, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_T_J2(const double* q, double* out) {
-  write(kArm.pose(ArmFrame::kJoint2, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_T_J3(const double* q, double* out) {
-  write(kArm.pose(ArmFrame::kJoint3, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_T_J4(const double* q, double* out) {
-  write(kArm.pose(ArmFrame::kJoint4, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_T_J5(const double* q, double* out) {
-  write(kArm.pose(ArmFrame::kJoint5, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_T_J6(const double* q, double* out) {
-  write(kArm.pose(ArmFrame::kJoint6, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_T_J7(const double* q, double* out) {
-  write(kArm.pose(ArmFrame::kJoint7, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_T_J8(const double* q, double* out) {
-  write(kArm.pose(ArmFrame::kFlange, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_T_J9(const double* q, const double* F_T_EE, double* out) {
-  write(kArm.pose(ArmFrame::kEndEffector, read<7>(q), read<16>(F_T_EE)), out);
-}
+#define FRANKA_EXPORT_OF_JOINTS(name, function, frame)      \
+  FRANKA_EXPORT void name(const double* q, double* out) {   \
+    write(kArm.function(ArmFrame::frame, read<7>(q)), out); \
+  }
+// The functions of frames 2 to 9. The Jacobians of the first joint have no argument q.
+#define FRANKA_EXPORT_FRAMES(prefix, function)                                       \
+  FRANKA_EXPORT_OF_JOINTS(prefix##2, function, kJoint2)                              \
+  FRANKA_EXPORT_OF_JOINTS(prefix##3, function, kJoint3)                              \
+  FRANKA_EXPORT_OF_JOINTS(prefix##4, function, kJoint4)                              \
+  FRANKA_EXPORT_OF_JOINTS(prefix##5, function, kJoint5)                              \
+  FRANKA_EXPORT_OF_JOINTS(prefix##6, function, kJoint6)                              \
+  FRANKA_EXPORT_OF_JOINTS(prefix##7, function, kJoint7)                              \
+  FRANKA_EXPORT_OF_JOINTS(prefix##8, function, kFlange)                              \
+  FRANKA_EXPORT void prefix##9(const double* q, const double* F_T_EE, double* out) { \
+    write(kArm.function(ArmFrame::kEndEffector, read<7>(q), read<16>(F_T_EE)), out); \
+  }
+
+FRANKA_EXPORT_OF_JOINTS(O_T_J1, pose, kJoint1)
+FRANKA_EXPORT_FRAMES(O_T_J, pose)
 FRANKA_EXPORT void O_J_J1(double* out) { write(kArm.zeroJacobian(ArmFrame::kJoint1, {}), out); }
-FRANKA_EXPORT void O_J_J2(const double* q, double* out) {
-  write(kArm.zeroJacobian(ArmFrame::kJoint2, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_J_J3(const double* q, double* out) {
-  write(kArm.zeroJacobian(ArmFrame::kJoint3, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_J_J4(const double* q, double* out) {
-  write(kArm.zeroJacobian(ArmFrame::kJoint4, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_J_J5(const double* q, double* out) {
-  write(kArm.zeroJacobian(ArmFrame::kJoint5, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_J_J6(const double* q, double* out) {
-  write(kArm.zeroJacobian(ArmFrame::kJoint6, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_J_J7(const double* q, double* out) {
-  write(kArm.zeroJacobian(ArmFrame::kJoint7, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_J_J8(const double* q, double* out) {
-  write(kArm.zeroJacobian(ArmFrame::kFlange, read<7>(q)), out);
-}
-FRANKA_EXPORT void O_J_J9(const double* q, const double* F_T_EE, double* out) {
-  write(kArm.zeroJacobian(ArmFrame::kEndEffector, read<7>(q), read<16>(F_T_EE)), out);
-}
+FRANKA_EXPORT_FRAMES(O_J_J, zeroJacobian)
 FRANKA_EXPORT void Ji_J_J1(double* out) { write(kArm.bodyJacobian(ArmFrame::kJoint1, {}), out); }
-FRANKA_EXPORT void Ji_J_J2(const double* q, double* out) {
-  write(kArm.bodyJacobian(ArmFrame::kJoint2, read<7>(q)), out);
-}
-FRANKA_EXPORT void Ji_J_J3(const double* q, double* out) {
-  write(kArm.bodyJacobian(ArmFrame::kJoint3, read<7>(q)), out);
-}
-FRANKA_EXPORT void Ji_J_J4(const double* q, double* out) {
-  write(kArm.bodyJacobian(ArmFrame::kJoint4, read<7>(q)), out);
-}
-FRANKA_EXPORT void Ji_J_J5(const double* q, double* out) {
-  write(kArm.bodyJacobian(ArmFrame::kJoint5, read<7>(q)), out);
-}
-FRANKA_EXPORT void Ji_J_J6(const double* q, double* out) {
-  write(kArm.bodyJacobian(ArmFrame::kJoint6, read<7>(q)), out);
-}
-FRANKA_EXPORT void Ji_J_J7(const double* q, double* out) {
-  write(kArm.bodyJacobian(ArmFrame::kJoint7, read<7>(q)), out);
-}
-FRANKA_EXPORT void Ji_J_J8(const double* q, double* out) {
-  write(kArm.bodyJacobian(ArmFrame::kFlange, read<7>(q)), out);
-}
-FRANKA_EXPORT void Ji_J_J9(const double* q, const double* F_T_EE, double* out) {
-  write(kArm.bodyJacobian(ArmFrame::kEndEffector, read<7>(q), read<16>(F_T_EE)), out);
-}
+FRANKA_EXPORT_FRAMES(Ji_J_J, bodyJacobian)
 
 FRANKA_EXPORT void M_NE(const double* q, const double* I_total, double m_total,
                         const double* F_x_Ctotal, double* out) {

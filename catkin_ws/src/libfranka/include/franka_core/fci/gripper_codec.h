@@ -77,9 +77,8 @@ using StateBuffer = std::array<std::uint8_t, kStateSize>;
 /// Like fci::nextMessage, with the gripper's header. Also for the vacuum gripper.
 CodecError nextMessage(Bytes stream, std::size_t max_size, Header& header) noexcept;
 
-/// Sizes with header.
+/// With header; 0 for unknown commands.
 std::size_t requestSize(Command command) noexcept;
-std::size_t replySize(Command command) noexcept;
 
 /// Client to gripper. Arguments that are not finite are passed on. decodeRequest fails with
 /// kWrongSize or kUnknownCommand and fills `header` if it is complete.
@@ -87,11 +86,23 @@ void encodeRequest(std::uint32_t command_id, const Request& request,
                    RequestMessage& message) noexcept;
 CodecError decodeRequest(Bytes message, Header& header, Request& request) noexcept;
 
-/// Gripper to client. Fails with kUnknownStatus (Connect has only two), decodeReply also with
+/// Gripper to client. Both grippers have the same replies: a status, and for Connect (number 0 of
+/// both) a version. Fails with kUnknownStatus (Connect has only two), decodeReply also with
 /// kWrongSize.
-CodecError encodeReply(Command command, std::uint32_t command_id, const Reply& reply,
+CodecError encodeReply(std::uint16_t command, std::uint32_t command_id, const Reply& reply,
                        ReplyMessage& message) noexcept;
-CodecError decodeReply(Command command, Bytes message, Header& header, Reply& reply) noexcept;
+CodecError decodeReply(std::uint16_t command, Bytes message, Header& header, Reply& reply) noexcept;
+
+/// The same for either gripper's Command.
+template <typename AnyCommand>
+CodecError encodeReply(AnyCommand command, std::uint32_t command_id, const Reply& reply,
+                       ReplyMessage& message) noexcept {
+  return encodeReply(static_cast<std::uint16_t>(command), command_id, reply, message);
+}
+template <typename AnyCommand>
+CodecError decodeReply(AnyCommand command, Bytes message, Header& header, Reply& reply) noexcept {
+  return decodeReply(static_cast<std::uint16_t>(command), message, header, reply);
+}
 
 /// The state datagram. decodeState fails with kWrongSize or kBadBoolean.
 void encodeState(const State& state, StateBuffer& buffer) noexcept;

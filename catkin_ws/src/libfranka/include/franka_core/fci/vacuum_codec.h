@@ -5,17 +5,20 @@
 #include <franka_core/fci/gripper_codec.h>
 
 /// @file
-/// The vacuum gripper's protocol, version 1. Header, nextMessage and statuses are the gripper's.
+/// The vacuum gripper's protocol, version 1. Header, nextMessage, replies and statuses are the
+/// gripper's.
 /// Pure functions without allocation or exception.
 
 namespace franka_core::fci::vacuum {
 
 constexpr std::size_t kMaxRequestSize = 20;
-constexpr std::size_t kMaxReplySize = 14;
 constexpr std::size_t kStateSize = 16;
 
+using gripper::decodeReply;
+using gripper::encodeReply;
 using gripper::Header;
 using gripper::Reply;
+using gripper::ReplyMessage;
 using gripper::Status;
 
 enum class Command : std::uint16_t { kConnect, kVacuum, kDropOff, kStop };
@@ -51,20 +54,13 @@ struct State {
 };
 
 using RequestMessage = Message<kMaxRequestSize>;
-using ReplyMessage = Message<kMaxReplySize>;
 using StateBuffer = std::array<std::uint8_t, kStateSize>;
 
-/// Sizes with header.
-std::size_t requestSize(Command command) noexcept;
-std::size_t replySize(Command command) noexcept;
-
 /// Like the gripper's; decodeRequest also fails with kUnknownEnum (a profile).
+std::size_t requestSize(Command command) noexcept;
 void encodeRequest(std::uint32_t command_id, const Request& request,
                    RequestMessage& message) noexcept;
 CodecError decodeRequest(Bytes message, Header& header, Request& request) noexcept;
-CodecError encodeReply(Command command, std::uint32_t command_id, const Reply& reply,
-                       ReplyMessage& message) noexcept;
-CodecError decodeReply(Command command, Bytes message, Header& header, Reply& reply) noexcept;
 
 /// The state datagram. decodeState fails with kWrongSize, kBadBoolean or kUnknownEnum.
 void encodeState(const State& state, StateBuffer& buffer) noexcept;

@@ -3,116 +3,25 @@
 #pragma once
 
 #include <hardware_interface/internal/hardware_resource_manager.h>
-
-#include <cassert>
-#include <stdexcept>
-#include <string>
+#include <hardware_interface/state_handle.h>
 
 namespace hardware_interface {
+
+namespace internal {
+struct ActuatorStateTexts {
+  static constexpr const char* kNoAbsolutePosition = "Actuator does not support absolute encoders";
+  static constexpr const char* kNoAbsolutePositionPtr = kNoAbsolutePosition;
+  static constexpr const char* kNoTorqueSensor = "Actuator does not support torque sensors";
+};
+}  // namespace internal
 
 /// Reads the state of one actuator, the motor's side of a transmission. It points to values that
 /// the robot writes in `read()`; copies point to the same values. Units: position [rad] or [m],
 /// velocity [rad/s] or [m/s], effort [Nm] or [N]. Real-time safe. Exceptions: the constructors and
 /// getName.
-class ActuatorStateHandle {
+class ActuatorStateHandle : public StateHandle<internal::ActuatorStateTexts> {
  public:
-  ActuatorStateHandle() = default;
-
-  /// All constructors: @throws HardwareInterfaceException if a pointer is null.
-  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel,
-                      const double* eff)
-      : name_(name),
-        pos_(require(pos, "Position")),
-        vel_(require(vel, "Velocity")),
-        eff_(require(eff, "Effort")) {}
-
-  /// With an absolute encoder and a torque sensor.
-  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel,
-                      const double* eff, const double* absolute_pos, const double* torque_sensor)
-      : ActuatorStateHandle(name, pos, vel, eff) {
-    absolute_pos_ = require(absolute_pos, "Absolute");
-    torque_sensor_ = require(torque_sensor, "Torque sensor");
-  }
-
-  /// With an absolute encoder.
-  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel,
-                      const double* eff, const double* absolute_pos)
-      : ActuatorStateHandle(name, pos, vel, eff) {
-    absolute_pos_ = require(absolute_pos, "Absolute");
-  }
-
-  /// With a torque sensor; the bool only distinguishes this constructor from the previous one.
-  ActuatorStateHandle(const std::string& name, const double* pos, const double* vel,
-                      const double* eff, const double* torque_sensor, bool /*tag*/)
-      : ActuatorStateHandle(name, pos, vel, eff) {
-    torque_sensor_ = require(torque_sensor, "Torque sensor");
-  }
-
-  /// The name of the actuator.
-  std::string getName() const { return name_; }
-
-  /// @name The measured values
-  /// @{
-  double getPosition() const {
-    assert(pos_);
-    return *pos_;
-  }
-  double getVelocity() const {
-    assert(vel_);
-    return *vel_;
-  }
-  double getEffort() const {
-    assert(eff_);
-    return *eff_;
-  }
-  /// @}
-  /// @throws std::runtime_error for actuators without an absolute encoder.
-  double getAbsolutePosition() const { return *getAbsolutePositionPtr(); }
-  /// @throws std::runtime_error for actuators without a torque sensor.
-  double getTorqueSensor() const { return *getTorqueSensorPtr(); }
-
-  /// @name Where the robot writes the measured values
-  /// @{
-  const double* getPositionPtr() const { return pos_; }
-  const double* getVelocityPtr() const { return vel_; }
-  const double* getEffortPtr() const { return eff_; }
-  /// @}
-  /// @throws std::runtime_error for actuators without an absolute encoder.
-  const double* getAbsolutePositionPtr() const {
-    if (!hasAbsolutePosition()) {
-      throw std::runtime_error("Actuator does not support absolute encoders");
-    }
-    return absolute_pos_;
-  }
-  /// @throws std::runtime_error for actuators without a torque sensor.
-  const double* getTorqueSensorPtr() const {
-    if (!hasTorqueSensor()) {
-      throw std::runtime_error("Actuator does not support torque sensors");
-    }
-    return torque_sensor_;
-  }
-
-  /// @name Whether the actuator has these sensors
-  /// @{
-  bool hasAbsolutePosition() const { return absolute_pos_ != nullptr; }
-  bool hasTorqueSensor() const { return torque_sensor_ != nullptr; }
-  /// @}
-
- private:
-  const double* require(const double* data, const char* quantity) const {
-    if (data == nullptr) {
-      throw HardwareInterfaceException("Cannot create handle '" + name_ + "'. " + quantity +
-                                       " data pointer is null.");
-    }
-    return data;
-  }
-
-  std::string name_;
-  const double* pos_{nullptr};
-  const double* vel_{nullptr};
-  const double* eff_{nullptr};
-  const double* absolute_pos_{nullptr};
-  const double* torque_sensor_{nullptr};
+  using StateHandle::StateHandle;
 };
 
 /// States of actuators, for any number of readers.

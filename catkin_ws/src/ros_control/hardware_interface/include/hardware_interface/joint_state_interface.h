@@ -3,127 +3,27 @@
 #pragma once
 
 #include <hardware_interface/internal/hardware_resource_manager.h>
-
-#include <cassert>
-#include <stdexcept>
-#include <string>
+#include <hardware_interface/state_handle.h>
 
 namespace hardware_interface {
+
+namespace internal {
+struct JointStateTexts {
+  static constexpr const char* kNoAbsolutePosition =
+      "Joint state handle does not contain absolute encoder position information";
+  static constexpr const char* kNoAbsolutePositionPtr =
+      "Joint state handle does not contain absolute position sensor information";
+  static constexpr const char* kNoTorqueSensor =
+      "Joint state handle does not contain torque sensor information";
+};
+}  // namespace internal
 
 /// Reads the state of one joint. It points to values that the robot writes in `read()`; copies
 /// point to the same values. Units: position [rad] or [m], velocity [rad/s] or [m/s], effort [Nm]
 /// or [N]. Real-time safe. Exceptions: the constructors and getName.
-class JointStateHandle {
+class JointStateHandle : public StateHandle<internal::JointStateTexts> {
  public:
-  JointStateHandle() = default;
-
-  /// All constructors: @throws HardwareInterfaceException if a pointer is null.
-  JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff)
-      : name_(name), pos_(pos), vel_(vel), eff_(eff) {
-    require(pos, "Position");
-    require(vel, "Velocity");
-    require(eff, "Effort");
-  }
-
-  /// With an absolute encoder and a torque sensor.
-  JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
-                   const double* absolute_pos, const double* torque_sensor)
-      : JointStateHandle(name, pos, vel, eff) {
-    absolute_pos_ = require(absolute_pos, "Absolute");
-    torque_sensor_ = require(torque_sensor, "Torque sensor");
-  }
-
-  /// With an absolute encoder.
-  JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
-                   const double* absolute_pos)
-      : JointStateHandle(name, pos, vel, eff) {
-    absolute_pos_ = require(absolute_pos, "Absolute");
-  }
-
-  /// With a torque sensor; the bool only distinguishes this constructor from the previous one.
-  JointStateHandle(const std::string& name, const double* pos, const double* vel, const double* eff,
-                   const double* torque_sensor, bool /*tag*/)
-      : JointStateHandle(name, pos, vel, eff) {
-    torque_sensor_ = require(torque_sensor, "Torque sensor");
-  }
-
-  /// The name of the joint.
-  std::string getName() const { return name_; }
-
-  /// @name The measured values
-  /// @{
-  double getPosition() const {
-    assert(pos_);
-    return *pos_;
-  }
-  double getVelocity() const {
-    assert(vel_);
-    return *vel_;
-  }
-  double getEffort() const {
-    assert(eff_);
-    return *eff_;
-  }
-  /// @}
-  /// @throws std::runtime_error for joints without an absolute encoder.
-  double getAbsolutePosition() const {
-    if (!hasAbsolutePosition()) {
-      throw std::runtime_error(
-          "Joint state handle does not contain absolute encoder position information");
-    }
-    return *absolute_pos_;
-  }
-  /// @throws std::runtime_error for joints without a torque sensor.
-  double getTorqueSensor() const {
-    if (!hasTorqueSensor()) {
-      throw std::runtime_error("Joint state handle does not contain torque sensor information");
-    }
-    return *torque_sensor_;
-  }
-
-  /// @name Where the robot writes the measured values
-  /// @{
-  const double* getPositionPtr() const { return pos_; }
-  const double* getVelocityPtr() const { return vel_; }
-  const double* getEffortPtr() const { return eff_; }
-  /// @}
-  /// @throws std::runtime_error for joints without an absolute encoder.
-  const double* getAbsolutePositionPtr() const {
-    if (!hasAbsolutePosition()) {
-      throw std::runtime_error(
-          "Joint state handle does not contain absolute position sensor information");
-    }
-    return absolute_pos_;
-  }
-  /// @throws std::runtime_error for joints without a torque sensor.
-  const double* getTorqueSensorPtr() const {
-    if (!hasTorqueSensor()) {
-      throw std::runtime_error("Joint state handle does not contain torque sensor information");
-    }
-    return torque_sensor_;
-  }
-
-  /// @name Whether the joint has these sensors
-  /// @{
-  bool hasAbsolutePosition() const { return absolute_pos_ != nullptr; }
-  bool hasTorqueSensor() const { return torque_sensor_ != nullptr; }
-  /// @}
-
- private:
-  const double* require(const double* data, const char* quantity) const {
-    if (data == nullptr) {
-      throw HardwareInterfaceException("Cannot create handle '" + name_ + "'. " + quantity +
-                                       " data pointer is null.");
-    }
-    return data;
-  }
-
-  std::string name_;
-  const double* pos_{nullptr};
-  const double* vel_{nullptr};
-  const double* eff_{nullptr};
-  const double* absolute_pos_{nullptr};
-  const double* torque_sensor_{nullptr};
+  using StateHandle::StateHandle;
 };
 
 /// States of joints, for any number of readers.
