@@ -39,11 +39,16 @@ RUNS = [(page, False) for page in PAGES] + [(page, True) for page in PAGES if ha
 OURS = [page for page, variant in RUNS if not variant]
 
 
+def named(page: Path) -> str:
+    """The page below docs/: two folders may have pages of one name."""
+    return str(page.relative_to(TOP / "docs").with_suffix(""))
+
+
 def parameters(page: Path, variant: bool):
     """Those of the test that follows the page."""
     is_short = page.stem in SHORT and not variant
     marks = () if is_short else pytest.mark.long_form("follows a page that takes longer")
-    return pytest.param(page, variant, id=f"{page.stem}{'-fr3' if variant else ''}", marks=marks)
+    return pytest.param(page, variant, id=f"{named(page)}{'-fr3' if variant else ''}", marks=marks)
 
 
 def follow(page: Page, folder: Path, **variables: str) -> dict[str, Path]:
@@ -77,7 +82,7 @@ def test_page_commands_have_the_documented_effect(path, variant, tmp_path):
 # ---- what can be checked without following a page ------------------------------------------------------
 
 
-@pytest.mark.parametrize("path", OURS, ids=lambda path: path.stem)
+@pytest.mark.parametrize("path", OURS, ids=named)
 def test_files_of_a_page_are_named(path):
     page = read(path)
     written = {step.path: step for step in page.of("file")}

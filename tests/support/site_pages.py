@@ -1,10 +1,11 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Pages of the documentation site as a reader meets them: headings, anchors and links."""
+"""Pages of the documentation site as a reader meets them: headings, sections, anchors and links."""
 
 from __future__ import annotations
 
 import re
+from dataclasses import dataclass
 from functools import cache
 from html.parser import HTMLParser
 from pathlib import Path
@@ -17,9 +18,23 @@ AROUND = {"nav", "aside", "footer", "script", "style", "head"}
 LOADS = {"img": "src", "script": "src", "link": "href", "iframe": "src", "source": "src"}
 
 
+def plain(text: str) -> str:
+    """A text on one line, without the sign at the end of a heading."""
+    return re.sub(r"\s+", " ", text).strip().removesuffix("¶").strip()
+
+
+@dataclass
+class Section:
+    """What follows a heading, up to the next one."""
+
+    heading: str
+    anchor: str
+    text: str = ""
+
+
 class Page(HTMLParser):
     """A page. links: the targets of all; own_links: of those in its text and in its table of contents, not in
-    menus; loaded: the files that a browser loads with it."""
+    menus; labels: the texts of these; loaded: the files that a browser loads with it."""
 
     def __init__(self, path: Path):
         super().__init__()
@@ -27,15 +42,20 @@ class Page(HTMLParser):
         self.anchors: set[str] = set()
         self.links: list[str] = []
         self.own_links: list[str] = []
+        self.labels: list[str] = []
+        self.sections: list[Section] = []
         self.loaded: list[str] = []
         self.headings: list[str] = []
         self._around: list[str] = []  # elements around the text, by their tags and classes
         self._heading = ""
+        self._anchor = ""  # of the section that begins
+        self._in_link = False
         self.feed(path.read_text())
         self.close()
-        self.headings = [
-            re.sub(r"\s+", " ", text).strip().removesuffix("¶").strip() for text in self.headings
-        ]
+        self.headings = [plain(text) for text in self.headings]
+        self.labels = [plain(text) for text in self.labels]
+        for section, heading in zip(self.sections, self.headings, strict=True):
+            section.heading, section.text = heading, plain(section.text)
 
     def handle_starttag(self, tag: str, attributes: list[tuple[str, str | None]]) -> None:
         given = dict(attributes)
@@ -49,23 +69,34 @@ class Page(HTMLParser):
             self.loaded.append(given[LOADS[tag]])
         if tag in AROUND:
             self._around.append(f"{tag} {given.get('class') or ''}")
+        if tag == "section":
+            self._anchor = given.get("id") or ""
         if tag in HEADINGS and not self._around:
             self._heading = tag
             self.headings.append("")
+            self.sections.append(Section("", self._anchor))
         if tag == "a" and given.get("href"):
             self.links.append(given["href"])
             if all("toc-drawer" in each for each in self._around):
                 self.own_links.append(given["href"])
+                self.labels.append("")
+                self._in_link = True
 
     def handle_endtag(self, tag: str) -> None:
         if tag in AROUND and self._around:
             self._around.pop()
         if tag == self._heading:
             self._heading = ""
+        if tag == "a":
+            self._in_link = False
 
     def handle_data(self, data: str) -> None:
+        if self._in_link:
+            self.labels[-1] += data
         if self._heading:
             self.headings[-1] += data
+        elif self.sections and not self._around:
+            self.sections[-1].text += data
 
 
 read_page = cache(Page)

@@ -69,9 +69,9 @@ def _attend(simulation: weakref.ref) -> None:
 class Simulation(Mapping):
     """A world with robots, stepped by the program. `sim["panda"]` is a Robot.
 
-    world: an MJCF or SDF file, or the name of one that is installed with franka_sim (stone.xml); empty: an
-    empty world. robots: Panda and FR3. seed: of all randomness; the same seed and the same calls give the
-    same bits.
+    world: an MJCF or SDF file, or the name of one that is installed with franka_sim (stone.xml, push.xml,
+    hand_over.xml); empty: an empty world. robots: Panda and FR3. seed: of all randomness; the same seed and
+    the same calls give the same bits.
 
     Raises RuntimeError or ValueError with a sentence for a world or a robot that cannot be used.
     """

@@ -333,7 +333,7 @@ void addOptionsOfAll(CLI::App& app, Options& options) {
       ->option_text("MODE");
   app.add_option("--world", options.world,
                  "the scene, MJCF or SDF: a file, or the name of one that is installed with\n"
-                 "franka_sim: stone.xml (an empty world)")
+                 "franka_sim: stone.xml, push.xml or hand_over.xml (an empty world)")
       ->option_text("FILE");
   app.add_option_function<std::string>(
          "--linger", linger, "after a signal, wait this long for clients to disconnect (0)")

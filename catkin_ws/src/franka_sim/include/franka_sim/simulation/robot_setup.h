@@ -28,9 +28,9 @@ std::string worldFile(const std::string& name);
 using PackageFinder =
     std::function<std::string(const std::string& package, const std::string& file)>;
 
-/// The path of a file that a robot's or a world's description names: package://NAME/FILE,
-/// file:///FILE or a path, which is returned unchanged. @returns empty if the package or its file
-/// does not exist.
+/// The path of a file that a robot's or a world's description names: `package://NAME/FILE`,
+/// the address of a file, or a path, which is returned unchanged. @returns empty if the package or
+/// its file does not exist.
 std::string fileOfUri(const std::string& uri, const PackageFinder& find);
 
 /// Converts `package://name/path`, `model://name` and addresses of files to file names; empty if
