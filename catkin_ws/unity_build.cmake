@@ -1,9 +1,10 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Included by CMAKE_PROJECT_INCLUDE after every project(). The libraries and programs of this repository are compiled
-# several sources at a time (CMake's unity build), which takes less than half the time of a build from nothing. Tests, and
-# packages that a user adds to the workspace, are compiled as always: the same name may stand in several of their sources.
+# Included by CMAKE_PROJECT_INCLUDE after every project(). The libraries, programs and tests of this repository are compiled
+# several sources at a time (CMake's unity build), which takes less than half the time of a build from nothing: no name may
+# stand in the anonymous namespaces of two sources of a target. Of tests fewer are compiled at a time, because they are edited
+# more often one by one, and with less optimization. Packages that a user adds to the workspace are compiled as always.
 set(franka_unity_projects
   combined_robot_hw
   control_toolbox
@@ -26,13 +27,22 @@ set(franka_unity_projects
   velocity_controllers
 )
 
-# Called at the end of a project's CMakeLists.txt.
-function(franka_compile_several_sources_at_once)
-  get_property(targets DIRECTORY PROPERTY BUILDSYSTEM_TARGETS)
+# Called at the end of a project's CMakeLists.txt, for its folder and those below.
+function(franka_compile_several_sources_at_once folder)
+  get_property(folders DIRECTORY ${folder} PROPERTY SUBDIRECTORIES)
+  foreach(below ${folders})
+    franka_compile_several_sources_at_once(${below})
+  endforeach()
+  get_property(targets DIRECTORY ${folder} PROPERTY BUILDSYSTEM_TARGETS)
   foreach(target ${targets})
     get_target_property(type ${target} TYPE)
-    if(type MATCHES "^(SHARED_LIBRARY|MODULE_LIBRARY|EXECUTABLE)$" AND NOT target MATCHES "_(test|bench)")
-      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 12)
+    if(type MATCHES "^(SHARED_LIBRARY|MODULE_LIBRARY|EXECUTABLE)$" AND NOT target MATCHES "_bench")
+      set(batch_size 12)
+      if(target MATCHES "_test")
+        set(batch_size 3)
+        target_compile_options(${target} PRIVATE -O1)
+      endif()
+      set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch_size})
       # CMake includes the sources by absolute paths. As __FILE__ they would reach the binaries, and a clone in another
       # folder would find nothing in the compiler's cache.
       target_compile_options(${target} PRIVATE "-fmacro-prefix-map=${CMAKE_SOURCE_DIR}/=")
@@ -42,5 +52,5 @@ endfunction()
 
 cmake_policy(SET CMP0057 NEW)  # IN_LIST; the workspace itself asks for an old CMake
 if(PROJECT_NAME IN_LIST franka_unity_projects)
-  cmake_language(DEFER CALL franka_compile_several_sources_at_once)
+  cmake_language(DEFER CALL franka_compile_several_sources_at_once ${CMAKE_CURRENT_SOURCE_DIR})
 endif()

@@ -29,10 +29,6 @@ using franka::RobotState;
 using franka::Torques;
 using franka_core::MotionGeneratorMode;
 
-constexpr std::array<double, 7> kTorques{1, -2, 3, -4, 0.5, -0.25, 0.125};
-constexpr std::array<double, 7> kJoints{0.1, -0.9, 0.2, -2.2, 0.3, 1.5, 0.7};
-constexpr std::array<double, 6> kTwist{0.01, -0.02, 0.03, 0.1, -0.2, 0.3};
-constexpr std::array<double, 16> kPose{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1};
 constexpr std::array<double, 2> kElbow{0.25, -1.0};
 
 template <typename Value>

@@ -19,7 +19,6 @@ namespace franka_test {
 namespace {
 
 namespace fci = franka_core::fci;
-using franka_core::ControllerMode;
 using franka_core::MotionGeneratorMode;
 using franka_core::RobotMode;
 
@@ -372,7 +371,7 @@ void FakeRobot::obey(const franka_core::RobotCommand& command) {
   if (command.valid_elbow) {
     state_.elbow_c = command.elbow_c;
   }
-  if (state_.controller_mode == ControllerMode::kExternalController) {
+  if (state_.controller_mode == franka_core::ControllerMode::kExternalController) {
     state_.tau_J_d = command.tau_J_d;
   }
   if ((command.motion_generation_finished || command.torque_command_finished) &&
@@ -421,7 +420,7 @@ void FakeRobot::applyScriptToMotion() {
 
 void FakeRobot::endMotion(RobotMode mode) {
   state_.motion_generator_mode = MotionGeneratorMode::kIdle;
-  state_.controller_mode = ControllerMode::kOther;
+  state_.controller_mode = franka_core::ControllerMode::kOther;
   state_.robot_mode = mode;
   state_.control_command_success_rate = 0.0;
   state_.dq_d = state_.ddq_d = state_.tau_J_d = {};

@@ -22,7 +22,7 @@ using Seven = std::array<double, 7>;
 using Pose = std::array<double, 16>;
 
 constexpr double kV = 2.0, kA = 10.0, kJ = 5000.0;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 // Rounding of a difference quotient over 1 ms, twice.
 constexpr double kRounding = 1e-8;
 
@@ -37,7 +37,7 @@ TEST(LimitRate, TorquesChangeNoFasterThanAllowed) {
   for (std::size_t i = 0; i < 7; i++) {
     EXPECT_DOUBLE_EQ(expected[i], limited[i]) << i;
   }
-  EXPECT_THROW(limitRate(rates, Seven{0, 0, 0, kNan, 0, 0, 0}, last), std::invalid_argument);
+  EXPECT_THROW(limitRate(rates, Seven{0, 0, 0, kNotANumber, 0, 0, 0}, last), std::invalid_argument);
 }
 
 TEST(LimitRate, KeepsAllowedVelocities) {
@@ -73,7 +73,7 @@ TEST(LimitRate, PositionsAreIntegratedVelocities) {
     p = next;
   }
   EXPECT_NEAR(kV, v, 1e-6);
-  EXPECT_THROW(limitRate(kV, kA, kJ, kNan, 0.0, 0.0, 0.0), std::invalid_argument);
+  EXPECT_THROW(limitRate(kV, kA, kJ, kNotANumber, 0.0, 0.0, 0.0), std::invalid_argument);
 }
 
 TEST(LimitRate, JointsAreLimitedOneByOne) {
@@ -122,7 +122,7 @@ TEST(LimitRate, TwistsAreBoundedByNorm) {
   EXPECT_NEAR(-0.6, v[4], 1e-6);
   EXPECT_NEAR(0.8, v[5], 1e-6);
   EXPECT_EQ(Six{}, limitRate(kV, kA, kJ, kV, kA, kJ, Six{}, Six{}, Six{}));
-  EXPECT_THROW(limitRate(kV, kA, kJ, kV, kA, kJ, Six{0, 0, 0, 0, 0, kNan}, Six{}, Six{}),
+  EXPECT_THROW(limitRate(kV, kA, kJ, kV, kA, kJ, Six{0, 0, 0, 0, 0, kNotANumber}, Six{}, Six{}),
                std::invalid_argument);
 }
 
@@ -164,7 +164,7 @@ TEST(LimitRate, RefusesInvalidPoses) {
   wrong[0] = 1.1;
   EXPECT_THROW(limitRate(kV, kA, kJ, kV, kA, kJ, wrong, identity(), Six{}, Six{}),
                std::invalid_argument);
-  wrong[0] = kNan;
+  wrong[0] = kNotANumber;
   EXPECT_THROW(limitRate(kV, kA, kJ, kV, kA, kJ, wrong, identity(), Six{}, Six{}),
                std::invalid_argument);
   EXPECT_EQ(identity(), limitRate(kV, kA, kJ, kV, kA, kJ, identity(), identity(), Six{}, Six{}));
@@ -177,8 +177,9 @@ TEST(LimitRate, VelocitiesAndPositionsStayBetweenTwoVelocityLimits) {
   EXPECT_DOUBLE_EQ(0.409042001, limitRate(2.0, -1.0, 9.9, 4999.0, 0.4, 0.41, -0.95, -3.0));
   // Beyond a joint's lower end the lower limit is only the margin.
   EXPECT_DOUBLE_EQ(-0.098505151515151518, limitRate(2.0, 0.001, 9.9, 4999.0, -0.5, -0.2, 0.0));
-  EXPECT_THROW(limitRate(2.0, -1.0, 9.9, 4999.0, kNan, 0.0, 0.0), std::invalid_argument);
-  EXPECT_THROW(limitRate(2.0, -1.0, 9.9, 4999.0, kNan, 0.0, 0.0, 0.0), std::invalid_argument);
+  EXPECT_THROW(limitRate(2.0, -1.0, 9.9, 4999.0, kNotANumber, 0.0, 0.0), std::invalid_argument);
+  EXPECT_THROW(limitRate(2.0, -1.0, 9.9, 4999.0, kNotANumber, 0.0, 0.0, 0.0),
+               std::invalid_argument);
 }
 
 TEST(LimitRate, SevenJointsStayBetweenTwoVelocityLimits) {
@@ -203,9 +204,9 @@ TEST(LimitRate, SevenJointsStayBetweenTwoVelocityLimits) {
         << i;
     EXPECT_NEAR(q[i] + velocities[i] * kDeltaT, limited[i], 1e-15) << i;
   }
-  EXPECT_THROW(limitRate(upper, lower, acceleration, jerk, Seven{kNan}, last, last_a),
+  EXPECT_THROW(limitRate(upper, lower, acceleration, jerk, Seven{kNotANumber}, last, last_a),
                std::invalid_argument);
-  EXPECT_THROW(limitRate(upper, lower, acceleration, jerk, Seven{kNan}, q, last, last_a),
+  EXPECT_THROW(limitRate(upper, lower, acceleration, jerk, Seven{kNotANumber}, q, last, last_a),
                std::invalid_argument);
 }
 

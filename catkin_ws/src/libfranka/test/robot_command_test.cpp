@@ -16,7 +16,6 @@ using franka::CommandException;
 using franka::NetworkException;
 using franka::Robot;
 
-constexpr std::array<double, 16> kPose{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1};
 constexpr std::array<double, 7> kSeven{1, 2, 3, 4, 5, 6, 7};
 constexpr std::array<double, 6> kSix{1, 2, 3, 4, 5, 6};
 

@@ -18,6 +18,12 @@ using franka_core::fci::Command;
 using franka_core::fci::Status;
 
 constexpr std::array<std::uint16_t, 8> kVersions{3, 4, 5, 6, 7, 8, 9, 10};
+// Commands.
+constexpr std::array<double, 7> kTorques{1, -2, 3, -4, 0.5, -0.25, 0.125};
+constexpr std::array<double, 7> kJoints{0.1, -0.9, 0.2, -2.2, 0.3, 1.5, 0.7};
+constexpr std::array<double, 6> kTwist{0.01, -0.02, 0.03, 0.1, -0.2, 0.3};
+constexpr std::array<double, 16> kPose{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1};
+constexpr const char* kClosed = "libfranka: server closed connection";
 
 /// Sets timeouts, and restores those before at its end.
 class ScopedTimeouts {

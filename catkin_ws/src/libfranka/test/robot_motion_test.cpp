@@ -313,7 +313,6 @@ TEST_P(MotionFaults, EndInANetworkException) {
   EXPECT_TRUE(startsWith(text, GetParam().text)) << text;
 }
 
-constexpr const char* kClosed = "libfranka: server closed connection";
 constexpr const char* kNoState = "libfranka: UDP receive: Timeout";
 constexpr const char* kNoAnswer = "libfranka: Connection timeout.";
 

@@ -77,8 +77,6 @@ TEST_P(StalledRobot, IsWaitedForAtTheStartOfAMotion) {
 INSTANTIATE_TEST_SUITE_P(NewestOfEachRobot, StalledRobot,
                          ::testing::Values(std::uint16_t{5}, std::uint16_t{10}), versionName);
 
-constexpr const char* kClosed = "libfranka: server closed connection";
-
 TEST(DeadRobot, IsNoticedAtOnceInAMotion) {
   const ScopedTimeouts timeouts(shorterThanTheStall());
   FakeRobot fake(5);

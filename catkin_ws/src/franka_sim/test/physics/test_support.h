@@ -28,6 +28,12 @@ inline std::string world(const std::string& name) {
   return franka_test::sourceFile("franka_sim/worlds/" + name + ".xml");
 }
 
+inline Pose at(double x, double y, double z) {
+  Pose pose;
+  pose.position = {x, y, z};
+  return pose;
+}
+
 inline std::string replaceAll(std::string text, const std::string& from, const std::string& to) {
   for (std::size_t at = text.find(from); at != std::string::npos;
        at = text.find(from, at + to.size())) {

@@ -12,12 +12,12 @@
 namespace franka_sim::test {
 namespace {
 
-constexpr const char* kInertial =
+constexpr const char* kLinkInertial =
     "<inertial><mass value='1'/><inertia ixx='1' iyy='1' izz='1' ixy='0' ixz='0' "
     "iyz='0'/></inertial>";
 
 /// base -j-> arm, with the given joint.
-std::string twoLinks(const std::string& joint, const std::string& arm = kInertial) {
+std::string twoLinks(const std::string& joint, const std::string& arm = kLinkInertial) {
   return "<robot name='r'><link name='base'/><link name='arm'>" + arm + "</link>" + joint +
          "</robot>";
 }

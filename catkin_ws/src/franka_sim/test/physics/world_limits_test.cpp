@@ -34,12 +34,6 @@ constexpr char kWheel[] =
 constexpr char kCrate[] =
     R"(<body name="crate"><freejoint/><geom type="box" size="0.1 0.1 0.1" mass="1"/></body>)";
 
-Pose at(double x, double y, double z) {
-  Pose pose;
-  pose.position = {x, y, z};
-  return pose;
-}
-
 struct Entrance {
   const char* name;
   const char* unit;

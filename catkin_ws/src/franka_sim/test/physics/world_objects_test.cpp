@@ -28,12 +28,6 @@ constexpr const char* kCube =
     "<ixx>0.001</ixx><iyy>0.001</iyy><izz>0.001</izz></inertia></inertial><collision name='c'>"
     "<geometry><box><size>0.1 0.1 0.1</size></box></geometry></collision></link></model></sdf>";
 
-Pose at(double x, double y, double z) {
-  Pose pose;
-  pose.position = {x, y, z};
-  return pose;
-}
-
 void run(World& world, int ticks) {
   for (int i = 0; i < ticks; ++i) {
     world.step();

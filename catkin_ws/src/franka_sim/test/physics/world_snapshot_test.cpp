@@ -15,7 +15,7 @@
 namespace franka_sim::test {
 namespace {
 
-constexpr char kCube[] =
+constexpr char kCubeOfSnapshot[] =
     R"(<body name="cube"><freejoint name="cube_joint"/>
          <geom type="box" size="0.05 0.05 0.05" mass="0.2"/></body>)";
 
@@ -127,7 +127,7 @@ TEST_P(WorldSnapshotTest, OfAnotherWorldIsRefusedAndChangesNothing) {
   }
   // As many changes as this world has had, so that their numbers would be equal in each of them.
   World smaller;
-  smaller.addObject("cube", kCube, {{0, 0, 1}, {1, 0, 0, 0}});
+  smaller.addObject("cube", kCubeOfSnapshot, {{0, 0, 1}, {1, 0, 0, 0}});
   const Snapshot of_smaller = smaller.snapshot();
   expectSentence([&] { own->restore(of_smaller); }, {"of another world"});
   expectSentence([&] { smaller.restore(own->snapshot()); }, {"of another world"});

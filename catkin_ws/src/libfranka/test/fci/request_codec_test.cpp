@@ -19,12 +19,12 @@ using franka_test::toVector;
 using franka_test::view;
 
 // Typed from the description of the protocol, independent of the codec; -1: not in that version.
-struct Row {
+struct RequestRow {
   Command command;
   int number_3_to_5, number_6_and_7, number_8_and_9, number_10;
   std::size_t size;
 };
-constexpr Row kRows[] = {
+constexpr RequestRow kRequestRows[] = {
     {Command::kConnect, 0, 0, 0, 0, 16},
     {Command::kMove, 1, 1, 1, 1, 68},
     {Command::kStopMove, 2, 2, 2, 2, 12},
@@ -42,14 +42,14 @@ constexpr Row kRows[] = {
     {Command::kGetRobotModel, -1, -1, 12, 11, 12},
 };
 
-int numberIn(const Row& row, std::uint16_t version) {
+int numberIn(const RequestRow& row, std::uint16_t version) {
   return version <= 5   ? row.number_3_to_5
          : version <= 7 ? row.number_6_and_7
          : version <= 9 ? row.number_8_and_9
                         : row.number_10;
 }
 
-std::size_t sizeIn(const Row& row, std::uint16_t version) {
+std::size_t sizeIn(const RequestRow& row, std::uint16_t version) {
   return row.command == Command::kMove && version == 10 ? 125 : row.size;
 }
 
@@ -105,7 +105,7 @@ class RequestOfVersion : public ::testing::TestWithParam<std::uint16_t> {};
 INSTANTIATE_TEST_SUITE_P(Versions, RequestOfVersion, ::testing::Range<std::uint16_t>(3, 11));
 
 TEST_P(RequestOfVersion, HasItsNumberAndSize) {
-  for (const Row& row : kRows) {
+  for (const RequestRow& row : kRequestRows) {
     const int number = numberIn(row, GetParam());
     const auto name = static_cast<int>(row.command);
     if (number < 0) {
@@ -126,7 +126,7 @@ TEST_P(RequestOfVersion, RoundTripsUnchanged) {
   franka_test::FciRandom random(GetParam());
   for (int round = 0; round < 50; round++) {
     const std::vector<Request> requests = randomRequests(random, GetParam());
-    for (const Row& row : kRows) {
+    for (const RequestRow& row : kRequestRows) {
       const Request& sent = requests[static_cast<std::size_t>(row.command)];
       RequestMessage message;
       const bool exists = numberIn(row, GetParam()) >= 0;
@@ -153,7 +153,7 @@ TEST_P(RequestOfVersion, RoundTripsUnchanged) {
 TEST_P(RequestOfVersion, IsRefusedAtAnotherSize) {
   franka_test::FciRandom random(GetParam());
   const std::vector<Request> requests = randomRequests(random, GetParam());
-  for (const Row& row : kRows) {
+  for (const RequestRow& row : kRequestRows) {
     RequestMessage message;
     if (encodeRequest(GetParam(), 1, requests[static_cast<std::size_t>(row.command)], message) !=
         CodecError::kNone) {

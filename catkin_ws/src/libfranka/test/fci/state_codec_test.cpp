@@ -22,12 +22,12 @@ using franka_core::fci::StateLayout;
 namespace fci = franka_core::fci;
 
 // Typed from the description of the datagrams, independent of the codec; -1: not in that version.
-struct Row {
+struct FieldRow {
   const char* name;
   std::size_t count;  // numbers, from version 5 on
   int offset3, offset4, offset5, offset10;
 };
-constexpr Row kRows[] = {
+constexpr FieldRow kFieldRows[] = {
     {"message_id", 1, 0, 0, 0, 0},
     {"O_T_EE", 16, 8, 8, 8, 8},
     {"O_T_EE_d", 16, 136, 136, 136, 72},
@@ -78,7 +78,7 @@ constexpr Row kRows[] = {
     {"control_command_success_rate", 1, 2077, 2333, 2365, 1373},
 };
 
-int offsetIn(const Row& row, std::uint16_t version) {
+int offsetIn(const FieldRow& row, std::uint16_t version) {
   switch (version) {
     case 3:
       return row.offset3;
@@ -91,7 +91,7 @@ int offsetIn(const Row& row, std::uint16_t version) {
   }
 }
 
-std::size_t countIn(const Row& row, std::uint16_t version) {
+std::size_t countIn(const FieldRow& row, std::uint16_t version) {
   return row.count == 41 && version <= 4 ? 37 : row.count;
 }
 
@@ -108,7 +108,7 @@ TEST_P(StateOfVersion, HasEachFieldAtItsOffset) {
   const StateLayout* layout = fci::stateLayout(GetParam());
   ASSERT_NE(layout, nullptr);
   std::size_t index = 0;
-  for (const Row& row : kRows) {
+  for (const FieldRow& row : kFieldRows) {
     const int offset = offsetIn(row, GetParam());
     if (offset < 0) {
       continue;
@@ -127,7 +127,7 @@ TEST_P(StateOfVersion, ReadsBytesAtTheTablesOffsets) {
   const std::uint16_t version = GetParam();
   StateBuffer buffer{};
   const auto put = [&](const char* name, std::size_t index, double value) {
-    for (const Row& row : kRows) {
+    for (const FieldRow& row : kFieldRows) {
       if (std::strcmp(row.name, name) != 0) {
         continue;
       }

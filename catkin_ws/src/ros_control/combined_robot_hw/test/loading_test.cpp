@@ -17,7 +17,7 @@ using testing::IsEmpty;
 
 namespace {
 
-class Combined : public combined_robot_hw::CombinedRobotHW {
+class Loaded : public combined_robot_hw::CombinedRobotHW {
  public:
   std::size_t members() const { return robot_hw_list_.size(); }
   Robot* member(std::size_t i) { return dynamic_cast<Robot*>(robot_hw_list_[i].get()); }
@@ -48,7 +48,7 @@ class Loading : public testing::Test {
 
   ros::NodeHandle root_;
   ros::NodeHandle nh_{"loading_test"};
-  Combined combined_;
+  Loaded combined_;
 };
 
 }  // namespace

@@ -11,7 +11,7 @@
 #include <limits>
 
 namespace {
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 }  // namespace
 
@@ -50,14 +50,14 @@ TEST(SineSweep, PhaseIsTheIntegralOfAnExponentialFrequency) {
     }
     EXPECT_EQ(0.0, sweep.update(-0.001));
     EXPECT_EQ(0.0, sweep.update(3.001));
-    EXPECT_EQ(0.0, sweep.update(kNan));
+    EXPECT_EQ(0.0, sweep.update(kNotANumber));
   }
 }
 
 TEST(SineSweep, RefusesInvalidArguments) {
   control_toolbox::SineSweep sweep;
   EXPECT_EQ(0.0, sweep.update(0.1));
-  for (const double bad : {0.0, -1.0, kNan, kInfinity}) {
+  for (const double bad : {0.0, -1.0, kNotANumber, kInfinity}) {
     EXPECT_FALSE(sweep.init(bad, 2.0, 1.0, 1.0));
     EXPECT_FALSE(sweep.init(1.0, bad, 1.0, 1.0));
     EXPECT_FALSE(sweep.init(1.0, 2.0, bad, 1.0));
@@ -100,10 +100,10 @@ TEST(Dither, IsRepeatableAndRefusesInvalidArguments) {
   EXPECT_NE(one.update(), other.update());
   ASSERT_TRUE(other.init(1.0, 3.0));
   ASSERT_TRUE(one.init(1.0, 3.0));
-  for (const double bad : {-1.0, kNan, kInfinity}) {
+  for (const double bad : {-1.0, kNotANumber, kInfinity}) {
     EXPECT_FALSE(one.init(bad, 1.0));
   }
-  for (const double bad : {1e12, -1e12, kNan, kInfinity}) {
+  for (const double bad : {1e12, -1e12, kNotANumber, kInfinity}) {
     EXPECT_FALSE(one.init(1.0, bad));
   }
   for (int i = 0; i < 10; ++i) {

@@ -18,8 +18,6 @@ namespace {
 
 using franka_core::ArmFrame;
 
-Transform forward(const Joints& q) { return model().pose(ArmFrame::kEndEffector, q, kHandF_T_NE); }
-
 /// Of the Jacobian with a row for joint 3, by another decomposition than the tested one.
 double smallestSingularValue(const Joints& q) {
   Eigen::Matrix<double, 7, 7> matrix = Eigen::Matrix<double, 7, 7>::Zero();

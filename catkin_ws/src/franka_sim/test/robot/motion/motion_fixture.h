@@ -60,6 +60,10 @@ inline const franka_core::ArmModel& model() {
   return arm;
 }
 
+inline Transform forward(const Joints& q) {
+  return model().pose(franka_core::ArmFrame::kEndEffector, q, kHandF_T_NE);
+}
+
 /// A value rounded to 32 bit float. Volatile: see src/robot/motion/motion_checks.h.
 inline double asFloat(double value) {
   const volatile float narrow = static_cast<float>(value);

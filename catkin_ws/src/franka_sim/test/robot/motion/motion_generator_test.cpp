@@ -25,8 +25,6 @@ constexpr double kPi = 3.14159265358979323846;
 /// A smooth path from 0 to 1 in one second and its derivative.
 double way(double t) { return 0.5 * (1.0 - std::cos(kPi * std::min(t, 1.0))); }
 
-Transform forward(const Joints& q) { return model().pose(ArmFrame::kEndEffector, q, kHandF_T_NE); }
-
 /// The hand's frame moved by 5 cm and turned by 0.2 rad, by share s.
 Transform movedBy(double s) {
   Transform result = forward(kReady);
