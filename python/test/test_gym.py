@@ -499,6 +499,21 @@ def test_worlds_of_a_vector_equal_single_environments(randomize):
     vector.close()
 
 
+@pytest.mark.parametrize("realism", ["ideal", "recorded"])
+def test_each_world_of_a_vector_begins_with_open_hands(realism):
+    """Equal worlds take over the state of the first one, whose hands have opened."""
+    vector = make_vec("PickAndPlace", 3, realism=realism)
+    ticks = [episode.sim.ticks for episode in vector.unwrapped.episodes]
+    observations, _ = vector.reset(seed=1)
+    width = observations["observation"][:, vector.unwrapped.layout["panda.width"]]
+    assert width == pytest.approx(0.08, abs=1e-3)
+    single = make("PickAndPlace", realism=realism)
+    opened = single.unwrapped.simulation.ticks
+    assert ticks == [opened] * 3 or (realism == "recorded" and min(ticks) >= opened)
+    single.close()
+    vector.close()
+
+
 def test_a_vector_of_environments_has_pictures():
     options = {"observation": "state+pictures", "size": (48, 32), "render_size": (48, 32)}
     options["render_mode"] = "rgb_array"

@@ -129,12 +129,12 @@ class Options:
             parts["picture"] = spaces.Box(0, 255, (height, width, 3), numpy.uint8)
         return spaces.Dict(parts)
 
-    def new_episode(self, sim: Simulation) -> Episode:
-        """In a simulation that was just made. Raises ValueError if it does not have the camera."""
+    def new_episode(self, sim: Simulation, like: Episode | None = None) -> Episode:
+        """In a simulation that was just made, as Episode. Raises ValueError if it lacks the camera."""
         if self.camera and self.camera not in sim.cameras():
             known = ", ".join(sim.cameras()) or "none"
             raise ValueError(f"There is no camera '{self.camera}'; there are: {known}.")
-        return Episode(self.kind(), sim, self.control, self.reward == "dense")
+        return Episode(self.kind(), sim, self.control, self.reward == "dense", like)
 
     def rewards(self, achieved: numpy.ndarray, desired: numpy.ndarray) -> numpy.ndarray:
         """Of goals, ... x size."""

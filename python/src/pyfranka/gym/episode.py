@@ -93,9 +93,10 @@ def size_of_goal(task: type[Task], dense: bool) -> int:
 class Episode:
     """Episodes of a task in a simulation, one after the other. The caller steps the simulation."""
 
-    def __init__(self, task: Task, sim: Simulation, control: str, dense: bool):
+    def __init__(self, task: Task, sim: Simulation, control: str, dense: bool, like: Episode | None = None):
         """sim: of the task's world and robots, just made; step it while hands are opening, then keep().
-        dense: whether goals are those of the dense reward."""
+        dense: whether goals are those of the dense reward. like: one that is ready; if its robots are equal,
+        its state is taken over."""
         self.task, self.sim = task, sim
         self.robots: list[Robot] = list(sim.values())
         self.native = _sim.Episode(
@@ -104,10 +105,22 @@ class Episode:
         layout = layout_of(type(task), list(sim))
         self.view = View(type(task), layout, bounds_of(type(task), self.robots, dense))
         self.row = numpy.zeros(self.native.size)  # of the last observation
+        self._start = [robot.state.q.copy() for robot in self.robots]
+        self._openings = []
+        if not (like and self._takes_over(like)):
+            self._prepare()
+
+    def _prepare(self) -> None:
         self._openings = [robot.gripper.move(robot.gripper.max_width, 0.1) for robot in self._opening()]
         for robot in self.robots:
             robot.set_collision_behavior(*[[LOOSE_TORQUE] * 7] * 2, *[[LOOSE_FORCE] * 6] * 2)
-        self._start = [robot.state.q.copy() for robot in self.robots]
+
+    def _takes_over(self, like: Episode) -> bool:
+        try:
+            self.sim.restore(like._beginning)
+        except RuntimeError:  # robots with another noise or friction
+            return False
+        return True
 
     def _opening(self) -> list[Robot]:
         return self.robots if self.task.uses_hand else []

@@ -74,8 +74,10 @@ class VectorEnvironment(VectorEnv):
         self._batch = SimulationBatch(
             self.num_envs, options.kind.world, robots, threads=threads, observe=["time"]
         )
-        self._episodes = [options.new_episode(sim) for sim in self._batch]
-        make_ready(self._episodes, self._batch.step)
+        first = options.new_episode(self._batch[0])
+        make_ready([first], self._batch[0].step)
+        self._episodes = [first, *(options.new_episode(sim, first) for sim in self._batch[1:])]
+        make_ready(self._episodes[1:], self._batch.step)
         self._view = self._episodes[0].view
         self.single_observation_space = options.observation_space(self._view.bounds)
         self.observation_space = batch_space(self.single_observation_space, self.num_envs)
