@@ -4,7 +4,10 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy
+from numpy.typing import NDArray
 
 __all__ = ["Window"]
 
@@ -24,9 +27,9 @@ class Window:
             ) from None
         self._pygame, self._rate = pygame, rate
         self._title, self._size = title, size
-        self._surface = None
+        self._surface: Any = None
 
-    def show(self, picture: numpy.ndarray) -> None:
+    def show(self, picture: NDArray[numpy.uint8]) -> None:
         """Shows a picture, height x width x 3. The first one opens the window."""
         pygame = self._pygame
         if self._surface is None:
