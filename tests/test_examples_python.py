@@ -19,7 +19,7 @@ TOP = Path(__file__).resolve().parents[1]
 EXAMPLES = TOP / "examples" / "python"
 NO_PROGRAMS = {"common", "sweep_stiffness"}
 QUICK = {"first_steps"}
-LONG = {"random_episodes", "record_and_plot", "task_rewards"}
+LONG = {"random_episodes", "record_and_plot", "task_rewards", "train_reach"}
 sys.path.append(str(TOP / "docs" / "site"))
 from docsite import notebooks  # noqa: E402
 
@@ -35,7 +35,7 @@ def run(kind, tmp_path):
 
     def example(name, *options):
         command = [sys.executable, EXAMPLES / f"{name}.py", "--robot", kind, "--output", tmp_path]
-        done = subprocess.run([*command, *options], capture_output=True, text=True, timeout=200)
+        done = subprocess.run([*command, *options], capture_output=True, text=True, timeout=500)
         assert done.returncode == 0, done.stdout + done.stderr
         assert name not in LONG or re.search(r"(\d+) of \1\n", done.stderr), done.stderr
         with Image.open(tmp_path / f"{name}.png") as picture:
@@ -84,6 +84,13 @@ def test_task_rewards(run):
 
 
 @with_panda
+def test_train_reach(run, long_run):
+    reached, goals, _ = numbers(run("train_reach", *(() if long_run else ("--episodes", "40"))))
+    assert goals == 20
+    assert not long_run or reached >= 18
+
+
+@with_panda
 def test_record_and_plot(run, tmp_path):
     samples, force = numbers(run("record_and_plot"))
     assert samples == 1200
@@ -91,7 +98,7 @@ def test_record_and_plot(run, tmp_path):
     assert (tmp_path / "recording.npz").stat().st_size > 10000
 
 
-@pytest.mark.parametrize("name", ["random_episodes", "task_rewards"])
+@pytest.mark.parametrize("name", ["random_episodes", "task_rewards", "train_reach"])
 def test_without_gymnasium_an_example_has_help_and_a_sentence(name):
     program = str(EXAMPLES / f"{name}.py")
     code = (
