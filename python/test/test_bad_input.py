@@ -306,13 +306,15 @@ OPTIONS = {
     "observation is one of": {"observation": "smell"},
     "reward is one of": {"reward": "huge"},
     "on_reflex is one of": {"on_reflex": "ignore"},
-    "render_mode is one of": {"render_mode": "human"},
+    "render_mode is one of": {"render_mode": "ansi"},
     "frequency is 1 to 1000 Hz": {"frequency": 30},
     "frequency must be a finite number": {"frequency": NAN},
     "frequency must be a finite number, not 'often'": {"frequency": "often"},
     "size is width and height": {"size": (0, 10)},
     "size must be a whole number": {"size": (1.5, 10)},
     "size must be a list of width and height": {"size": 5},
+    "render_size is width and height": {"render_size": (0, 10)},
+    "has no option 'hue', 'speed'; its options are robot, control": {"hue": 1, "speed": 2},
     "'reel' is not known": {"realism": "reel"},
     "realism must be a text": {"realism": 5},
     "no camera 'nowhere'": {"camera": "nowhere"},
@@ -332,6 +334,7 @@ EPISODE_OPTIONS = {
     "is not a unit quaternion": {"object": QUATERNION_0},
     "The position for body 'stone'": {"object": [FAR, 0, 0]},
     "The option goal must be 3 finite": {"goal": [NAN] * 3},
+    "The option goal must lie within": {"goal": [0, 0, 2.6]},
     "not 'color'": {"color": 1},
 }
 
@@ -366,9 +369,6 @@ ENVIRONMENT = {
     "compute_reward": {
         "A goal is an array of numbers": lambda x: x.compute_reward("near", np.zeros(4), {"reach": 0.0}),
         "A goal has 4 numbers here": lambda x: x.compute_reward(np.zeros(3), np.zeros(4), {"reach": 0.0}),
-        "The dense reward needs the info": lambda x: pyfranka.gym.Environment(
-            "Reach", reward="dense"
-        ).compute_reward(np.zeros(3), np.zeros(3), {}),
     },
 }
 VECTOR = environment_cases(pyfranka.gym.VectorEnvironment, (2, 7), num_envs=2)
@@ -380,6 +380,9 @@ VECTOR["__init__"].update(
             1, max_episode_steps=0, task="Reach"
         ),
         "threads must be 1 to 1024": lambda x: pyfranka.gym.VectorEnvironment(1, threads=0, task="Reach"),
+        "The render_mode of many environments is one of rgb_array": lambda x: pyfranka.gym.VectorEnvironment(
+            1, render_mode="human", task="Reach"
+        ),
         "autoreset_mode is one of": lambda x: pyfranka.gym.VectorEnvironment(
             1, autoreset_mode="never", task="Reach"
         ),

@@ -86,6 +86,43 @@ def test_default_values_are_observed():
         assert batch.observations[0, batch.layout["panda.robot_mode"]] == 1.0, "Idle"
 
 
+def test_worlds_are_made_by_several_threads(monkeypatch):
+    makers, make, together = set(), Simulation._make, threading.Barrier(3)
+
+    def noted(*arguments):
+        makers.add(threading.current_thread())
+        if threading.current_thread() is not caller:
+            together.wait(timeout=60)
+        make(*arguments)
+
+    caller = threading.current_thread()
+    monkeypatch.setattr(Simulation, "_make", noted)
+    for threads, expected in ((1, 1), (3, 4)):  # the first world is made by the caller
+        makers.clear()
+        SimulationBatch(7, threads=threads).close()
+        assert len(makers) == expected and caller in makers
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_what_is_wrong_with_all_worlds_is_said_once(threads):
+    near = [Panda(), FR3(base=(0.1, 0, 0))]
+    with pytest.warns(UserWarning, match="Give it another base") as caught, Simulation(robots=near):
+        alone = [str(one.message) for one in caught]
+    with pytest.warns(UserWarning) as caught, SimulationBatch(4, robots=near, threads=threads):
+        assert [str(one.message) for one in caught] == alone
+        assert {one.filename for one in caught} == {__file__}
+    with pytest.raises(RuntimeError) as expected:
+        Simulation("nowhere.xml")
+    with pytest.raises(RuntimeError) as refused:
+        SimulationBatch(4, "nowhere.xml", threads=threads)
+    assert str(refused.value) == str(expected.value)
+
+
+def test_robots_may_be_any_iterable():
+    with SimulationBatch(3, robots=iter([Panda()]), threads=2) as batch:
+        assert [list(sim) for sim in batch] == [["panda"]] * 3
+
+
 def test_no_world_is_stepped_if_one_is_closed():
     with SimulationBatch(2) as batch:
         batch[0].close()

@@ -79,6 +79,11 @@ class Simulation(Mapping):
     def __init__(
         self, world: str | os.PathLike[str] = "", robots: Sequence[_Setup] | None = None, seed: int = 1
     ):
+        self._make(world, robots, seed)
+        self._warn_of_overlaps(3)
+
+    def _make(self, world: str | os.PathLike[str], robots: Sequence[_Setup] | None, seed: int) -> None:
+        """Any thread may call it."""
         world, seed, taken = path(world, "world"), seed_of(seed), set()
         robots = [Panda()] if robots is None else items(robots, "robots", "Panda(...) and FR3(...)")
         for robot in robots:
@@ -90,9 +95,11 @@ class Simulation(Mapping):
         self._attendant: threading.Thread | None = None
         self._native = _sim.Simulation(world, [setup._native() for setup in setups])
         self._robots = {setup.name: Robot(self._native.robot(setup.name), setup) for setup in setups}
+
+    def _warn_of_overlaps(self, stacklevel: int) -> None:
         for name in self:
             if overlaps := self._native.overlaps(name):
-                warnings.warn(f"{overlaps} Give it another base.", stacklevel=2)
+                warnings.warn(f"{overlaps} Give it another base.", stacklevel=stacklevel)
 
     def __getitem__(self, name: str) -> Robot:
         if not isinstance(name, str) or name not in self._robots:
