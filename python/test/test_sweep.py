@@ -522,7 +522,7 @@ def test_a_scheduler_that_is_not_there_is_reported(monkeypatch):
 
 def test_a_missing_package_is_named(monkeypatch):
     monkeypatch.setattr(sweeps.importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(ImportError, match=r"needs the Python package distributed.*pyfranka\[cluster\]"):
+    with pytest.raises(ImportError, match="needs the Python package distributed.*./franka install extras"):
         pyfranka.sweep(lambda case, seed: 0, 1)
 
 

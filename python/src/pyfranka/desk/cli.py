@@ -15,6 +15,7 @@ import signal
 import sys
 from collections.abc import Sequence
 
+from pyfranka.command_line import install_command
 from pyfranka.desk.profiles import PROFILES
 from pyfranka.desk.robot import PORT, Robot
 from pyfranka.desk.settings import USER, Options, Settings
@@ -49,8 +50,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return asyncio.run(_run(robots, listen, settings, words.child))
     except ModuleNotFoundError as error:
         print(
-            f"franka_desk: Desk needs the Python package {error.name}. Install python3-aiohttp and "
-            "python3-cryptography, or pyfranka[desk] by pip.",
+            f"franka_desk: Desk needs the Python package {error.name}: {install_command('desk')}.",
             file=sys.stderr,
         )
     except CannotListen as error:
