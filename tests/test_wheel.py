@@ -574,7 +574,8 @@ def test_pip_builds_it_from_its_sources(quick_start, tmp_path):
     (folder,) = tmp_path.iterdir()
     environ = {name: value for name, value in os.environ.items() if name not in OF_A_WORKSPACE}
     environ |= {"CMAKE_CXX_COMPILER_LAUNCHER": "ccache", "CCACHE_BASEDIR": str(folder)}
-    environ |= {"CCACHE_NOHASHDIR": "1", "PATH": f"/usr/bin:{Path(sys.executable).parent}:/bin"}
+    environ |= {"CCACHE_NOHASHDIR": "1", "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count())}
+    environ["PATH"] = f"/usr/bin:{Path(sys.executable).parent}:/bin"
     command = [sys.executable, "-m", "pip", "wheel", "--no-index", "--no-deps", "--no-build-isolation"]
     built = subprocess.run(
         [*command, f"--wheel-dir={tmp_path}", folder],
