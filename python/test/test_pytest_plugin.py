@@ -195,7 +195,7 @@ def test_the_examples_of_the_documentation_work(project):
     page = (Path(__file__).resolve().parents[2] / "docs" / "python.md").read_text()
     section = page.partition("## Tests of your own project")[2]
     tests, alone = (part.partition("```")[0] for part in section.split("```python\n")[1:3])
-    result = run(project, f"{tests}\n\ndef my_program(address):\n    pyfranka.Robot(address)\n")
+    result = run(project, tests)
     result.assert_outcomes(passed=2)
     exec(alone, {})
 

@@ -13,8 +13,10 @@ pyfranka.pytest_plugin has fixtures for it.
 
 from __future__ import annotations
 
+import json
 import os
 import secrets
+import select
 import shutil
 import signal
 import socket
@@ -40,12 +42,11 @@ __all__ = ["FrankaSim", "FrankaSimError", "ServedRobot", "SimRobot"]
 PROGRAM = "franka_sim"
 KINDS = {"panda": 5, "fr3": 10}  # and the newest protocol that each speaks
 TO_START, TO_END = 60.0, 20.0  # [s], on a busy machine (chosen here)
-PAUSE = 0.01  # [s] between two looks (chosen here)
+PAUSE = 0.1  # [s] between two looks whether it has ended (chosen here)
 LAST_LINES = 100  # of a log in a message (chosen here)
 # Chosen here, away from the addresses that users type. All of 127.0.0.0/8 belongs to the machine.
 FIRST_ADDRESS, ADDRESSES = IPv4Address("127.64.0.0"), 1 << 22
 ATTEMPTS = 50  # to find a free one (chosen here)
-TAKEN = "Another simulated robot runs there"
 
 
 class FrankaSimError(RuntimeError):
@@ -86,8 +87,10 @@ class SimRobot:
 class ServedRobot:
     """One robot of a running franka_sim."""
 
-    def __init__(self, server: FrankaSim, robot: SimRobot, arm_id: str):
-        self.server, self.kind, self.arm_id, self.address = server, robot.kind, arm_id, robot.address
+    def __init__(self, server: FrankaSim, robot: SimRobot, report: dict[str, typing.Any]):
+        self.server, self.kind, self.address = server, robot.kind, robot.address
+        self.arm_id: str = report["arm_id"]
+        self.desk: str = report.get("desk", "")  # the address of its Desk, such as https://127.0.0.1:8443
         self.protocol = robot.protocol or KINDS[robot.kind]  # the newest version that it speaks
         self.remote = Remote(robot.address)  # its control interface
 
@@ -111,8 +114,12 @@ class FrankaSim:
     """A running franka_sim: robots in one world. A context manager that ends it.
 
     robots: SimRobot, or the kind alone ("panda", "fr3"); without one, a panda. world: a scene, MJCF or SDF.
-    pace: lockstep, realtime, patient or a factor. arguments: further options of the program.
-    program: its path; empty: the one of the workspace, of this Python environment or on PATH.
+    pace: lockstep, realtime, patient or a factor. patience: how long it waits for a silent client [s], or
+    "forever". wait: auto, spin or block. linger: how long it waits for clients at the end [s]. viewer: opens
+    a window. desk: serves Desk, whose address is ServedRobot.desk, and robots start locked; also the
+    "ADDRESS:PORT" where. desk_user, desk_password: who may log in there. start: "ready" or "locked".
+    docs/franka_sim.md describes these options. arguments: further words of its command line. program: its
+    path; empty: the one of the workspace, of this Python environment or on PATH.
 
     Raises FrankaSimError with the program's own sentence if it does not start within a minute.
 
@@ -127,11 +134,29 @@ class FrankaSim:
         *robots: SimRobot | str,
         world: str | os.PathLike = "",
         pace: str | float = "lockstep",
+        patience: str | float | None = None,
+        wait: str | None = None,
+        linger: float | None = None,
+        viewer: bool = False,
+        desk: bool | str = False,
+        desk_user: str | None = None,
+        desk_password: str | None = None,
+        start: str | None = None,
         arguments: Sequence[str] = (),
         program: str = "",
     ):
         self._asked = [SimRobot(each) if isinstance(each, str) else each for each in robots or ("panda",)]
-        self._options = [f"--pace={pace}", *([f"--world={world}"] if world else []), *map(str, arguments)]
+        values = {"pace": pace, "world": os.fspath(world) or None, "patience": patience, "wait": wait}
+        values |= {"linger": linger, "desk": desk or None, "desk-user": desk_user, "start": start}
+        values["viewer"] = viewer or None
+        self._options = [
+            f"--{name}" if value is True else f"--{name}={value}"
+            for name, value in values.items()
+            if value is not None
+        ]
+        self._options += map(str, arguments)
+        # Other users can read the command line.
+        self._variables = {} if desk_password is None else {"FRANKA_DESK_PASSWORD": desk_password}
         self._program = find_program(program)
         self._locks: list[socket.socket] = []  # of the addresses
         self._stopped = False
@@ -214,36 +239,46 @@ class FrankaSim:
             self._log = tempfile.TemporaryFile(prefix="franka_sim.")
             weakref.finalize(self, self._log.close)
             words = [word for robot in robots for word in robot.options()]
-            self.process = _started([self._program, *words, *self._options], self._log)
-            # Ends the program when this object or the interpreter ends.
-            self._finalizer = weakref.finalize(self, _kill, self.process, os.getpid())
-            ready = False
-            try:
-                ready = self._wait_until_ready(len(robots))
-            finally:
-                if not ready:
-                    self._end()
-                    self._release()
-            if ready:
-                self.robots = [ServedRobot(self, *each) for each in zip(robots, _names(robots))]
+            ready, ready_end = os.pipe()
+            with os.fdopen(ready, "rb", buffering=0) as lines:
+                with os.fdopen(ready_end, "wb"):
+                    command = [self._program, f"--ready-fd={ready_end}", *words, *self._options]
+                    self.process = _started(command, self._log, ready_end, self._variables)
+                # Ends the program when this object or the interpreter ends.
+                self._finalizer = weakref.finalize(self, _kill, self.process, os.getpid())
+                report: dict[str, typing.Any] = {}
+                try:
+                    report = self._wait_until_ready(lines)
+                finally:
+                    if "robots" not in report:
+                        self._end()
+                        self._release()
+            if "robots" in report:
+                self.robots = [ServedRobot(self, *each) for each in zip(robots, report["robots"])]
                 return
-            text = self.log().strip() or self.status()
             # A robot that was not started here may be at an address that seemed free.
-            if TAKEN not in text or all(each.address for each in self._asked):
+            if not report.get("address_in_use") or all(each.address for each in self._asked):
                 break
-        raise FrankaSimError(text)
+        raise FrankaSimError(self.log().strip() or self.status())
 
-    def _wait_until_ready(self, count: int) -> bool:
-        deadline = time.monotonic() + TO_START
+    # The line of --ready-fd; empty if there is none, because the program has ended or takes too long.
+    def _wait_until_ready(self, lines: typing.BinaryIO) -> dict[str, typing.Any]:
+        poll = select.poll()
+        poll.register(lines, select.POLLIN)
+        deadline, text = time.monotonic() + TO_START, b""
         while time.monotonic() < deadline:
             ended = self.process.poll() is not None
-            if self.log().count(" waits for clients at ") == count:
-                return not ended
+            if poll.poll(1e3 * PAUSE):
+                part = lines.read(1 << 16)
+                text += part
+                if text.endswith(b"\n"):
+                    report: dict[str, typing.Any] = json.loads(text)
+                    return report
+                ended = not part
             if ended:
-                return False
-            time.sleep(PAUSE)
+                return {}
         os.write(self._log.fileno(), f"franka_sim was not ready within {TO_START:g} s.\n".encode())
-        return False
+        return {}
 
     def _end(self) -> None:
         self._finalizer.detach()
@@ -298,13 +333,21 @@ def last_lines(text: str) -> str:
     return "\n".join(text.splitlines()[-LAST_LINES:]) or "(it has written nothing)"
 
 
-def _started(command: list[str], log: typing.IO) -> subprocess.Popen:
+def _started(
+    command: list[str], log: typing.IO, descriptor: int, variables: dict[str, str]
+) -> subprocess.Popen:
     # The system ends the program when the thread that started it ends: only the main one lasts.
     guard = shutil.which("setpriv")
     if guard and threading.current_thread() is threading.main_thread():
         command = [guard, "--pdeathsig", "TERM", "--", *command]
     return subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, process_group=0
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=log,
+        stderr=subprocess.STDOUT,
+        process_group=0,
+        env={**os.environ, **variables},
+        pass_fds=[descriptor],
     )
 
 
@@ -313,15 +356,3 @@ def _kill(process: subprocess.Popen, owner: int) -> None:
     if os.getpid() == owner:
         process.kill()
         process.wait()
-
-
-# The names that franka_sim gives to its robots.
-def _names(robots: list[SimRobot]) -> list[str]:
-    taken, names = {robot.arm_id for robot in robots}, []
-    for robot in robots:
-        name, number = robot.arm_id or robot.kind, 2
-        while not robot.arm_id and name in taken:
-            name, number = f"{robot.kind}_{number}", number + 1
-        taken.add(name)
-        names.append(name)
-    return names

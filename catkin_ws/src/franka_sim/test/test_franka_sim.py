@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """franka_sim as a user calls it: its command line, and the control interface."""
 
+import json
 import os
 import socket
 import struct
@@ -96,6 +97,9 @@ def simulated(address, *arguments, kind="panda", **options):
         (["--base", "1e11,0,0"], "give meters, 1000 at most"),
         (["--base=0,-1001,0"], "give meters, 1000 at most"),
         (["--ip"], "--ip: 1 required"),
+        (["--ready-fd", "2"], "--ready-fd: give a number from 3, not 2."),
+        (["--ready-fd", "3.5"], "--ready-fd: 3.5 is not a whole number."),
+        (["--ready-fd", "99"], "--ready-fd: descriptor 99 is not open for writing"),
         (["--urdf", str(ROBOTS / "panda.urdf"), "--arm-id", "nobody"], "nobody"),
     ],
 )
@@ -119,6 +123,83 @@ def test_impossible_configurations_are_reported(arguments, sentence, monkeypatch
     result = run(*arguments)
     assert result.returncode == 1
     assert sentence in result.stderr
+
+
+@contextmanager
+def started_with_pipe(*arguments):
+    """franka_sim, and the end of the pipe for its line about itself."""
+    ours, theirs = os.pipe()
+    with open(ours, encoding="utf-8") as lines:
+        with open(theirs, "wb"):
+            words = [find_program(), f"--ready-fd={theirs}", *arguments]
+            process = subprocess.Popen(words, pass_fds=[theirs], stderr=subprocess.PIPE, text=True)
+        try:
+            yield process, lines
+        finally:
+            process.terminate()
+            process.communicate(timeout=60)
+
+
+def test_robots_are_reported_to_the_program_that_starts_them():
+    words = "--robot panda --ip 127.0.22.31".split()
+    second = "--robot panda --ip 127.0.22.32 --base 0,1,0 --hand vacuum --control-port 1341".split()
+    third = "--robot fr3 --ip 127.0.22.33 --base 0,2,0 --no-hand --control-port 0 --arm-id left".split()
+    first = {
+        "robot": "panda",
+        "arm_id": "panda",
+        "address": "127.0.22.31",
+        "protocols": [3, 5],
+        "ports": {"robot": 1337, "gripper": 1338, "control": 1340},
+    }
+    others = [
+        {
+            "robot": "panda",
+            "arm_id": "panda_2",
+            "address": "127.0.22.32",
+            "protocols": [3, 5],
+            "ports": {"robot": 1337, "vacuum_gripper": 1339, "control": 1341},
+        },
+        {
+            "robot": "fr3",
+            "arm_id": "left",
+            "address": "127.0.22.33",
+            "protocols": [6, 10],
+            "ports": {"robot": 1337},
+        },
+    ]
+    for arguments, robots in ((words, [first]), ([*words, *second, *third], [first, *others])):
+        with started_with_pipe(*arguments) as (process, lines):
+            assert [json.loads(line) for line in lines] == [{"robots": robots}]
+            for robot in robots:
+                for port in robot["ports"].values():
+                    socket.create_connection((robot["address"], port), timeout=60).close()
+        assert process.returncode == 0
+
+
+def test_errors_are_reported_to_the_program_that_starts_it():
+    with started_with_pipe("--ip", "127.0.22.34") as (_, first):
+        assert first.readline()
+        for arguments, sentence, status, in_use in (
+            (["--ip", "127.0.22.34"], "Another simulated robot runs there", 1, True),
+            (["--ip", "192.0.2.1"], "does not have that address", 1, False),
+            (["--robot", "ur5"], "--robot: ur5 not in {panda,fr3}", 2, False),
+        ):
+            with started_with_pipe(*arguments) as (process, lines):
+                (report,) = [json.loads(line) for line in lines]
+                assert process.wait(60) == report["status"] == status
+                assert sentence in report.pop("error") and report["address_in_use"] == in_use
+
+
+def test_robots_are_served_if_nobody_reads_the_report():
+    ours, theirs = os.pipe()
+    os.close(ours)
+    words = [find_program(), f"--ready-fd={theirs}", "--ip=127.0.22.35", "--pace=lockstep"]
+    with subprocess.Popen(words, pass_fds=[theirs], stderr=subprocess.PIPE, text=True) as process:
+        os.close(theirs)
+        assert "nothing can be written to descriptor" in process.stderr.readline()
+        with socket.create_connection(("127.0.22.35", 1340), timeout=60) as connection:
+            connection.sendall(b"quit\n")
+        assert process.wait(60) == 0
 
 
 def test_invalid_control_commands_are_reported():

@@ -5,7 +5,7 @@
     franka_desk --robot 127.0.0.1
 
 For programs that log in to a robot before they use the FCI, and for browsers, it behaves like a real one
-(docs/desk.md). It needs aiohttp and cryptography: the extra `pyfranka[desk]`, or Debian's packages. Desk
+(docs/desk.md). It needs aiohttp and cryptography: the wheel's extra `desk`, or Debian's packages. Desk
 talks to the robot over its control interface only (docs/franka_sim.md).
 
 Layers of modules, the lowest first. A module imports only those that are listed before it, also for types
