@@ -10,7 +10,7 @@ from typing import Any
 import numpy
 from _pyfranka import _sim
 
-from pyfranka.sim import Robot, Simulation
+from pyfranka.sim import SimulatedRobot, Simulation
 from pyfranka.sim.arguments import mapping, numbers
 from pyfranka.sim.simulation import NO_TURN
 
@@ -53,7 +53,7 @@ class Episode:
     def __init__(self, task: Task, sim: Simulation, control: str):
         """sim: of the task's world and robots, just made; step it while hands are opening, then keep()."""
         self.task, self.sim = task, sim
-        self.robots: list[Robot] = list(sim.values())
+        self.robots: list[SimulatedRobot] = list(sim.values())
         self.native = _sim.Episode(
             sim._native, control, task.body, task.uses_hand, numpy.array(task.workspace)
         )
@@ -65,7 +65,7 @@ class Episode:
             robot.set_collision_behavior(*[[LOOSE_TORQUE] * 7] * 2, *[[LOOSE_FORCE] * 6] * 2)
         self._start = [robot.state.q.copy() for robot in self.robots]
 
-    def _opening(self) -> list[Robot]:
+    def _opening(self) -> list[SimulatedRobot]:
         return self.robots if self.task.uses_hand else []
 
     @property
