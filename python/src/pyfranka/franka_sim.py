@@ -227,7 +227,7 @@ class FrankaSim:
             robots = [replace(each, address=each.address or self._reserve()) for each in self._asked]
             self._log = tempfile.TemporaryFile(prefix="franka_sim.")
             weakref.finalize(self, self._log.close)
-            words = [word for robot in robots for word in robot._options()]
+            words = [word for robot in robots for word in robot.options()]
             self.process = _started([self._program, *words, *self._options], self._log)
             # Ends the program when this object or the interpreter ends.
             self._finalizer = weakref.finalize(self, _kill, self.process, os.getpid())

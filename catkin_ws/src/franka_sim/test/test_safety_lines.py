@@ -88,7 +88,7 @@ def test_the_hand_is_homed_once_after_each_start(robot):
 def test_the_report_is_complete(robot):
     state = report(robot)
     assert state["type"] == robot.kind
-    assert state["arm_id"] == robot.arm_id
+    assert state["arm_id"] == robot.name
     assert state["protocol"] == ([3, 5] if robot.kind == "panda" else [6, 10])
     assert (state["rules"], state["mode"], state["client"], state["fault"]) == ("desk", "Other", 0, "")
     assert (len(state["q"]), len(state["O_T_EE"]), len(state["O_F_ext"])) == (7, 16, 6)

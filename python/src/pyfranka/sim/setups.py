@@ -79,7 +79,7 @@ class _Setup:
         if self.hand == "vacuum":
             raise ValueError("The vacuum gripper is served on the network only: use FrankaSim.")
 
-    def _options(self) -> list[str]:
+    def options(self) -> list[str]:
         """The words of franka_sim's command line."""
         words = [f"--robot={self.kind}", f"--ip={self.address}"]
         given = {
