@@ -19,7 +19,8 @@ from desk_robot import ScriptedRobot
 from desk_server import basic, unverified
 from pyfranka.desk import Options, cli
 from pyfranka.desk.profiles import PROFILES
-from pyfranka.franka_sim import FrankaSim, SimRobot, find_program
+from pyfranka.franka_sim import FrankaSim, find_program
+from pyfranka.sim import FR3, Panda
 from waiting import wait_for
 
 COMMAND = [sys.executable, "-m", "pyfranka.desk"]
@@ -229,7 +230,7 @@ def test_the_page_names_every_option_with_its_default():
 def test_franka_sim_starts_desk_with_its_password_and_ends_it(environment, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", environment["XDG_CACHE_HOME"])
     monkeypatch.setenv("FRANKA_DESK_PASSWORD", "not this one")
-    robots = [SimRobot("fr3", base=[0, 0, 0]), SimRobot("panda", base=[1, 1, 0])]
+    robots = [FR3(base=[0, 0, 0]), Panda(base=[1, 1, 0])]
     with FrankaSim(*robots, desk=True, desk_user="anna", desk_password=WORD) as sim:
         found = READY.findall(sim.log())  # it is ready when Desk is
         assert WORD not in sim.log()

@@ -397,7 +397,7 @@ from _pyfranka import Robot
 from _pyfranka._sim import ArmModel
 from pyfranka import sim
 
-def mass(model: ArmModel, robot: sim.Robot) -> numpy.ndarray:
+def mass(model: ArmModel, robot: sim.SimulatedRobot) -> numpy.ndarray:
     return model.mass(robot.state)
 
 reveal_type(Robot("").read_once().robot_mode)
@@ -481,7 +481,7 @@ def check_meshes_on(bare: BareDebian):
         for robots in (with_meshes, [Panda(), FR3(base=(0, 1, 0))]):
             with Simulation(robots=robots) as sim:
                 sim.step(100)
-                print(sim["panda"].hash(), sim["fr3"].hash())
+                print(sim["panda"].state_hash(), sim["fr3"].state_hash())
     """
     with_meshes, without = bare.must("/env/bin/python", "-c", textwrap.dedent(code)).splitlines()
     assert with_meshes == without, "meshes change no motion"

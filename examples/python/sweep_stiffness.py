@@ -100,7 +100,7 @@ class PickAndPlace:
             "stone": where,
             "ticks": self.sim.ticks,
             "mode": str(self.robot.state.robot_mode),
-            "hash": f"{self.robot.hash():016x}",
+            "hash": f"{self.robot.state_hash():016x}",
         }
 
 

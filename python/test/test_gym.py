@@ -470,7 +470,7 @@ def test_each_episode_may_have_another_robot_and_another_stone():
         pressed = sum(c.force[2] for c in sim.contacts() if c.body2 == "stone")
         pressed -= sum(c.force[2] for c in sim.contacts() if c.body1 == "stone")
         forces.add(round(pressed / 9.81, 4))
-        seen.add((robot.setup.base[2], robot.setup.realism, float(robot.state.m_load), sim.hash()))
+        seen.add((robot.setup.base[2], robot.setup.realism, float(robot.state.m_load), sim.state_hash()))
     assert len(seen) == 2, "the same seed, the same episode"
     assert len(forces) == 2 and all(0.5 * 0.1 < mass < 2.0 * 0.11 for mass in forces), "the stone's weight"
     env.close()

@@ -599,7 +599,11 @@ def motion(case, seed):
         robot = sim[case]
         robot.joint_impedance(robot.state.q + 0.1, 0.2, numpy.random.default_rng(seed).uniform(100, 300, 7))
         sim.step(500)
-        return {"hash": f"{robot.hash():016x}", "q": robot.state.q, "threads": os.environ["OMP_NUM_THREADS"]}
+        return {
+            "hash": f"{robot.state_hash():016x}",
+            "q": robot.state.q,
+            "threads": os.environ["OMP_NUM_THREADS"],
+        }
 
 
 def test_a_robot_moves_on_a_worker_as_in_this_process(cluster, monkeypatch):

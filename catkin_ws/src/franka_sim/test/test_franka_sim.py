@@ -12,7 +12,8 @@ from pathlib import Path
 
 import pytest
 from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, LAYOUTS, REFLEX, Client
-from pyfranka.franka_sim import FrankaSim, SimRobot, find_program
+from pyfranka.franka_sim import FrankaSim, find_program
+from pyfranka.sim import FR3, KINDS, Panda
 from waiting import wait_for
 
 GUIDING, USER_STOPPED, OTHER = 3, 5, 0  # robot_mode
@@ -47,7 +48,7 @@ def served(*robots, pace="realtime", world="", arguments=()):
 
 def simulated(address, *arguments, kind="panda", **options):
     """The same for one robot with these words of the command line."""
-    return served(SimRobot(kind, address=address), arguments=arguments, **options)
+    return served(KINDS[kind](address=address), arguments=arguments, **options)
 
 
 @pytest.mark.parametrize(
@@ -221,8 +222,8 @@ def test_invalid_control_commands_are_reported():
 
 
 def test_robots_of_one_world_have_their_own_addresses_and_names():
-    turned = SimRobot("panda", base=(0.5, 1, 0, 1.5708))
-    with served("panda", turned, SimRobot("fr3", base=(0, -1, 0)), pace="lockstep") as (send, server):
+    turned = Panda(base=(0.5, 1, 0, 1.5708))
+    with served("panda", turned, FR3(base=(0, -1, 0)), pace="lockstep") as (send, server):
         heads = {}
         for name in ("panda", "panda_2", "fr3"):
             heads[name] = [float(word) for word in send(f"where {name}_link0").split()[1:]]
@@ -253,7 +254,7 @@ def test_a_vacuum_gripper_replaces_the_gripper():
 
 
 def test_every_option_also_takes_its_value_after_an_equals_sign():
-    robot = SimRobot("fr3", "left", base=(0, 1, 0), hand="none", realism="real", protocol=10)
+    robot = FR3("left", base=(0, 1, 0), hand="none", realism="real", protocol=10)
     words = [*robot.options(), "--control-port=1340", "--pace=lockstep", "--linger=0"]
     assert len(words) == 10 and all("=" in word for word in words)
     with served(robot, pace="lockstep", world="stone.xml", arguments=words[7:]) as (send, _):
@@ -380,7 +381,7 @@ def test_a_switch_is_answered_after_a_state_shows_its_mode(words, mode):
 def test_loads_pushes_and_places_are_answered_after_they_took_effect(tmp_path):
     (tmp_path / "world.xml").write_text(WORLD)
     options = {"world": tmp_path / "world.xml", "arguments": ["--realism=ideal"]}
-    robot = SimRobot("panda", address="127.0.22.19")
+    robot = Panda(address="127.0.22.19")
     with served(robot, **options) as (send, _), Client("127.0.22.19", 5) as client:
         client.connect()
         for kilograms in (0.5, 0.0) * 10:

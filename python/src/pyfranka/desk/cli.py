@@ -17,7 +17,7 @@ from collections.abc import Sequence
 
 from pyfranka.command_line import install_command
 from pyfranka.desk.profiles import PROFILES
-from pyfranka.desk.robot import PORT, Robot
+from pyfranka.desk.robot import PORT, DeskRobot
 from pyfranka.desk.settings import USER, Options, Settings
 
 PASSWORD = "FRANKA_DESK_PASSWORD"
@@ -125,7 +125,7 @@ async def _run(
     from pyfranka.desk.server import app_of, make_desks  # aiohttp takes a while
 
     end = _end(child is not None)
-    robots = [Robot(*place) for place in places]
+    robots = [DeskRobot(*place) for place in places]
     await asyncio.gather(*(robot.start(FIRST_REPORT) for robot in robots))
     desks = make_desks(robots, settings)
     sites = []
@@ -146,7 +146,7 @@ async def _run(
     return 0
 
 
-def _ports(listen: tuple[str, int] | None, robot: Robot, number: int) -> list[tuple[str, int]]:
+def _ports(listen: tuple[str, int] | None, robot: DeskRobot, number: int) -> list[tuple[str, int]]:
     if listen is None:
         return [(robot.address, HTTPS), (robot.address, OTHER_HTTPS)]
     return [(listen[0], listen[1] + number if listen[1] else 0)]

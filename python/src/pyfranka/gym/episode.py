@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy
 from _pyfranka import ArmLimits, _sim
 
-from pyfranka.sim import Robot, Simulation
+from pyfranka.sim import SimulatedRobot, Simulation
 from pyfranka.sim.arguments import mapping, numbers
 from pyfranka.sim.simulation import NO_TURN
 
@@ -98,7 +98,7 @@ class Episode:
         dense: whether goals are those of the dense reward. like: one that is ready; if its robots are equal,
         its state is taken over."""
         self.task, self.sim = task, sim
-        self.robots: list[Robot] = list(sim.values())
+        self.robots: list[SimulatedRobot] = list(sim.values())
         self.native = _sim.Episode(
             sim._native, control, task.body, task.uses_hand, numpy.array(task.workspace)
         )
@@ -122,7 +122,7 @@ class Episode:
             return False
         return True
 
-    def _opening(self) -> list[Robot]:
+    def _opening(self) -> list[SimulatedRobot]:
         return self.robots if self.task.uses_hand else []
 
     @property

@@ -81,6 +81,9 @@ class SimulationBatch(Sequence):
     def __len__(self) -> int:
         return len(self._worlds)
 
+    def __repr__(self) -> str:
+        return f"<SimulationBatch of {len(self)} worlds, the first: {self[0]!r}>"
+
     def __enter__(self) -> SimulationBatch:
         return self
 
