@@ -117,7 +117,7 @@ def test_a_robot_of_a_ros_world_can_start_locked(tmp_path):
         assert refused.value.code == "BrakesClosed"
         answer = call("/franka_sim/set_fci", SetBool, True)
         assert not answer.success and "BrakesClosed: " in answer.message, answer
-        remote.joints(locked=False)
+        remote.unlock_joints()
         remote.activate_fci()
         with socket.socket() as client:
             assert client.connect_ex((WORLD_ROBOT, 1337)) == 0

@@ -70,7 +70,7 @@ class Bounds(NamedTuple):
         return numpy.clip(values.astype(numpy.float32), self.low, self.high)
 
 
-def bounds_of(task: type[Task], robots: list[Robot], dense: bool) -> dict[str, Bounds]:
+def bounds_of(task: type[Task], robots: list[SimulatedRobot], dense: bool) -> dict[str, Bounds]:
     """Of the vectors of an observation."""
     parts: list[tuple[Any, Any]] = []
     for robot, (x, y, z, _) in zip(robots, task.bases, strict=True):
