@@ -10,7 +10,8 @@ from pathlib import Path
 
 from fci_session import memory_of, simulated
 from genuine_clients import folder_of
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import Panda
 from report import executables, failures, figure, print_stalls
 from stalls import Stalls
 
@@ -91,7 +92,7 @@ def fci() -> None:
 
 def idle() -> None:
     """Twenty robots in one process, in real time and without clients."""
-    robots = [SimRobot("panda", arguments=["--base", f"{2 * i},0,0"]) for i in range(20)]
+    robots = [Panda(arguments=["--base", f"{2 * i},0,0"]) for i in range(20)]
     with FrankaSim(*robots, pace="realtime") as sim:
         time.sleep(2.0)  # MuJoCo and caches have settled
         before, begin = processor_seconds(sim.process.pid), time.monotonic()

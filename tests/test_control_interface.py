@@ -29,7 +29,7 @@ def client(sim):
     with Client(sim.address, sim.protocol) as client:
         assert client.connect() == (0, sim.protocol)
         yield client
-    sim.remote.fci(True)
+    sim.remote.activate_fci()
     sim.remote.user_stop(False)
     sim.remote.guiding(False)
     sim.remote.loss(0)
@@ -112,7 +112,7 @@ def test_guiding_ends_a_motion_and_leaves_the_arm_free(sim, client):
     assert state.mode == GUIDING
     assert client.reply()[1][0] not in (0, LAYOUTS[client.version].reflex)
     before = client.state_until(lambda s: s.mode == GUIDING).joints("q")
-    sim.remote.push(f"{sim.arm_id}_hand", (0, 5, 0), 500)
+    sim.remote.push(f"{sim.name}_hand", (0, 5, 0), 500)
     moved = client.state_until(lambda s: max(abs(a - b) for a, b in zip(s.joints("q"), before)) > 0.02)
     assert moved.mode == GUIDING
     sim.remote.guiding(False)
@@ -128,7 +128,7 @@ GENUINE = {
 def test_a_deactivated_interface_drops_its_client_and_refuses_others(sim, client):
     state, first = begin(client)
     drive(client, state, hold(first), 50)
-    sim.remote.fci(False)
+    sim.remote.deactivate_fci()
     aborted = LAYOUTS[client.version].reflex + 3
     assert client.reply()[1][0] == aborted
     assert client.ended()
@@ -143,7 +143,7 @@ def test_a_deactivated_interface_drops_its_client_and_refuses_others(sim, client
         "libfranka: Connection to FCI refused. Please install FCI feature or enable FCI mode in Desk."
         in refused.stderr
     )
-    sim.remote.fci(True)
+    sim.remote.activate_fci()
     with connected(sim) as again:
         again.state_until(lambda s: s.mode == IDLE)
         state, first = begin(again)

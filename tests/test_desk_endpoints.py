@@ -16,7 +16,8 @@ from desk_server import DeskServer, basic
 from pyfranka.desk.profiles import PROFILES
 from pyfranka.desk.robot import PORT
 from pyfranka.desk.server import ROUTES
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import KINDS
 
 ALL = tuple(PROFILES)
 PROTOCOLS = {"fer-old": 4, "fer-spoc": 5, "fr3-early": 7, "fr3-v1": 10}
@@ -314,7 +315,7 @@ def profile(request):
 def desk(profile, tmp_path_factory):
     """Desk of a robot that has just been switched on. It knows the generation by the robot's protocol."""
     kind = "fr3" if profile.fr3 else "panda"
-    robot = SimRobot(kind, protocol=PROTOCOLS[profile.name])
+    robot = KINDS[kind](protocol=PROTOCOLS[profile.name])
     folder = tmp_path_factory.mktemp("certificates")
     with FrankaSim(robot, arguments=["--start", "locked"]) as sim:
         for line in ("timing brakes 0.1", "timing self_test 0.1"):

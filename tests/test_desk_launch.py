@@ -80,9 +80,9 @@ def test_a_robot_of_a_ros_world_has_a_control_interface(remote):
     scene = remote.scene()
     assert scene.robots == {"panda": "panda"}
     assert remote.poses().shape == (len(scene.bodies), 7)
-    before = remote.time()
+    before = remote.time
     remote.step(100)
-    assert remote.time() >= before + 0.1
+    assert remote.time >= before + 0.1
     remote.hand_move(0.05, 0.1)
     assert remote.report().hand.width == pytest.approx(0.05, abs=2e-3)
     remote.reset()
@@ -99,7 +99,7 @@ def test_the_control_interface_answers_while_the_world_is_paused(world, remote):
 def test_the_address_is_free_once_the_robot_has_been_deleted(world, remote):
     call("/gazebo/delete_model", DeleteModel, "panda")
     with pytest.raises(ConnectionError):
-        remote.time()
+        remote.state()
 
 
 @pytest.mark.own_process
@@ -113,12 +113,12 @@ def test_a_robot_of_a_ros_world_can_start_locked(tmp_path):
         with socket.socket() as client:
             assert client.connect_ex((WORLD_ROBOT, 1337)) != 0
         with pytest.raises(LineRefused) as refused:
-            remote.fci(True)
+            remote.activate_fci()
         assert refused.value.code == "BrakesClosed"
         answer = call("/franka_sim/set_fci", SetBool, True)
         assert not answer.success and "BrakesClosed: " in answer.message, answer
-        remote.joints(locked=False)
-        remote.fci(True)
+        remote.unlock_joints()
+        remote.activate_fci()
         with socket.socket() as client:
             assert client.connect_ex((WORLD_ROBOT, 1337)) == 0
 

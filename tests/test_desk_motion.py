@@ -14,7 +14,8 @@ from lock_step import begin_motion, moved
 from pyfranka.desk import Options
 from pyfranka.desk.robot import PORT
 from pyfranka.desk.status import RECOVERABLE
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import FR3
 from waiting import wait_for
 
 DEADLINE = 60.0  # [s]
@@ -32,7 +33,7 @@ ENDS = {
 
 @pytest.fixture(scope="module")
 def place(tmp_path_factory):
-    robot = SimRobot("fr3", realism="ideal")
+    robot = FR3(realism="ideal")
     # Patient: a busy machine loses no command.
     with FrankaSim(robot, pace="patient", arguments=["--start", "locked"]) as sim:
         sim.robot.remote.send("timing brakes 0.2")

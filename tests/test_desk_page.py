@@ -16,7 +16,8 @@ import pytest
 from desk_server import unverified
 from page_browser import PASSWORD, browser, desk_addresses, wait_for
 from pyfranka.desk.sessions import digest_of
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import FR3, Panda
 
 if page_browser.missing():
     pytest.skip(page_browser.missing(), allow_module_level=True)
@@ -31,7 +32,7 @@ CLOSED, OPEN = [True] * 7, [False] * 7
 @pytest.fixture(scope="module")
 def sim():
     """A panda and an fr3 in one world, locked, with Desk."""
-    robots = (SimRobot("panda", realism="ideal"), SimRobot("fr3", base=(0, 1.0, 0), realism="ideal"))
+    robots = (Panda(realism="ideal"), FR3(base=(0, 1.0, 0), realism="ideal"))
     options = ("--desk=127.0.0.1:0", f"--desk-password={PASSWORD}")
     with FrankaSim(*robots, pace="patient", arguments=options) as sim:
         wait_for(lambda: len(desk_addresses(sim.log())) == 2, "Desk listens")

@@ -19,7 +19,8 @@ from desk_robot import ScriptedRobot
 from desk_server import basic, unverified
 from pyfranka.desk import Options, cli
 from pyfranka.desk.profiles import PROFILES
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim, find_program
+from pyfranka.sim import FR3, Panda
 from waiting import wait_for
 
 COMMAND = [sys.executable, "-m", "pyfranka.desk"]
@@ -53,6 +54,17 @@ def program(environment, *arguments, **more):
     finally:
         process.kill()
         process.communicate()
+
+
+@contextlib.contextmanager
+def child_program(environment, *arguments):
+    """As franka_sim starts it: with the pipe for its addresses."""
+    ours, theirs = os.pipe()
+    with open(ours) as addresses, contextlib.ExitStack() as stack:
+        with open(theirs, "w"):
+            words = [*arguments, f"--child={theirs}"]
+            process = stack.enter_context(program(environment, *words, pass_fds=[theirs]))
+        yield process, addresses
 
 
 def places(process, count):
@@ -156,9 +168,10 @@ def test_it_ends_on_request_and_each_time_has_a_new_password(environment):
     passwords = set()
     with ScriptedRobot() as robot:
         for how in (signal.SIGTERM, signal.SIGINT, "end of input"):
-            words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0", "--child"]
-            with program(environment, *words) as process:
+            words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0"]
+            with child_program(environment, *words) as (process, addresses):
                 (line,), (place,) = places(process, 1)
+                assert addresses.read() == f"https://{place[0]}:{place[1]}\n"
                 password = re.fullmatch(r"franka_desk: user franka, password (\S{12,})", line)[1]
                 passwords.add(password)
                 waiting = wait_for_control(place, password)
@@ -217,11 +230,11 @@ def test_the_page_names_every_option_with_its_default():
 def test_franka_sim_starts_desk_with_its_password_and_ends_it(environment, monkeypatch):
     monkeypatch.setenv("XDG_CACHE_HOME", environment["XDG_CACHE_HOME"])
     monkeypatch.setenv("FRANKA_DESK_PASSWORD", "not this one")
-    robots = [SimRobot("fr3", base=[0, 0, 0]), SimRobot("panda", base=[1, 1, 0])]
-    words = ["--desk", "--desk-user", "anna", "--desk-password", WORD]
-    with FrankaSim(*robots, arguments=words) as sim:
-        found = wait_for(lambda: len(found := READY.findall(sim.log())) == 2 and found, sim.log)
+    robots = [FR3(base=[0, 0, 0]), Panda(base=[1, 1, 0])]
+    with FrankaSim(*robots, desk=True, desk_user="anna", desk_password=WORD) as sim:
+        found = READY.findall(sim.log())  # it is ready when Desk is
         assert WORD not in sim.log()
+        assert [robot.desk for robot in sim.robots] == [f"https://{host}:{port}" for host, port in found]
         assert [address for address, _ in found] == [robot.address for robot in sim.robots]
         for (address, port), robot in zip(found, sim.robots, strict=True):
             body = get((address, int(port)), "/admin/api/robot/nameplate", basic("anna", WORD))[1]
@@ -229,3 +242,21 @@ def test_franka_sim_starts_desk_with_its_password_and_ends_it(environment, monke
             assert all(robot.remote.report().brakes)
     with pytest.raises(OSError):
         get((address, int(port)), "/admin/api/startup-phase", {})
+
+
+def test_franka_sim_ends_if_desk_cannot_start():
+    """Its robots would stay locked."""
+    words = [find_program(), "--ip=127.0.62.1", "--desk=192.0.2.1:9443"]
+    result = subprocess.run(words, capture_output=True, text=True, timeout=DEADLINE)
+    assert result.returncode == 1
+    assert "Desk cannot listen at 192.0.2.1, port 9443" in result.stderr
+    assert "Desk has ended before it was ready (status 1)" in result.stderr.splitlines()[-1]
+
+
+def test_franka_sim_goes_on_if_desk_fails_later(environment, monkeypatch):
+    monkeypatch.setenv("XDG_CACHE_HOME", environment["XDG_CACHE_HOME"])
+    with FrankaSim("panda", desk=True, start="ready") as sim:
+        (desk,) = Path(f"/proc/{sim.process.pid}/task/{sim.process.pid}/children").read_text().split()
+        os.kill(int(desk), signal.SIGKILL)
+        wait_for(lambda: "Desk has ended by itself (status 137)" in sim.log(), sim.log)
+        assert sim.robot.remote.state().mode == "Idle"

@@ -65,7 +65,7 @@ def test_lock_step_repeats_bit_for_bit_with_contact(robot):
 
             states, client_hash = drive(client, TICKS, down_and_back, dawdle)
             at_rest(client)
-            hashes.add((client_hash, sim.remote.hash()))
+            hashes.add((client_hash, sim.remote.state_hash()))
             pressed = max(abs(state.joints("tau_ext")[1]) for state in states)
             assert states[-1].errors == []
             assert pressed > 10.0, f"The arm has touched nothing: {pressed:.1f} Nm at joint 2."
@@ -89,7 +89,7 @@ def test_another_command_gives_another_hash():
 
             _, seen = drive(client, 300, hold)
             at_rest(client)
-            hashes.append((seen, sim.remote.hash()))
+            hashes.append((seen, sim.remote.state_hash()))
     assert hashes[0] == hashes[1]
     assert hashes[0][0] != hashes[2][0] and hashes[0][1] != hashes[2][1]
 

@@ -8,7 +8,8 @@ import numpy as np
 import pytest
 from franka_sim_mujoco.session import Session
 from PIL import Image
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import Panda
 from ros_client import in_session, latest
 from screen import colors, dragged, move_pointer, press, virtual_screen, window_of
 from std_msgs.msg import Bool
@@ -146,8 +147,8 @@ def stands_in(name: np.ndarray, line: np.ndarray) -> bool:
 @LONG
 def test_the_viewer_names_the_errors(screen, tmp_path):
     """The name of a second robot is that of the error, so that the letters to look for are on the screen."""
-    other = SimRobot("panda", arm_id="joint_reflex", base=(0, 2.0, 0))
-    robots = (SimRobot("panda", base=(-0.5, 0, 0)), other)
+    other = Panda(name="joint_reflex", base=(0, 2.0, 0))
+    robots = (Panda(base=(-0.5, 0, 0)), other)
     with FrankaSim(*robots, pace="realtime", arguments=["--viewer"]) as sim:
         viewer, remote = Viewer(tmp_path / "window.png"), sim.robots[0].remote
         wait_for(lambda: len(viewer.lines()) >= 3, "the lines of both robots", PATIENCE)

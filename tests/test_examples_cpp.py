@@ -13,7 +13,8 @@ from pathlib import Path
 import numpy
 import pytest
 from overlay import compiler_cache
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import KINDS
 from starvation import busy
 
 TOP = Path(__file__).resolve().parents[1]
@@ -169,7 +170,7 @@ def test_asynchronous_targets(programs):
 
 @with_fr3
 def test_cartesian_impedance(programs, kind):
-    with FrankaSim(SimRobot(kind, realism="ideal")) as sim:
+    with FrankaSim(KINDS[kind](realism="ideal")) as sim:
         program = Program(programs / "cartesian_impedance", sim.robot.address)
         assert "push the hand" in program.line()
         sim.robot.remote.push(f"{kind}_hand", [0, 10, 0], 4000)
@@ -181,7 +182,7 @@ def test_cartesian_impedance(programs, kind):
 @pytest.mark.parametrize("name, kind", [("joint_impedance", "panda"), ("cartesian_impedance", "fr3")])
 def test_impedances_on_a_starved_machine(programs, kind, name):
     """Program and robot wait for each other."""
-    with FrankaSim(SimRobot(kind, realism="ideal")) as sim, busy():
+    with FrankaSim(KINDS[kind](realism="ideal")) as sim, busy():
         program = Program(programs / name, sim.robot.address)
         if name == "cartesian_impedance":
             program.line()
@@ -203,7 +204,7 @@ def test_force_control(programs, kind, tmp_path):
 @pytest.mark.parametrize("kind, something", [("panda", True), ("fr3", False)])
 def test_grasp(programs, kind, tmp_path, something):
     (tmp_path / "pillar.xml").write_text(PILLAR)
-    with FrankaSim(SimRobot(kind), world=tmp_path / "pillar.xml", pace="realtime") as sim:
+    with FrankaSim(KINDS[kind](), world=tmp_path / "pillar.xml", pace="realtime") as sim:
         program = Program(programs / "grasp", sim.robot.address)
         assert numbers([program.line()])[0] == pytest.approx(0.08, abs=1e-3)
         if something:

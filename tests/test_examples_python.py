@@ -19,6 +19,7 @@ TOP = Path(__file__).resolve().parents[1]
 EXAMPLES = TOP / "examples" / "python"
 NO_PROGRAMS = {"common", "sweep_stiffness"}
 QUICK = {"first_steps"}
+LONG = {"random_episodes", "record_and_plot", "task_rewards", "train_reach"}
 sys.path.append(str(TOP / "docs" / "site"))
 from docsite import notebooks  # noqa: E402
 
@@ -29,12 +30,14 @@ with_fr3 = pytest.mark.parametrize("kind", ["fr3", pytest.param("panda", marks=A
 
 @pytest.fixture
 def run(kind, tmp_path):
-    """Runs an example with a robot; returns what it printed. Its picture has something on it."""
+    """Runs an example with a robot; returns what it printed. Its picture has something on it, and a long one
+    shows how far it is."""
 
     def example(name, *options):
         command = [sys.executable, EXAMPLES / f"{name}.py", "--robot", kind, "--output", tmp_path]
-        done = subprocess.run([*command, *options], capture_output=True, text=True, timeout=200)
+        done = subprocess.run([*command, *options], capture_output=True, text=True, timeout=500)
         assert done.returncode == 0, done.stdout + done.stderr
+        assert name not in LONG or re.search(r"(\d+) of \1\n", done.stderr), done.stderr
         with Image.open(tmp_path / f"{name}.png") as picture:
             assert min(picture.size) >= 300
             assert max(ImageStat.Stat(picture.convert("L")).stddev) > 10.0
@@ -73,11 +76,43 @@ def test_random_episodes(run):
 
 
 @with_panda
+def test_task_rewards(run):
+    lines = run("task_rewards", "--episodes", "1").splitlines()
+    assert [line.partition(":")[0] for line in lines] == ["Reach", "Push", "PickAndPlace", "HandOver"]
+    for line in lines:
+        assert re.search(r"written policy 100%, of random actions 0%$", line), line
+
+
+@with_panda
+def test_train_reach(run, long_run):
+    reached, goals, _ = numbers(run("train_reach", *(() if long_run else ("--episodes", "40"))))
+    assert goals == 20
+    assert not long_run or reached >= 18
+
+
+@with_panda
 def test_record_and_plot(run, tmp_path):
     samples, force = numbers(run("record_and_plot"))
     assert samples == 1200
     assert force == pytest.approx(-400 * (0.42 - 0.37), rel=0.1), "of the spring, on the table"
     assert (tmp_path / "recording.npz").stat().st_size > 10000
+
+
+@pytest.mark.parametrize("name", ["random_episodes", "task_rewards", "train_reach"])
+def test_without_gymnasium_an_example_has_help_and_a_sentence(name):
+    program = str(EXAMPLES / f"{name}.py")
+    code = (
+        "import runpy, sys; sys.modules['gymnasium'] = None; sys.argv = sys.argv[1:];"
+        f"sys.path.insert(0, {str(EXAMPLES)!r}); runpy.run_path({program!r}, run_name='__main__')"
+    )
+    for option, status, text in (
+        ("--help", 0, "usage: "),
+        ("--robot=fr3", 1, f"{name}.py needs the Python package gymnasium: run ./franka install extras"),
+    ):
+        command = [sys.executable, "-c", code, program, option]
+        ran = subprocess.run(command, capture_output=True, text=True, timeout=120)
+        assert ran.returncode == status, ran.stderr
+        assert (ran.stdout + ran.stderr).startswith(text) and "Traceback" not in ran.stderr
 
 
 @pytest.fixture(scope="module")

@@ -143,8 +143,8 @@ def test_a_recording_that_the_user_stop_ends_is_kept(tmp_path):
         command = ["franka_info", "record", sim.address, str(recording), "30", "--move"]
         process = subprocess.Popen(command, text=True, stderr=subprocess.PIPE)
         wait_for(lambda: sim.remote.state().mode == "Move" or process.poll() is not None, "The motion")
-        end = sim.remote.time() + 0.5
-        wait_for(lambda: sim.remote.time() > end, "Half a second of it")
+        end = sim.remote.time + 0.5
+        wait_for(lambda: sim.remote.time > end, "Half a second of it")
         sim.remote.user_stop(True)
         _, printed = process.communicate(timeout=60)
     assert process.returncode != 0 and str(recording) in printed and "User" in printed
@@ -154,10 +154,10 @@ def test_a_recording_that_the_user_stop_ends_is_kept(tmp_path):
 
 def test_a_file_that_cannot_be_written_is_refused_before_the_robot_moves():
     with simulated("panda", "lockstep") as sim:
-        before = sim.remote.hash()
+        before = sim.remote.state_hash()
         result = call("franka_info", "record", sim.address, "/nowhere/recording.csv", 10, "--move")
         assert result.returncode == 1 and "/nowhere/recording.csv cannot be written" in result.stderr
-        assert sim.remote.hash() == before
+        assert sim.remote.state_hash() == before
 
 
 @pytest.mark.parametrize(

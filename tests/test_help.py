@@ -1,15 +1,17 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every program of the workspace answers --help, without a ROS master."""
+"""Every program of the workspace and every example in Python answers --help, without a ROS master."""
 
 import os
 import re
 import subprocess
+import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
 SOURCE, DEVEL = TOP / "catkin_ws" / "src", TOP / "catkin_ws" / "devel"
+EXAMPLES = [path for path in (TOP / "examples" / "python").glob("*.py") if path.name != "common.py"]
 PATIENCE = 120.0  # [s]
 NO_MASTER = "http://127.0.0.1:9"  # the discard port: nothing listens there
 
@@ -23,11 +25,11 @@ def is_program(path: Path) -> bool:
 
 
 def programs() -> list[Path]:
-    """Built programs in the folders of rosrun and the shell, and scripts that are in neither."""
+    """Built programs in the folders of rosrun and the shell, scripts that are in neither, and examples."""
     built = [path for path in DEVEL.glob("lib/*/*") if path.parent.name in PACKAGES]
     scripts = [path for path in SOURCE.glob("**/scripts/*") if path.parent.parent.name in PACKAGES]
     found = {path.name: path for path in [*scripts, *DEVEL.glob("bin/*"), *built] if is_program(path)}
-    return list(found.values())
+    return [*found.values(), *EXAMPLES]
 
 
 def help_of(path: Path) -> tuple[int | None, str]:
@@ -35,7 +37,8 @@ def help_of(path: Path) -> tuple[int | None, str]:
     environment = {**os.environ, "ROS_MASTER_URI": NO_MASTER}
     options = {"text": True, "stdin": subprocess.DEVNULL, "capture_output": True, "timeout": PATIENCE}
     try:
-        result = subprocess.run([str(path), "--help"], env=environment, check=False, **options)
+        command = [sys.executable, str(path)] if path in EXAMPLES else [str(path)]
+        result = subprocess.run([*command, "--help"], env=environment, check=False, **options)
     except subprocess.TimeoutExpired:
         return None, ""
     return result.returncode, result.stdout

@@ -17,7 +17,8 @@ import pyfranka
 import pytest
 from fci_session import memory_of
 from lines import Lines
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import FR3, Panda
 from waiting import wait_for
 
 SUPPORT = Path(__file__).resolve().parent / "support"
@@ -28,7 +29,7 @@ MAX_MEMORY = 100.0  # [MB] of the whole program
 
 @pytest.fixture(scope="module")
 def sim():
-    attacked, other = SimRobot("panda", base=[0, 0, 0]), SimRobot("fr3", base=[0, 2, 0])
+    attacked, other = Panda(base=[0, 0, 0]), FR3(base=[0, 2, 0])
     with FrankaSim(attacked, other, pace="patient") as sim:
         yield sim
 

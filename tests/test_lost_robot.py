@@ -19,7 +19,8 @@ from control_nodes import (
 )
 from franka_msgs.msg import ErrorRecoveryGoal
 from geometry_msgs.msg import PoseStamped
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import KINDS
 from ros_client import latest, launched, set_example_parameters, trigger
 from std_msgs.msg import String
 from waiting import wait_for
@@ -96,7 +97,7 @@ class Node(ControlNode):
 
 
 def robot_at(kind, address):
-    return SimRobot(kind, address=address, hand="none")
+    return KINDS[kind](address=address, hand="none")
 
 
 @pytest.fixture(scope="module")

@@ -331,8 +331,8 @@ def test_a_node_with_several_arms_ends_without_real_time_privileges(master, robo
 def test_a_motion_continues_without_the_master(tmp_path, urdf):
     with ros_nodes.master(tmp_path) as own, moving(prepared(own, urdf)) as (node, robot):
         own.stop()
-        end = robot.remote.time() + 2.0
-        wait_for(lambda: robot.remote.time() > end, "Two seconds of the motion")
+        end = robot.remote.time + 2.0
+        wait_for(lambda: robot.remote.time > end, "Two seconds of the motion")
         assert robot.remote.state().mode == "Move", node.output
         assert node.process.poll() is None
         check_ends_by_itself(node)

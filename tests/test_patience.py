@@ -17,8 +17,8 @@ import pytest
 from fci_session import client_process, simulated
 from genuine_clients import client_python
 from lock_step import begin_motion, moved, stopped
-from pyfranka.franka_sim import FrankaSim, SimRobot
-from pyfranka.sim import LineRefused
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import FR3, LineRefused, Panda
 from waiting import wait_for
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
@@ -42,7 +42,7 @@ def test_a_stopped_client_finishes_its_motion_with_the_same_hash(library, robot)
 @contextmanager
 def waiting():
     """Two robots in a world; the client of the first is stopped in its motion."""
-    robots = SimRobot("panda", realism="ideal"), SimRobot("fr3", base=(1, 0, 0), realism="ideal")
+    robots = Panda(realism="ideal"), FR3(base=(1, 0, 0), realism="ideal")
     with ExitStack() as stack:
         server = stack.enter_context(FrankaSim(*robots, pace="lockstep", arguments=FOREVER))
         client = stack.enter_context(client_process("pyfranka"))

@@ -35,6 +35,8 @@ OF_THE_SYSTEM = {
     ),
     *("libstdc++.so.6", "libgcc_s.so.1", "libz.so.1"),
 }
+# Variables with which a build would find the workspace.
+OF_A_WORKSPACE = {"PYTHONPATH", "PYTHONHOME", "LD_LIBRARY_PATH", "CMAKE_PREFIX_PATH"}
 # Entry points of modules: pyproject.toml must declare them as soon as the sources have the module.
 OF_MODULES = {
     "desk": ("console_scripts", "franka_desk", "pyfranka.desk.cli:main"),
@@ -76,7 +78,7 @@ class Environment:
     """A virtual environment with the wheel and what it requires, and nothing of this machine's packages."""
 
     def __init__(self, folder: Path, wheel: Path, lock: str = "wheel", extras: str = ""):
-        self.folder, self.bin = folder, folder / "venv" / "bin"
+        self.folder, self.wheel, self.bin = folder, wheel, folder / "venv" / "bin"
         venv = ["/usr/bin/python3", "-m", "venv", "--without-pip", folder / "venv"]
         subprocess.run(venv, check=True, timeout=300)
         # What the wheel requires has to be in the lock.
@@ -98,6 +100,10 @@ class Environment:
             capture_output=True,
             timeout=300,
         )
+
+    def install_command(self, extra: str) -> str:
+        """What messages advise for an extra; the name alone finds nothing on PyPI."""
+        return f"pip install 'pyfranka[{extra}] @ {self.wheel.as_uri()}'"
 
     def python(self, code: str) -> str:
         """The output of a program, which must end well."""
@@ -128,6 +134,19 @@ def test_the_wheel_is_named_after_the_release_and_this_python(wheel):
         ["/usr/bin/python3", "-c", "import sys; print('cp%d%d' % sys.version_info[:2])"], text=True
     ).strip()
     assert re.fullmatch(rf"pyfranka-{version}-{python}-{python}-manylinux_\w+\.whl", wheel.name)
+    assert f"`{wheel.name}`" in (TOP / "docs" / "python.md").read_text(encoding="utf-8")
+
+
+def test_it_is_small_enough_for_a_slow_network(wheel):
+    assert wheel.stat().st_size <= 12e6
+
+
+def test_metadata_describes_the_package(archive):
+    fields = Parser().parsestr(metadata(archive, "METADATA"))
+    assert fields["Description-Content-Type"] == "text/markdown"
+    assert fields.get_payload().startswith("# pyfranka\n")
+    assert fields["License-Expression"] == "Apache-2.0"
+    assert "Operating System :: POSIX :: Linux" in fields.get_all("Classifier")
 
 
 def test_metadata_has_extras_and_requirements(archive):
@@ -158,6 +177,7 @@ def test_entry_points_lead_to_modules_of_the_wheel(archive):
     assert declared == {
         ("console_scripts", "franka_sim", "pyfranka_programs:franka_sim"),
         ("console_scripts", "franka_info", "pyfranka_programs:franka_info"),
+        ("console_scripts", "pyfranka-examples", "pyfranka_programs:examples"),
         *(OF_MODULES[module] for module in modules),
     }
     for _, _, value in declared:
@@ -272,23 +292,15 @@ def test_it_is_a_client_of_the_workspaces_robot(environment):
 
 def test_desk_names_the_packages_that_it_needs(environment):
     # franka_sim finds franka_desk, which is not on PATH here.
-    program = subprocess.Popen(
-        [environment.bin / "franka_sim", "--ip=127.0.61.9", "--desk"],
-        env={"PATH": "/usr/bin:/bin"},
-        stdout=subprocess.PIPE,
-        stderr=subprocess.PIPE,
-        text=True,
-    )
-    try:
-        # An ordinary user reads before that the robot has no priority.
-        assert any("Desk needs the Python package aiohttp" in line for line in program.stderr)
-        assert "Desk has ended by itself (status 1)" in program.stderr.readline()
-    finally:
-        program.terminate()
-        assert program.wait(20) == 0
+    result = environment.run("franka_sim", "--ip=127.0.61.9", "--desk")
+    assert result.returncode == 1
+    advice = f"Desk needs the Python package aiohttp: {environment.install_command('desk')}."
+    assert advice in result.stderr and "Desk has ended before it was ready" in result.stderr
 
 
-PROGRAMS = ["franka_sim", "franka_info", "pyfranka-meshes", "pyfranka-run", "pyfranka-sweep"]
+PROGRAMS = [
+    *("franka_sim", "franka_info", "pyfranka-examples", "pyfranka-meshes", "pyfranka-run", "pyfranka-sweep")
+]
 
 
 @pytest.mark.parametrize("program", PROGRAMS)
@@ -301,7 +313,47 @@ def test_a_sweep_names_the_packages_that_it_needs(environment):
     script = environment.folder / "cases.py"
     script.write_text("def case(index, seed):\n    return index\n")
     result = environment.run("pyfranka-sweep", str(script), "--cases", "4")
-    assert result.returncode == 2 and "pip install pyfranka[cluster]" in result.stderr, result.stderr
+    assert result.returncode == 2 and f": {environment.install_command('cluster')}." in result.stderr
+
+
+def test_a_plot_names_the_packages_that_it_needs(environment):
+    result = environment.run("franka_plot", "robot", "127.0.61.8")
+    assert result.returncode == 1 and f": {environment.install_command('plot')}." in result.stderr
+
+
+def test_packages_are_named_if_the_file_of_the_wheel_has_gone(wheel, tmp_path):
+    (tmp_path / "a folder").mkdir()
+    moved = Path(shutil.copy(wheel, tmp_path / "a folder"))
+    environment = Environment(tmp_path, moved)
+    code = "from pyfranka.command_line import install_command; print(install_command('gym'))"
+    assert environment.python(code) == f"pip install 'pyfranka[gym] @ {moved.as_uri()}'\n"
+    moved.unlink()
+    assert environment.python(code) == "pip install 'gymnasium>=1.0' scipy\n"
+
+
+def examples_of(environment: Environment, folder: Path) -> subprocess.CompletedProcess:
+    return environment.run("pyfranka-examples", str(folder))
+
+
+def test_examples_are_copied_and_no_file_is_overwritten(environment, tmp_path):
+    folder = tmp_path / "own" / "examples"
+    result = examples_of(environment, folder)
+    assert result.returncode == 0 and str(folder / "first_steps.py") in result.stdout, result.stderr
+    assert {file.name: file.read_text() for file in folder.iterdir()} == {
+        file.name: file.read_text() for file in (TOP / "examples" / "python").glob("*.py")
+    }
+    changed, lost = folder / "common.py", folder / "first_steps.py"
+    changed.write_text("own")
+    lost.unlink()
+    result = examples_of(environment, folder)
+    assert result.returncode == 1 and f"{folder} has common.py, " in result.stderr
+    assert changed.read_text() == "own" and not lost.exists()
+
+
+def test_the_program_of_its_description_runs(environment, archive):
+    description = Parser().parsestr(metadata(archive, "METADATA")).get_payload()
+    program = re.search(r"```python\n(.*?)```", description, re.DOTALL).group(1)
+    assert environment.python(program).startswith("[ 0.3 ")
 
 
 OF_A_PROJECT = """
@@ -345,7 +397,7 @@ from _pyfranka import Robot
 from _pyfranka._sim import ArmModel
 from pyfranka import sim
 
-def mass(model: ArmModel, robot: sim.Robot) -> numpy.ndarray:
+def mass(model: ArmModel, robot: sim.SimulatedRobot) -> numpy.ndarray:
     return model.mass(robot.state)
 
 reveal_type(Robot("").read_once().robot_mode)
@@ -358,6 +410,8 @@ def test_types_are_found_by_a_type_checker(environment, archive):
     assert {"pyfranka/__init__.pyi", "_pyfranka-stubs/__init__.pyi", "_pyfranka-stubs/_sim.pyi"} <= set(
         archive.namelist()
     )
+    stubs = [name for name in archive.namelist() if name.endswith(".pyi")]
+    assert [name for name in stubs if b"pybind11_stubgen" in archive.read(name)] == []
     script = environment.folder / "typed.py"
     script.write_text(TYPED)
     options = ["--python-executable", environment.bin / "python", "--cache-dir", os.devnull]
@@ -427,7 +481,7 @@ def check_meshes_on(bare: BareDebian):
         for robots in (with_meshes, [Panda(), FR3(base=(0, 1, 0))]):
             with Simulation(robots=robots) as sim:
                 sim.step(100)
-                print(sim["panda"].hash(), sim["fr3"].hash())
+                print(sim["panda"].state_hash(), sim["fr3"].state_hash())
     """
     with_meshes, without = bare.must("/env/bin/python", "-c", textwrap.dedent(code)).splitlines()
     assert with_meshes == without, "meshes change no motion"
@@ -499,6 +553,40 @@ def test_a_sweep_runs_with_its_extra(complete):
         print(pyarrow.parquet.read_table("cases.parquet")["result.ticks"].to_pylist())
     """
     assert complete.python(code) == "[100, 101, 102, 103]\n"
+
+
+@with_extras
+def test_copied_examples_run(complete):
+    folder = complete.folder / "examples"
+    assert examples_of(complete, folder).returncode == 0
+    result = complete.run("python", "examples/first_steps.py", "--output", str(folder))
+    # Pictures need drivers, which a machine may not have.
+    assert result.returncode == 0 or "No pictures can be drawn" in result.stderr, result.stderr
+
+
+@pytest.mark.long_form("compiles everything")
+def test_pip_builds_it_from_its_sources(quick_start, tmp_path):
+    packed = subprocess.run([TOP / "franka", "wheel", "--sdist"], text=True, capture_output=True, timeout=600)
+    assert packed.returncode == 0, packed.stdout + packed.stderr
+    sources = Path(re.search(r"The sources: (\S+)", packed.stdout).group(1))
+    assert sources.stat().st_size <= 3e6
+    shutil.unpack_archive(sources, tmp_path)
+    (folder,) = tmp_path.iterdir()
+    environ = {name: value for name, value in os.environ.items() if name not in OF_A_WORKSPACE}
+    environ |= {"CMAKE_CXX_COMPILER_LAUNCHER": "ccache", "CCACHE_BASEDIR": str(folder)}
+    environ |= {"CCACHE_NOHASHDIR": "1", "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count())}
+    environ["PATH"] = f"/usr/bin:{Path(sys.executable).parent}:/bin"
+    command = [sys.executable, "-m", "pip", "wheel", "--no-index", "--no-deps", "--no-build-isolation"]
+    built = subprocess.run(
+        [*command, f"--wheel-dir={tmp_path}", folder],
+        env=environ,
+        text=True,
+        capture_output=True,
+        timeout=3000,
+    )
+    assert built.returncode == 0, built.stdout[-3000:] + built.stderr[-3000:]
+    (wheel,) = tmp_path.glob("pyfranka-*.whl")
+    check_quick_start(Environment(tmp_path, wheel).python(quick_start))
 
 
 @with_extras

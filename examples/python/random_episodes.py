@@ -8,18 +8,22 @@ Writes random_episodes.png: how far from its goal the hand of Reach ended.
 """
 
 # %%
-import gymnasium
 import numpy
-import pyfranka.gym
-from common import options
+from common import options, progress
 from matplotlib import pyplot
 
+arguments, _ = options(__doc__, needs=["gymnasium"])
 
+import gymnasium  # noqa: E402
+import pyfranka.gym  # noqa: E402
+
+
+# %%
 def random_policy(env):
     return lambda observation: env.action_space.sample()
 
 
-def distances(env, make_policy, episodes):
+def distances(env, name, make_policy, episodes):
     """From the goal [m], at the end of each episode."""
     ends = []
     for episode in range(episodes):
@@ -29,17 +33,15 @@ def distances(env, make_policy, episodes):
             observation, _, terminated, truncated, _ = env.step(policy(observation))
             over = terminated or truncated
         ends.append(numpy.linalg.norm(observation["achieved_goal"] - observation["desired_goal"]))
+        progress(episode + 1, episodes, f"episodes, {name}")
     return ends
 
 
 # %%
-arguments, _ = options(__doc__)
 env = gymnasium.make("pyfranka/Reach-v0", robot=arguments.robot)
 env.action_space.seed(1)
-ends = {
-    "random actions": distances(env, random_policy, arguments.episodes),
-    "written policy": distances(env, pyfranka.gym.scripted_policy, arguments.episodes),
-}
+policies = {"random actions": random_policy, "written policy": pyfranka.gym.scripted_policy}
+ends = {name: distances(env, name, policy, arguments.episodes) for name, policy in policies.items()}
 env.close()
 for name, values in ends.items():
     reached = numpy.mean(numpy.less(values, 0.02))

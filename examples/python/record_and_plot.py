@@ -9,20 +9,23 @@ Writes recording.npz and record_and_plot.png. The arm has the friction and the n
 
 # %%
 import numpy
-from common import BASE, options
+from common import BASE, options, progress
 from matplotlib import pyplot
 from pyfranka.sim import Simulation
 
 TICKS = 6000
 EVERY = 5  # a sample in so many ticks
+STYLES = ("-", "-", "--", "-", ":", "-", "-")  # of the joints, some of whose lines lie on each other
 FIELDS = ("q", "dq", "tau_J", "tau_ext_hat_filtered", "O_F_ext_hat_K")
 
 
 def record(robot, sim, ticks):
     """The fields of the state and the time, a row a sample."""
     rows = {name: [] for name in ("time", *FIELDS)}
-    for _ in range(ticks // EVERY):
+    for tick in range(0, ticks, EVERY):
         sim.step(EVERY)
+        if (tick + EVERY) % 1000 == 0:
+            progress((tick + EVERY) // 1000, ticks // 1000, "recorded seconds")
         rows["time"].append(sim.time)
         for name in FIELDS:
             rows[name].append(getattr(robot.state, name).copy())
@@ -43,14 +46,16 @@ with Simulation("stone.xml", [Robot(base=BASE, realism="recorded")], seed=1) as 
 # %%
 with numpy.load(file) as recording:
     time = recording["time"]
-    figure, axes = pyplot.subplots(3, 1, figsize=(7, 7), sharex=True)
-    axes[0].plot(time, recording["q"])
+    figure, axes = pyplot.subplots(3, 1, figsize=(8, 7), sharex=True)
+    for one, name in zip(axes, ("q", "tau_J")):
+        for joint, style in enumerate(STYLES):
+            one.plot(time, recording[name][:, joint], style, label=f"joint {joint + 1}")
     axes[0].set_ylabel("q [rad]")
-    axes[1].plot(time, recording["tau_J"])
     axes[1].set_ylabel("tau_J [Nm]")
     axes[2].plot(time, recording["O_F_ext_hat_K"][:, :3], label=["x", "y", "z"])
     axes[2].set_ylabel("O_F_ext_hat_K [N]")
-    axes[2].legend()
+    for one in axes:
+        one.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
     axes[2].set_xlabel("time [s]")
     print(f"{len(time)} samples; the hand pressed with {recording['O_F_ext_hat_K'][-1, 2]:.1f} N at the end")
 figure.align_ylabels()

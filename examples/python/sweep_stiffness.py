@@ -100,7 +100,7 @@ class PickAndPlace:
             "stone": where,
             "ticks": self.sim.ticks,
             "mode": str(self.robot.state.robot_mode),
-            "hash": f"{self.robot.hash():016x}",
+            "hash": f"{self.robot.state_hash():016x}",
         }
 
 
@@ -150,7 +150,9 @@ def main(arguments=None):
         for stiffness in options.stiffnesses
         for scene in scenes
     ]
-    done = pyfranka.sweep(case, cases, options.cluster, output=options.output / "stiffness.parquet")
+    done = pyfranka.sweep(
+        case, cases, options.cluster, output=options.output / "stiffness.parquet", progress=True
+    )
     for stiffness in options.stiffnesses:
         placed = [o.result["placed"] for o in done if o.ok and o.case["stiffness"] == stiffness]
         print(f"{stiffness:5.0f} N/m: {sum(placed)} of {len(placed)} placed")

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/numbers.h>
 #include <pybind11/pybind11.h>
 #include <pyfranka/arrays.h>
 
@@ -25,6 +26,9 @@ std::int64_t wholeNumber(const py::object& value, const char* name);
 /// A finite number.
 double number(const py::object& value, const char* name);
 
+/// A number, finite or not: the robot itself refuses what it cannot use.
+double anyNumber(const py::object& value, const char* name);
+
 /// True or False, of Python or of numpy, or the numbers 1 and 0.
 bool yesOrNo(const py::object& value, const char* name);
 
@@ -38,6 +42,31 @@ std::array<double, size> finite(const py::object& values, const char* name) {
     throw std::invalid_argument(std::string(name) + " must be finite numbers.");
   }
   return array;
+}
+
+/// So many times True or False.
+template <std::size_t size>
+std::array<bool, size> switches(const py::object& values, const char* name) {
+  std::array<bool, size> result{};
+  if (!py::isinstance<py::iterable>(values) || py::len_hint(values) != size) {
+    throw std::invalid_argument(std::string(name) + " needs " + std::to_string(size) +
+                                " times True or False.");
+  }
+  std::size_t i = 0;
+  for (const py::handle each : values) {
+    result.at(i++) = yesOrNo(py::reinterpret_borrow<py::object>(each), name);
+  }
+  return result;
+}
+
+/// Numbers for a repr, such as "[0.1, -0.785]".
+template <std::size_t size>
+std::string shortText(const std::array<double, size>& values) {
+  std::string text;
+  for (const double value : values) {
+    text += (text.empty() ? "[" : ", ") + franka_core::numberText(value, 4);
+  }
+  return text + "]";
 }
 
 /// An object of a class that is bound. @param what such as "a Snapshot"

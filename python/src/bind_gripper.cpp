@@ -5,8 +5,10 @@
 #include <pybind11/chrono.h>
 
 #include <chrono>
+#include <memory>
 #include <string>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "numbers.h"
 #include "other_names.h"
@@ -21,9 +23,20 @@ template <typename Type>
 void bindConnection(py::class_<Type>& type) {
   withNames(
       {{{"address", "franka_address"}}},
-      [&](const auto&... extra) { type.def(py::init<const std::string&>(), extra...); },
-      py::call_guard<release>(), py::arg("address"),
-      "Connects. Raises NetworkException, IncompatibleVersionException.");
+      [&](const auto&... extra) {
+        type.def(py::init([](const py::object& address) {
+                   const std::string where = text(address, "address");
+                   const release free;
+                   return std::make_unique<Type>(where);
+                 }),
+                 extra...);
+      },
+      py::arg("address"), "Connects. Raises NetworkException, IncompatibleVersionException.");
+  type.def("__repr__", [](const py::object& self) {
+    return "<" + py::str(py::type::of(self).attr("__name__")).template cast<std::string>() +
+           ": a connection, protocol version " +
+           std::to_string(self.cast<const Type&>().serverVersion()) + ">";
+  });
   type.def_property_readonly(
       "server_version", [](const Type& self) { return version(self.serverVersion()); },
       "Version of the protocol that the hand or gripper speaks, an int.");
@@ -40,7 +53,14 @@ void bindHand(py::module_& module) {
       .def_property(
           "time", [](const GripperState& state) { return seconds(state.time); },
           [](GripperState& state, double time) { state.time = durationOf(time); },
-          "Since the hand started [s].");
+          "Since the hand started [s].")
+      .def("__repr__", [](const GripperState& state) {
+        using franka_core::numberText;
+        return "<GripperState: width " + numberText(state.width, 4) + " of " +
+               numberText(state.max_width, 4) + " m, " +
+               (state.is_grasped ? "grasped, " : "not grasped, ") +
+               numberText(state.temperature, 4) + " deg C>";
+      });
   py::class_<Gripper> hand(
       module, "Gripper", py::module_local(),
       "The Franka Hand. Commands wait for their end; stop() from another thread interrupts them, "
@@ -49,15 +69,35 @@ void bindHand(py::module_& module) {
   hand.def("homing", &Gripper::homing, py::call_guard<release>(),
            "Finds out how far the fingers open. Returns whether it succeeded.\n\nRaises "
            "CommandException when it is refused or ended by another command, NetworkException.")
-      .def("grasp", &Gripper::grasp, py::call_guard<release>(), py::arg("width"), py::arg("speed"),
-           py::arg("force"), py::arg("epsilon_inner") = 0.005, py::arg("epsilon_outer") = 0.005,
-           "Closes [m, m/s] and holds with a force [N]. Returns whether what is held is as wide as "
-           "asked, within the epsilons [m].\n\nRaises CommandException when it is refused or ended "
-           "by another command, NetworkException.")
-      .def("move", &Gripper::move, py::call_guard<release>(), py::arg("width"), py::arg("speed"),
-           "Moves the fingers [m, m/s]. Returns whether they arrived.\n\nRaises CommandException "
-           "when "
-           "it is refused or ended by another command, NetworkException.")
+      .def(
+          "grasp",
+          [](const Gripper& self, const py::object& width, const py::object& speed,
+             const py::object& force, const py::object& inner, const py::object& outer) {
+            const double w = anyNumber(width, "width");
+            const double v = anyNumber(speed, "speed");
+            const double f = anyNumber(force, "force");
+            const double in = anyNumber(inner, "epsilon_inner");
+            const double out = anyNumber(outer, "epsilon_outer");
+            const release free;
+            return self.grasp(w, v, f, in, out);
+          },
+          py::arg("width"), py::arg("speed"), py::arg("force"), py::arg("epsilon_inner") = 0.005,
+          py::arg("epsilon_outer") = 0.005,
+          "Closes [m, m/s] and holds with a force [N]. Returns whether what is held is as wide as "
+          "asked, within the epsilons [m].\n\nRaises CommandException when it is refused or ended "
+          "by another command, NetworkException.")
+      .def(
+          "move",
+          [](const Gripper& self, const py::object& width, const py::object& speed) {
+            const double w = anyNumber(width, "width");
+            const double v = anyNumber(speed, "speed");
+            const release free;
+            return self.move(w, v);
+          },
+          py::arg("width"), py::arg("speed"),
+          "Moves the fingers [m, m/s]. Returns whether they arrived.\n\nRaises CommandException "
+          "when "
+          "it is refused or ended by another command, NetworkException.")
       .def("stop", &Gripper::stop, py::call_guard<release>(),
            "Ends what the hand is doing and the force of a grasp. Returns whether it did.")
       .def("read_once", &Gripper::readOnce, py::call_guard<release>(),

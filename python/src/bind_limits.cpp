@@ -1,9 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/fci/protocol.h>
 #include <franka_core/motion_limits.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+
+#include "arguments.h"
 #include "bindings.h"
 
 namespace pyfranka {
@@ -14,6 +20,17 @@ using franka_core::DerivativeLimits;
 using franka_core::MotionLimits;
 
 using Positions = py::array_t<double, py::array::c_style | py::array::forcecast>;
+
+MotionLimits limitsOf(const py::object& version) {
+  using namespace franka_core::fci;
+  const std::int64_t number = wholeNumber(version, "version");
+  if (number < kOldestRobotVersion || number > kNewestRobotVersion) {
+    throw std::invalid_argument("version must be " + std::to_string(kOldestRobotVersion) + " to " +
+                                std::to_string(kNewestRobotVersion) + ", not " +
+                                std::to_string(number) + ".");
+  }
+  return franka_core::motionLimitsOfProtocol(static_cast<unsigned>(number));
+}
 
 py::tuple velocityRanges(const MotionLimits& limits, const Positions& q) {
   if (q.ndim() < 1 || q.ndim() > 2 || q.shape(q.ndim() - 1) != 7) {
@@ -46,10 +63,13 @@ void bindLimits(py::module_& module) {
   using franka_core::ArmLimits;
   py::class_<MotionLimits> type(module, "ArmLimits", py::module_local(),
                                 "The limits of an arm's motions.");
-  type.def(py::init([](unsigned version) { return franka_core::motionLimitsOfProtocol(version); }),
-           py::arg("version"),
-           "Of robots with this protocol version, Robot.server_version: up to 5 a Panda, then an "
-           "FR3, from 10 on one with system 5.9 or later.");
+  type.def(py::init(&limitsOf), py::arg("version"),
+           "Of robots with this protocol version, Robot.server_version: 3 to 5 a Panda, then an "
+           "FR3, 10 one with system 5.9 or later. Raises ValueError for another version.");
+  type.def("__repr__", [](const MotionLimits& self) {
+    return "<ArmLimits of " + std::string(self.position_velocity ? "an FR3" : "a Panda") + ": dq " +
+           shortText(self.arm.dq) + " rad/s, tau " + shortText(self.arm.tau) + " Nm>";
+  });
   vector(type, "q_min", &ArmLimits::q_min, "Lowest joint positions [rad].");
   vector(type, "q_max", &ArmLimits::q_max, "Highest joint positions [rad].");
   vector(type, "dq", &ArmLimits::dq, "Joint velocities [rad/s].");

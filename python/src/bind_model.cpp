@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "other_names.h"
 #include "sim_model.h"
@@ -151,10 +152,13 @@ void bindDynamics(py::class_<Model>& type) {
 
 #ifdef PYFRANKA_IN_ROS
 
-std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const std::string& urdf, const std::string& root,
-                                                   const std::string& tip) {
+std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const py::object& description,
+                                                   const py::object& root_link,
+                                                   const py::object& tip_link) {
+  const std::string root = text(root_link, "root");
+  const std::string tip = text(tip_link, "tip");
   urdf::Model model;
-  if (!model.initString(urdf)) {
+  if (!model.initString(text(description, "urdf"))) {
     throw std::invalid_argument("The text is not a URDF; see the messages above.");
   }
   return std::make_unique<franka_hw::ModelKDL>(model, root, tip);
@@ -217,6 +221,10 @@ void bindModel(py::module_& module) {
 void bindSimModel(py::module_& module) {
   py::class_<SimModel> model(module, "ArmModel", py::module_local(),
                              "The model of a simulated robot's own control.");
+  model.attr("__module__") = "pyfranka.sim";
+  model.def("__repr__", [](const SimModel&) {
+    return "<ArmModel of a simulated robot: pose, Jacobians, mass, coriolis, gravity>";
+  });
   bindKinematics<franka_core::RobotState>(model);
   bindDynamics<franka_core::RobotState>(model);
 }

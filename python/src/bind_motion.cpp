@@ -12,6 +12,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "motion.h"
 #include "numbers.h"
@@ -47,7 +48,12 @@ void bindCommand(py::module_& module, const char* name, const char* field, const
       .def_readwrite("motion_finished", &Command::motion_finished,
                      "Whether this is the last command of its motion.")
       .def(py::init<const Command&>(), py::arg("command"), "Another one, equal.")
-      .def("__copy__", [](const Command& self) { return Command(self); }, "Another one, equal.");
+      .def(
+          "__copy__", [](const Command& self) { return Command(self); }, "Another one, equal.")
+      .def("__repr__", [name, member](const Command& self) {
+        return name + ("(" + shortText(self.*member)) +
+               (self.motion_finished ? "), the last one of its motion" : ")");
+      });
   const std::vector<Names> others = {{{"values", other_name}}};
   if constexpr (std::is_constructible_v<Command, std::array<double, kSize>,
                                         std::array<double, 2>>) {
@@ -157,6 +163,10 @@ void bindMotion(py::module_& module) {
   module.def(
       "motion_finished",
       [](const py::object& command) {
+        if (!py::hasattr(command, "motion_finished")) {
+          throw py::type_error("command must be a command such as Torques([...]), not " +
+                               std::string(py::repr(command)) + ".");
+        }
         py::object copied = py::module_::import("copy").attr("copy")(command);
         copied.attr("motion_finished") = true;
         return copied;

@@ -7,11 +7,14 @@
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <memory>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "motion.h"
 #include "numbers.h"
@@ -220,9 +223,16 @@ void bindSetters(py::class_<Robot>& robot) {
             self.setCartesianImpedance(stiffness);
           },
           py::arg("K_x"), "Stiffness of the robot's Cartesian controller, 6 [N/m, Nm/rad].")
-      .def("set_guiding_mode", &Robot::setGuidingMode, py::call_guard<release>(),
-           py::arg("guiding_mode"), py::arg("elbow"),
-           "Which directions (6) and whether the elbow can be guided by hand.")
+      .def(
+          "set_guiding_mode",
+          [](Robot& self, const py::object& guiding_mode, const py::object& elbow) {
+            const auto axes = switches<6>(guiding_mode, "guiding_mode");
+            const bool free_elbow = yesOrNo(elbow, "elbow");
+            const release free;
+            self.setGuidingMode(axes, free_elbow);
+          },
+          py::arg("guiding_mode"), py::arg("elbow"),
+          "Which directions (6) and whether the elbow can be guided by hand.")
       .def(
           "set_K",
           [](Robot& self, const py::object& EE_T_K) {
@@ -241,7 +251,9 @@ void bindSetters(py::class_<Robot>& robot) {
           py::arg("NE_T_EE"), "Pose of the end effector in NE, 4x4.");
   defNamed(
       robot, "set_load", {{{"mass", "load_mass"}}},
-      [](Robot& self, double mass, const py::object& F_x_Cload, const py::object& inertia) {
+      [](Robot& self, const py::object& load_mass, const py::object& F_x_Cload,
+         const py::object& inertia) {
+        const double mass = anyNumber(load_mass, "mass");
         const auto com = arrayOf<3>(F_x_Cload, "F_x_Cload");
         const auto load_inertia = arrayOf<9>(inertia, "load_inertia");
         const release free;
@@ -331,15 +343,32 @@ void bindRobot(py::module_& module) {
   withNames(
       {{{"address", "franka_address"}}, {{"address", "robot_ip_address"}}},
       [&](const auto&... extra) {
-        robot.def(py::init<const std::string&, RealtimeConfig, size_t>(), extra...);
+        robot.def(py::init([](const py::object& address, const py::object& realtime_config,
+                              const py::object& log_size) {
+                    const std::string where = text(address, "address");
+                    const auto config = objectOf<RealtimeConfig>(realtime_config, "realtime_config",
+                                                                 "a RealtimeConfig");
+                    const std::int64_t size = wholeNumber(log_size, "log_size");
+                    if (size < 0) {
+                      throw std::invalid_argument("log_size must be 0 or more, not " +
+                                                  std::to_string(size) + ".");
+                    }
+                    const release free;
+                    return std::make_unique<Robot>(where, config, static_cast<std::size_t>(size));
+                  }),
+                  extra...);
       },
-      py::call_guard<release>(), py::arg("address"),
-      py::arg("realtime_config") = RealtimeConfig::kEnforce, py::arg("log_size") = 50,
-      "Connects. Raises NetworkException, IncompatibleVersionException.");
+      py::arg("address"), py::arg("realtime_config") = RealtimeConfig::kEnforce,
+      py::arg("log_size") = 50, "Connects. Raises NetworkException, IncompatibleVersionException.");
   robot
       .def_property_readonly(
           "server_version", [](const Robot& self) { return version(self.serverVersion()); },
           "Version of the protocol that the robot speaks, an int.")
+      .def("__repr__",
+           [](const Robot& self) {
+             return "<Robot: a connection, protocol version " +
+                    std::to_string(self.serverVersion()) + ">";
+           })
       .def("read_once", &Robot::readOnce, py::call_guard<release>(),
            "Waits for the next RobotState.")
       .def(

@@ -4,6 +4,7 @@
 #include <franka_core/numbers.h>
 #include <franka_sim/physics/world_properties.h>
 #include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/robot/realism.h>
 #include <franka_sim/simulation/robot_setup.h>
 #include <pybind11/stl.h>
 
@@ -50,8 +51,12 @@ class Robot {
   Robot(std::shared_ptr<Shared> shared, SimulatedRobot& robot)
       : shared_(std::move(shared)), robot_(&robot) {}
 
-  const franka_core::RobotState& state() const { return robot_->state(); }
-  const SimulatedRobot& simulated() const { return *robot_; }
+  /// @throws std::runtime_error once the simulation is closed, as all others
+  const franka_core::RobotState& state() const { return simulated().state(); }
+  const SimulatedRobot& simulated() const {
+    shared_->requireOpen();
+    return *robot_;
+  }
 
   template <typename Function>
   auto use(Function function) {
@@ -328,6 +333,25 @@ void bindRequests(py::class_<Robot>& robot) {
           "3x3 [kg m^2].");
 }
 
+/// A command that the hand has accepted. @throws franka_sim::RequestRefused for the ticket 0
+GripperUnit::Ticket accepted(GripperUnit::Ticket ticket, const GripperUnit& hand, const char* what,
+                             double width, double speed, double force = 0.0) {
+  if (ticket != 0) {
+    return ticket;
+  }
+  using franka_core::numberText;
+  std::string why = "it needs homing first";
+  if (width < 0.0 || width > hand.maxWidth()) {
+    why = "width must be 0 to " + numberText(hand.maxWidth()) + " m, not " + numberText(width);
+  } else if (speed < 0.0) {
+    why = "speed must not be negative, not " + numberText(speed) + " m/s";
+  } else if (force < 0.0) {
+    why = "force must not be negative, not " + numberText(force) + " N";
+  }
+  throw franka_sim::RequestRefused(std::string("The hand has refused the ") + what + ": " + why +
+                                   ".");
+}
+
 void bindHand(py::module_& module, py::class_<Robot>& robot) {
   using franka_sim::GripperOutcome;
   py::enum_<GripperOutcome>(module, "GripperOutcome", py::module_local(),
@@ -344,7 +368,8 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
       [](Robot& self, const py::object& width, const py::object& speed) {
         const double w = number(width, "width");
         const double v = number(speed, "speed");
-        return self.useHand([&](GripperUnit& hand) { return hand.move(w, v); });
+        return self.useHand(
+            [&](GripperUnit& hand) { return accepted(hand.move(w, v), hand, "motion", w, v); });
       },
       py::arg("width"), py::arg("speed"));
   robot.def(
@@ -356,7 +381,9 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
         const double f = number(force, "force");
         const double in = number(inner, "epsilon_inner");
         const double out = number(outer, "epsilon_outer");
-        return self.useHand([&](GripperUnit& hand) { return hand.grasp(w, in, out, v, f); });
+        return self.useHand([&](GripperUnit& hand) {
+          return accepted(hand.grasp(w, in, out, v, f), hand, "grasp", w, v, f);
+        });
       },
       py::arg("width"), py::arg("speed"), py::arg("force"), py::arg("epsilon_inner"),
       py::arg("epsilon_outer"));
@@ -376,6 +403,9 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
 void bindSimulatedRobot(py::module_& module) {
   py::class_<Robot> robot(module, "Robot", py::module_local(), "A robot of a simulation.");
   robot
+      .def(
+          "require_open", [](const Robot& self) { self.simulated(); },
+          "Raises RuntimeError once the simulation is closed.")
       .def_property_readonly("state", &Robot::state, py::return_value_policy::reference_internal,
                              "The present LiveState.")
       .def_property_readonly(
@@ -578,15 +608,25 @@ franka_sim::fci::Pace paceOf(bool real_time, const py::object& limit) {
   return pace;
 }
 
+struct Snapshot {
+  franka_sim::SimulationSnapshot condition;
+  std::uint64_t ticks;
+};
+
 }  // namespace
 
 void bindSimulation(py::module_& module) {
   using franka_sim::Simulation;
   py::register_local_exception<franka_sim::RequestRefused>(module, "RequestRefused",
                                                            PyExc_RuntimeError)
-      .attr("__doc__") = "The robot cannot do what was requested; its mode does not allow it.";
-  py::class_<franka_sim::SimulationSnapshot>(module, "Snapshot", py::module_local(),
-                                             "The state of a world and its robots at a tick.");
+      .attr("__doc__") =
+      "The robot or its hand cannot do what was requested: its mode does not allow it, or no such "
+      "value exists for it.";
+  py::class_<Snapshot>(module, "Snapshot", py::module_local(),
+                       "The state of a world and its robots at a tick.")
+      .def("__repr__", [](const Snapshot& self) {
+        return "<Snapshot at " + franka_core::numberText(1e-3 * double(self.ticks), 9) + " s>";
+      });
   py::class_<Simulation::Robot>(module, "RobotSetup", py::module_local(),
                                 "What is needed to add a robot.")
       .def(py::init([](const std::string& robot, const std::string& name, const std::string& urdf,
@@ -630,12 +670,15 @@ void bindSimulation(py::module_& module) {
       .def("take_events", &Shared::takeEvents)
       .def("reset", [](Shared& self) { self.use([](Simulation& s) { s.reset(); }); })
       .def("snapshot",
-           [](Shared& self) { return self.use([](Simulation& s) { return s.snapshot(); }); })
+           [](Shared& self) {
+             return self.use(
+                 [](Simulation& s) { return Snapshot{s.snapshot(), s.world().ticks()}; });
+           })
       .def("restore",
            [](Shared& self, const py::object& snapshot) {
-             const auto& kept = objectOf<franka_sim::SimulationSnapshot>(
-                 snapshot, "snapshot", "what snapshot() has returned");
-             self.use([&](Simulation& s) { s.restore(kept); });
+             const auto& kept =
+                 objectOf<Snapshot>(snapshot, "snapshot", "what snapshot() has returned");
+             self.use([&](Simulation& s) { s.restore(kept.condition); });
            })
       .def("stopped",
            [](Shared& self) { return self.use([](Simulation& s) { return s.world().stopped(); }); })
@@ -649,10 +692,18 @@ void bindSimulation(py::module_& module) {
            [](const std::shared_ptr<Shared>& self, const std::string& name) {
              return Robot(self, *self->use([&](Simulation& s) { return &s.robot(name); }));
            })
+      .def("require_open", &Shared::requireOpen, "Raises RuntimeError once it is closed.")
       .def("close", &Shared::close);
   bindWorld(simulation);
   bindBatch(module);
   bindEpisode(module);
+  module.def(
+      "check_realism",
+      [](const std::string& text) { franka_sim::readRealism(text, franka_sim::kInProcessProfile); },
+      py::arg("realism"), "Raises ValueError for a profile that does not exist.");
+  for (const char* const name : {"GripperOutcome", "RequestRefused", "Snapshot"}) {
+    module.attr(name).attr("__module__") = "pyfranka.sim";
+  }
   module.def("world_file", &franka_sim::worldFile, py::arg("name"),
              "The file of a world by its name, as Simulation takes it.");
 }

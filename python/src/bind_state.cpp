@@ -7,10 +7,13 @@
 #include <pybind11/operators.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
+#include <array>
 #include <sstream>
 #include <string>
 #include <type_traits>
 
+#include "arguments.h"
 #include "bindings.h"
 #include "numbers.h"
 #include "other_names.h"
@@ -64,7 +67,16 @@ void bindErrors(py::module_& module) {
   errors.def(py::init<>(), "No error.")
       .def("__bool__", [](const franka::Errors& self) { return static_cast<bool>(self); })
       .def("__str__", [](const franka::Errors& self) { return static_cast<std::string>(self); })
-      .def("__repr__", [](const franka::Errors& self) { return static_cast<std::string>(self); });
+      .def("__repr__", [](const franka::Errors& self) { return static_cast<std::string>(self); })
+      .def(py::pickle(
+          [](const franka::Errors& self) {
+            std::array<bool, franka_core::kErrorCount> flags;
+            std::copy_n(&self.joint_position_limits_violation, flags.size(), flags.begin());
+            return py::make_tuple(flags);
+          },
+          [](const py::tuple& kept) {
+            return franka::Errors(kept[0].cast<std::array<bool, franka_core::kErrorCount>>());
+          }));
   for (std::size_t i = 0; i < franka_core::kErrorCount; i++) {
     // C++ has no pointers to members that are references, as these are: to items of one array.
     errors.def_property_readonly(
@@ -150,6 +162,17 @@ void bindContacts(py::class_<State>& state) {
   field(state, "O_ddP_O", &State::O_ddP_O, "Acceleration of the base in O [m/s^2].");
 }
 
+/// What can be assigned of a state, by name, for pickle.
+py::dict attributesOf(const py::object& self) {
+  py::dict values;
+  for (const auto& [name, member] : py::dict(py::type::of<RobotState>().attr("__dict__"))) {
+    if (py::hasattr(member, "fset") && !member.attr("fset").is_none()) {
+      values[name] = self.attr(name);
+    }
+  }
+  return values;
+}
+
 }  // namespace
 
 void bindState(py::module_& module) {
@@ -177,11 +200,20 @@ void bindState(py::module_& module) {
           "time", [](const RobotState& self) { return seconds(self.time); },
           [](RobotState& self, double time) { self.time = durationOf(time); },
           "Since the robot started, a Duration [s].")
-      .def("__repr__", [](const RobotState& self) {
-        std::ostringstream text;
-        text << self;
-        return text.str();
-      });
+      .def("__repr__",
+           [](const RobotState& self) {
+             std::ostringstream text;
+             text << self;
+             return text.str();
+           })
+      .def(py::pickle(&attributesOf, [](const py::dict& values) {
+        RobotState kept;
+        const py::object self = py::cast(&kept, py::return_value_policy::reference);
+        for (const auto& [name, value] : values) {
+          py::setattr(self, name, value);
+        }
+        return kept;
+      }));
 
   py::class_<franka::Record>(module, "Record", py::module_local(),
                              "A state, and the command sent just before it.")
@@ -253,7 +285,21 @@ void bindSimState(py::module_& module) {
             franka_core::toFranka(self, copied);
             return copied;
           },
-          "A RobotState that stays as it is.");
+          "A RobotState that stays as it is.")
+      .def(
+          "__reduce__",
+          [](const py::object& self) {
+            return py::make_tuple(py::type::of<RobotState>(), py::make_tuple(self.attr("copy")()));
+          },
+          "Pickled, it is a RobotState.")
+      .def("__repr__", [](const py::object& self) {
+        const State& state = self.cast<const State&>();
+        const std::string errors = py::str(self.attr("current_errors"));
+        return "<LiveState at " + franka_core::numberText(1e-3 * double(state.message_id), 9) +
+               " s: " + py::str(self.attr("robot_mode").attr("name")).cast<std::string>() + ", q " +
+               shortText(state.q) + (errors == "[]" ? "" : ", errors " + errors) + ">";
+      });
+  state.attr("__module__") = "pyfranka.sim";
 }
 
 }  // namespace pyfranka

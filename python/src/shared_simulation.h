@@ -28,9 +28,7 @@ class Shared {
   class Use {
    public:
     explicit Use(Shared& shared) : busy_(shared.busy_) {
-      if (shared.closed_) {
-        throw std::runtime_error("The simulation is closed.");
-      }
+      shared.requireOpen();
       if (busy_.test_and_set()) {
         throw std::runtime_error(
             "Another thread uses this simulation now; give each thread one of its own.");
@@ -61,6 +59,12 @@ class Shared {
                           : renderer_->render(scene, camera, width, height);
   }
   bool closed() const noexcept { return closed_; }
+  /// @throws std::runtime_error once it is closed
+  void requireOpen() const {
+    if (closed_) {
+      throw std::runtime_error("The simulation is closed.");
+    }
+  }
   bool served() const noexcept { return server_ != nullptr; }
   /// Puts a robot on the network; the first call chooses the pace of all robots, and the callback
   /// that ends a wait.

@@ -11,7 +11,7 @@ import numpy as np
 import pyfranka.gym
 import pyfranka.sim
 import pytest
-from pyfranka.sim import FR3, KINDS, Gripper, Panda, Remote, Robot, Simulation, SimulationBatch
+from pyfranka.sim import FR3, KINDS, Gripper, Panda, Remote, SimulatedRobot, Simulation, SimulationBatch
 from waiting import wait_for
 
 NAN, INF = math.nan, math.inf
@@ -39,10 +39,9 @@ SIMULATION = {
         "seed must be a whole number, not 1.5": lambda x: Simulation(seed=1.5),
         "seed must be a whole number, not 'a'": lambda x: Simulation(seed="a"),
         "seed must be 0 to": lambda x: Simulation(seed=-1),
-        "'reel' is not known": lambda x: Simulation(robots=[Panda(realism="reel")]),
-        "urdf must be the name of a file": lambda x: Simulation(robots=[Panda(urdf="<robot/>")]),
+        "protocol of panda is for robots on the network": lambda x: Simulation(robots=[Panda(protocol=5)]),
+        "vacuum gripper is served on the network": lambda x: Simulation(robots=[Panda(hand="vacuum")]),
         "world must be the name of a file, not its text": lambda x: Simulation("<mujoco/>"),
-        "Cannot read the file": lambda x: Simulation(robots=[Panda(urdf="/nowhere.urdf")]),
         "position of the robot": lambda x: Simulation(robots=[Panda(base=(FAR, 0, 0))]),
         "10 kg": lambda x: Simulation(robots=[Panda(load=(100.0, (0, 0, 0)))]),
     },
@@ -50,7 +49,6 @@ SIMULATION = {
         "no robot 'ur5'": lambda x: x["ur5"],
         "no robot '[1]'": lambda x: x[[1]],
     },
-    "get": {"": None},  # of Mapping
     "serve": {
         "no robot 'ur5'": lambda x: x.serve("127.0.34.1", robot="ur5"),
         "pace is 'lockstep' or 'realtime'": lambda x: x.serve("127.0.34.1", pace="fast"),
@@ -226,11 +224,15 @@ GRIPPER = {
         "width must be a finite number, not nan": lambda x: x.move(NAN),
         "width must be a number, not 'wide'": lambda x: x.move("wide"),
         "speed must be a finite number, not inf": lambda x: x.move(0.05, INF),
+        "refused the motion: width must be 0 to 0.08 m, not 5": lambda x: x.move(5.0),
+        "refused the motion: speed must not be negative, not -1": lambda x: x.move(0.05, -1),
     },
     "grasp": {
         "width must be a finite": lambda x: x.grasp(NAN, 0.1, 10),
         "speed must be a finite": lambda x: x.grasp(0.03, NAN, 10),
         "force must be a finite": lambda x: x.grasp(0.03, 0.1, NAN),
+        "refused the grasp: force must not be negative": lambda x: x.grasp(0.03, 0.1, -1),
+        "refused the grasp: width must be 0 to 0.08": lambda x: x.grasp(-0.03, 0.1, 10),
         "force must be a number, not None": lambda x: x.grasp(0.03, 0.1, None),
         "epsilon_inner must be a finite": lambda x: x.grasp(0.03, 0.1, 10, epsilon_inner=NAN),
         "epsilon_outer must be a finite": lambda x: x.grasp(0.03, 0.1, 10, epsilon_outer=NAN),
@@ -250,7 +252,15 @@ SETUP = {
         "The inertia of load [kg m^2] must be 9": lambda x: x(load=(1.0, (0, 0, 0), [1])),
         "name must be a text, not 5": lambda x: x(name=5),
         "it cannot be 'a b'": lambda x: x(name="a b"),
-        "hand must be True or False, not 'yes'": lambda x: x(hand="yes"),
+        "hand must be True, False or 'vacuum', not 'yes'": lambda x: x(hand="yes"),
+        "hand must be True, False or 'vacuum', not 1": lambda x: x(hand=1),
+        "'reel' is not known": lambda x: x(realism="reel"),
+        "there is no file '/nowhere.urdf'": lambda x: x(urdf="/nowhere.urdf"),
+        "The inertia of load [kg m^2] must be 9 finite": lambda x: x(load=(1, (0, 0, 0), np.ones((9, 1)))),
+        "protocol must be a whole number, not 'a'": lambda x: x(protocol="a"),
+        "or 0 for all, not 2": lambda x: x(protocol=2),
+        "address must be a text, not 5": lambda x: x(address=5),
+        "arguments must be a list of options": lambda x: x(arguments="--patience 5"),
         "realism must be a text": lambda x: x(realism=1),
         "urdf must be the name of a file, not 5": lambda x: x(urdf=5),
         "urdf must be the name of a file, not its text (2007": lambda x: x(urdf="<robot>" + 2000 * " "),
@@ -306,13 +316,15 @@ OPTIONS = {
     "observation is one of": {"observation": "smell"},
     "reward is one of": {"reward": "huge"},
     "on_reflex is one of": {"on_reflex": "ignore"},
-    "render_mode is one of": {"render_mode": "human"},
+    "render_mode is one of": {"render_mode": "ansi"},
     "frequency is 1 to 1000 Hz": {"frequency": 30},
     "frequency must be a finite number": {"frequency": NAN},
     "frequency must be a finite number, not 'often'": {"frequency": "often"},
     "size is width and height": {"size": (0, 10)},
     "size must be a whole number": {"size": (1.5, 10)},
     "size must be a list of width and height": {"size": 5},
+    "render_size is width and height": {"render_size": (0, 10)},
+    "has no option 'hue', 'speed'; its options are robot, control": {"hue": 1, "speed": 2},
     "'reel' is not known": {"realism": "reel"},
     "realism must be a text": {"realism": 5},
     "no camera 'nowhere'": {"camera": "nowhere"},
@@ -332,6 +344,7 @@ EPISODE_OPTIONS = {
     "is not a unit quaternion": {"object": QUATERNION_0},
     "The position for body 'stone'": {"object": [FAR, 0, 0]},
     "The option goal must be 3 finite": {"goal": [NAN] * 3},
+    "The option goal must lie within": {"goal": [0, 0, 2.6]},
     "not 'color'": {"color": 1},
 }
 
@@ -366,9 +379,6 @@ ENVIRONMENT = {
     "compute_reward": {
         "A goal is an array of numbers": lambda x: x.compute_reward("near", np.zeros(4), {"reach": 0.0}),
         "A goal has 4 numbers here": lambda x: x.compute_reward(np.zeros(3), np.zeros(4), {"reach": 0.0}),
-        "The dense reward needs the info": lambda x: pyfranka.gym.Environment(
-            "Reach", reward="dense"
-        ).compute_reward(np.zeros(3), np.zeros(3), {}),
     },
 }
 VECTOR = environment_cases(pyfranka.gym.VectorEnvironment, (2, 7), num_envs=2)
@@ -380,6 +390,9 @@ VECTOR["__init__"].update(
             1, max_episode_steps=0, task="Reach"
         ),
         "threads must be 1 to 1024": lambda x: pyfranka.gym.VectorEnvironment(1, threads=0, task="Reach"),
+        "The render_mode of many environments is one of rgb_array": lambda x: pyfranka.gym.VectorEnvironment(
+            1, render_mode="human", task="Reach"
+        ),
         "autoreset_mode is one of": lambda x: pyfranka.gym.VectorEnvironment(
             1, autoreset_mode="never", task="Reach"
         ),
@@ -404,7 +417,11 @@ class Thing:
 
     def condition(self):
         return [
-            (sim.ticks, sim.hash(), [(r.hash(), r.moving, r.state.q.tolist()) for r in sim.values()])
+            (
+                sim.ticks,
+                sim.state_hash(),
+                [(r.state_hash(), r.moving, r.state.q.tolist()) for r in sim.values()],
+            )
             for sim in self._sims
         ]
 
@@ -441,7 +458,7 @@ def vector_of(name):
 # The class, how one is made, and its cases.
 CLASSES = {
     Simulation: (in_simulation(lambda sim: sim), SIMULATION),
-    Robot: (in_simulation(lambda sim: sim["panda"]), ROBOT),
+    SimulatedRobot: (in_simulation(lambda sim: sim["panda"]), ROBOT),
     Gripper: (in_simulation(lambda sim: sim["panda"].gripper), GRIPPER),
     Panda: (lambda name: Thing(Panda, []), SETUP),
     FR3: (lambda name: Thing(FR3, []), SETUP),
@@ -522,8 +539,8 @@ def test_bad_input_of_an_episode_keeps_its_random_numbers(name):
 
 # What works in any case: names and views.
 ALWAYS = {
-    Simulation: {"close", "keys", "items", "values", "get"},
-    Robot: {"name"},
+    Simulation: {"close", "keys", "items", "values", "hash"},
+    SimulatedRobot: {"name", "hash", "set_brakes"},  # the last two are old names
     Gripper: set(),
 }
 ARGUMENTS = {
@@ -531,18 +548,17 @@ ARGUMENTS = {
     ("Simulation", "body_pose"): ("stone",),
     ("Simulation", "place_body"): ("stone", (0, 0, 1)),
     ("Simulation", "push"): ("stone", (0, 0, 1)),
-    ("Robot", "command"): (),
-    ("Robot", "joint_impedance"): ([0, 0, 0, -1.5, 0, 1.5, 0],),
-    ("Robot", "cartesian_impedance"): (np.eye(4),),
-    ("Robot", "set_user_stop"): (True,),
-    ("Robot", "set_brakes"): (True,),
-    ("Robot", "set_guiding"): (True,),
-    ("Robot", "set_joint_impedance"): ([1000.0] * 7,),
-    ("Robot", "set_cartesian_impedance"): ([1000.0] * 6,),
-    ("Robot", "set_collision_behavior"): ([10.0] * 7, [10.0] * 7, [10.0] * 6, [10.0] * 6),
-    ("Robot", "set_EE"): (np.eye(4),),
-    ("Robot", "set_K"): (np.eye(4),),
-    ("Robot", "set_load"): (0.1, [0, 0, 0], np.zeros(9)),
+    ("SimulatedRobot", "command"): (),
+    ("SimulatedRobot", "joint_impedance"): ([0, 0, 0, -1.5, 0, 1.5, 0],),
+    ("SimulatedRobot", "cartesian_impedance"): (np.eye(4),),
+    ("SimulatedRobot", "set_user_stop"): (True,),
+    ("SimulatedRobot", "set_guiding"): (True,),
+    ("SimulatedRobot", "set_joint_impedance"): ([1000.0] * 7,),
+    ("SimulatedRobot", "set_cartesian_impedance"): ([1000.0] * 6,),
+    ("SimulatedRobot", "set_collision_behavior"): ([10.0] * 7, [10.0] * 7, [10.0] * 6, [10.0] * 6),
+    ("SimulatedRobot", "set_EE"): (np.eye(4),),
+    ("SimulatedRobot", "set_K"): (np.eye(4),),
+    ("SimulatedRobot", "set_load"): (0.1, [0, 0, 0], np.zeros(9)),
     ("Gripper", "move"): (0.05,),
     ("Gripper", "grasp"): (0.05, 0.1, 10.0),
 }
@@ -578,12 +594,15 @@ def all_calls(sim, name):
 
 
 # Made once, then only shown.
-CACHED = {"Robot.gripper"}
+CACHED = {"SimulatedRobot.gripper"}
+# Views, which another thread's step changes.
+VIEWS = {"SimulatedRobot.state", "SimulatedRobot.model"}
 
 
 def test_a_closed_simulation_raises_at_each_call(sim, name):
     calls = all_calls(sim, name)
-    assert {"Robot.hash", "Robot.moving", "Robot.limits", "Gripper.width"} <= {called for called, _ in calls}
+    called = {called for called, _ in calls}
+    assert {f"SimulatedRobot.{each}" for each in ("state_hash", "state", "model", "moving")} <= called
     sim.close()
     for called, call in calls:
         if called not in CACHED:
@@ -606,7 +625,7 @@ def test_while_another_thread_steps_each_call_is_refused(sim, name):
     worker.start()
     try:
         for called, call in calls:
-            if called in CACHED:
+            if called in CACHED | VIEWS:
                 continue
 
             def is_refused(call=call):
@@ -634,6 +653,7 @@ REMOTE = {
     "joints": {"Give True or False": lambda x: x.joints("locked")},
     "operating_mode": {"": lambda x: x.operating_mode("party")},
     "input": {"": lambda x: x.input("x99", True)},
+    "set_input": {"": lambda x: x.set_input("x99", True)},
     "button": {"": lambda x: x.button("star", True)},
     "guiding_mode": {"": lambda x: x.guiding_mode("wild")},
     "navigation": {"": lambda x: x.navigation("cat")},
@@ -682,7 +702,7 @@ def test_bad_input_of_the_control_interface(served, name):
                 function,
                 {"positive number of seconds": lambda x, f=function: getattr(x, f)(timeout="long")},
             )
-    before = remote.hash(), remote.time()
+    before = remote.state_hash(), remote.time
     for function, sentences in REMOTE.items():
         for part, call in sentences.items():
             try:
@@ -692,4 +712,4 @@ def test_bad_input_of_the_control_interface(served, name):
                 if part not in str(error) or unlike_ours(str(error)):
                     wrong.append(f"{function}: {type(error)} {error}")
     assert not wrong, "\n".join(wrong)
-    assert (remote.hash(), remote.time()) == before
+    assert (remote.state_hash(), remote.time) == before

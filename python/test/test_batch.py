@@ -34,7 +34,7 @@ def test_each_world_equals_the_same_world_alone_on_any_number_of_threads(name):
                 move(sim, name, way)
             for _ in range(10):
                 batch.step(50)
-            return [(sim.hash(), sim[name].hash()) for sim in batch], batch.seeds
+            return [(sim.state_hash(), sim[name].state_hash()) for sim in batch], batch.seeds
 
     hashes, seeds = batch_hashes(1)
     assert batch_hashes(2) == (hashes, seeds) and batch_hashes(9) == (hashes, seeds)
@@ -43,7 +43,7 @@ def test_each_world_equals_the_same_world_alone_on_any_number_of_threads(name):
         with Simulation("stone.xml", robots, seed=seed) as sim:
             move(sim, name, way)
             sim.step(500)
-            assert (sim.hash(), sim[name].hash()) == hashes[way]
+            assert (sim.state_hash(), sim[name].state_hash()) == hashes[way]
 
 
 def test_observations_are_one_array_of_requested_values(name):
@@ -86,6 +86,43 @@ def test_default_values_are_observed():
         assert batch.observations[0, batch.layout["panda.robot_mode"]] == 1.0, "Idle"
 
 
+def test_worlds_are_made_by_several_threads(monkeypatch):
+    makers, make, together = set(), Simulation._make, threading.Barrier(3)
+
+    def noted(*arguments):
+        makers.add(threading.current_thread())
+        if threading.current_thread() is not caller:
+            together.wait(timeout=60)
+        make(*arguments)
+
+    caller = threading.current_thread()
+    monkeypatch.setattr(Simulation, "_make", noted)
+    for threads, expected in ((1, 1), (3, 4)):  # the first world is made by the caller
+        makers.clear()
+        SimulationBatch(7, threads=threads).close()
+        assert len(makers) == expected and caller in makers
+
+
+@pytest.mark.parametrize("threads", [1, 2])
+def test_what_is_wrong_with_all_worlds_is_said_once(threads):
+    near = [Panda(), FR3(base=(0.1, 0, 0))]
+    with pytest.warns(UserWarning, match="Give it another base") as caught, Simulation(robots=near):
+        alone = [str(one.message) for one in caught]
+    with pytest.warns(UserWarning) as caught, SimulationBatch(4, robots=near, threads=threads):
+        assert [str(one.message) for one in caught] == alone
+        assert {one.filename for one in caught} == {__file__}
+    with pytest.raises(RuntimeError) as expected:
+        Simulation("nowhere.xml")
+    with pytest.raises(RuntimeError) as refused:
+        SimulationBatch(4, "nowhere.xml", threads=threads)
+    assert str(refused.value) == str(expected.value)
+
+
+def test_robots_may_be_any_iterable():
+    with SimulationBatch(3, robots=iter([Panda()]), threads=2) as batch:
+        assert [list(sim) for sim in batch] == [["panda"]] * 3
+
+
 def test_no_world_is_stepped_if_one_is_closed():
     with SimulationBatch(2) as batch:
         batch[0].close()
@@ -100,10 +137,10 @@ def test_no_world_is_reset_if_one_cannot_be():
     with SimulationBatch(2, "stone.xml", [Panda(base=BASE)], observe=["time"]) as batch:
         batch.replace(1, Simulation(robots=[Panda()]))
         batch.step(10)
-        before = [sim.hash() for sim in batch]
+        before = [sim.state_hash() for sim in batch]
         with pytest.raises(RuntimeError, match="no body 'stone'"):
             batch.reset(objects={"stone": [0, 0, 1]})
-        assert [sim.hash() for sim in batch] == before
+        assert [sim.state_hash() for sim in batch] == before
 
 
 def test_ctrl_c_ends_a_long_step_with_all_worlds_at_the_same_tick():
@@ -117,7 +154,7 @@ def test_ctrl_c_ends_a_long_step_with_all_worlds_at_the_same_tick():
         assert ticks < 10**8
         with SimulationBatch(3, threads=1) as other:
             other.step(ticks)
-            assert [sim.hash() for sim in other] == [sim.hash() for sim in batch]
+            assert [sim.state_hash() for sim in other] == [sim.state_hash() for sim in batch]
         batch.step(5)
         assert batch[0].ticks == ticks + 5
 
@@ -148,14 +185,20 @@ def test_a_world_continues_from_a_snapshot_of_another_one(name):
         snapshot = first.snapshot()
         for other in batch[1:]:
             other.restore(snapshot)
-            assert (other.hash(), other[name].hash()) == (first.hash(), first[name].hash())
+            assert (other.state_hash(), other[name].state_hash()) == (
+                first.state_hash(),
+                first[name].state_hash(),
+            )
             assert other[name].moving
         batch.step(200)
-        assert len({(sim.hash(), sim[name].hash()) for sim in batch}) == 1
+        assert len({(sim.state_hash(), sim[name].state_hash()) for sim in batch}) == 1
         first.close()
         batch[1].restore(snapshot)
         batch[1].step(200)
-        assert (batch[1].hash(), batch[1][name].hash()) == (batch[2].hash(), batch[2][name].hash())
+        assert (batch[1].state_hash(), batch[1][name].state_hash()) == (
+            batch[2].state_hash(),
+            batch[2][name].state_hash(),
+        )
     with SimulationBatch(2, "stone.xml", [KINDS[name](base=BASE, realism="recorded")]) as batch:
         with pytest.raises(RuntimeError, match="cannot be restored"):
             batch[1].restore(batch[0].snapshot())  # other robots of the same kind
@@ -167,11 +210,11 @@ def test_another_simulation_replaces_a_world():
         gone = batch[1]
         with Simulation(robots=[Panda(), FR3(base=(1, 0, 0))], seed=7) as alone:
             alone.step(30)
-            expected = alone.hash()
+            expected = alone.state_hash()
         other = Simulation(robots=[Panda(), FR3(base=(1, 0, 0))], seed=7)
         batch.replace(-1, other)
         batch.step(30)
-        assert batch[1] is other and other.hash() == expected
+        assert batch[1] is other and other.state_hash() == expected
         assert batch.observations[:, 0] == pytest.approx([0.04, 0.03])
         with pytest.raises(RuntimeError, match="is closed"):
             gone.step()

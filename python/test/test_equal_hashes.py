@@ -50,7 +50,7 @@ def alone(name):
         robot.finish()
         for _ in range(2000):
             sim.step()
-            end.append(robot.hash())
+            end.append(robot.state_hash())
         assert not robot.moving
         return ticks, end, first
 
@@ -70,13 +70,13 @@ def test_in_a_batch(name, alone):
             # The first world's motion is commanded, then the second's, then both are stepped.
             next(first)
             assert next(second) == alone[0][k], k
-        assert (batch[0][name].hash(), batch[0].hash()) == alone[0][-1]
+        assert (batch[0][name].state_hash(), batch[0].state_hash()) == alone[0][-1]
 
 
 def test_over_the_network(name, alone):
     with simulated(name, "lockstep", *SCENE) as served:
         press(served.address, served.protocol, alone[2])
-        expected = served.remote.hash()
+        expected = served.remote.state_hash()
     assert expected in alone[1], "a served world runs on until it rests"
 
 

@@ -7,6 +7,7 @@ import copy
 import datetime
 import functools
 import inspect
+import itertools
 import json
 import os
 import pickle
@@ -19,6 +20,7 @@ from pathlib import Path
 import names_of_package
 import numpy as np
 import pyfranka
+import pyfranka.sim
 import pytest
 from fci_session import simulated
 from genuine_clients import client_python
@@ -208,6 +210,90 @@ def test_enumerations_keep_their_names():
     assert "kIdle" not in pyfranka.RobotMode.__members__
 
 
+# --- other bindings and other processes -------------------------------------------------------------------
+
+OTHERS = {"panda_py": "panda", "pylibfranka": "pylibfranka", "franky": "franky"}
+TOGETHER = """
+import importlib, sys
+import pyfranka_path
+for name in sys.argv[1].split(","):
+    importlib.import_module(name)
+import pyfranka, pyfranka.sim
+raised = {}
+for name, options in {"panda_py.libfranka": 1, "pylibfranka": 1, "pyfranka": 1}.items():
+    if name.partition(".")[0] in sys.modules:
+        module = importlib.import_module(name)
+        assert module.Torques([1.0] * 7).tau_J[0] == 1.0, name
+        try:
+            module.Robot("127.9.9.9", module.RealtimeConfig.kIgnore)
+        except Exception as error:
+            assert isinstance(error, RuntimeError), error
+            raised[name] = type(error)
+assert raised["pyfranka"] is pyfranka.NetworkException, raised
+with pyfranka.sim.Simulation(robots=[pyfranka.sim.FR3()]) as sim:
+    sim.step(10)
+    print(sim["fr3"].state_hash())
+"""
+
+
+@pytest.mark.parametrize(
+    "order",
+    [
+        *itertools.permutations(["pyfranka", "panda_py", "pylibfranka"]),
+        *itertools.permutations(["pyfranka", "franky"]),
+        ("franky", "panda_py", "pyfranka"),
+    ],
+    ids=",".join,
+)
+def test_other_bindings_may_be_in_the_same_process_in_any_order(order, tmp_path):
+    with pyfranka.sim.Simulation(robots=[pyfranka.sim.FR3()]) as sim:
+        sim.step(10)
+        expected = sim["fr3"].state_hash()
+    folders = [
+        str(folder)
+        for name in order
+        if name in OTHERS
+        for folder in client_python(OTHERS[name]).parents[1].glob("lib/*/site-packages")
+    ]
+    # Their own numpy and so on come after ours.
+    (tmp_path / "pyfranka_path.py").write_text(f"import numpy, sys\nsys.path += {folders!r}\n")
+    environment = {**os.environ, "PYTHONPATH": f"{tmp_path}:{os.environ.get('PYTHONPATH', '')}"}
+    done = subprocess.run(
+        [sys.executable, "-c", TOGETHER, ",".join(order)],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        env=environment,
+    )
+    assert done.returncode == 0, done.stderr
+    assert int(done.stdout.split()[-1]) == expected
+
+
+SPAWNED = """
+import multiprocessing, sys
+import pyfranka.sim
+
+def work(number):
+    with pyfranka.sim.Simulation("stone.xml", [pyfranka.sim.Panda(base=(-0.5, 0, 0))]) as sim:
+        sim.step(50)
+        return sim.state_hash(), int(sim.render(width=32, height=24).rgb.sum())
+
+if __name__ == "__main__":
+    with multiprocessing.get_context(sys.argv[1]).Pool(2) as pool:
+        print(len(set([*pool.map(work, range(4)), work(0)])))
+"""
+
+
+@pytest.mark.parametrize("method", ["spawn", "fork", "forkserver"])
+def test_processes_may_be_started_in_any_way(method, tmp_path):
+    program = tmp_path / "work.py"
+    program.write_text(SPAWNED)
+    done = subprocess.run(
+        [sys.executable, program, method], capture_output=True, text=True, timeout=120, cwd=tmp_path
+    )
+    assert (done.returncode, done.stdout) == (0, "1\n"), done.stderr
+
+
 # --- scripts ----------------------------------------------------------------------------------------------
 
 IMPORTS = {
@@ -259,7 +345,7 @@ def run(sim, python, script, imports=None):
         [python, "-c", text, sim.address], capture_output=True, text=True, timeout=120, env=environment
     )
     assert done.returncode == 0, done.stdout + done.stderr
-    return json.loads(done.stdout.splitlines()[-1]), sim.remote.hash()
+    return json.loads(done.stdout.splitlines()[-1]), sim.remote.state_hash()
 
 
 def same(mine, theirs):

@@ -4,10 +4,13 @@
 
 import itertools
 import os
+import re
 import subprocess
 import sys
 import warnings
+from importlib.machinery import ModuleSpec
 from pathlib import Path
+from unittest.mock import MagicMock
 
 import gymnasium
 import numpy as np
@@ -15,12 +18,14 @@ import pyfranka.gym
 import pytest
 from gymnasium.error import ClosedEnvironmentError, ResetNeeded
 from gymnasium.utils.env_checker import check_env
+from pyfranka import ArmLimits
 from pyfranka.gym import scripted_policy
 
 TOP = Path(__file__).resolve().parents[2]
 TASKS = ("Reach", "Push", "PickAndPlace", "HandOver")
 CONTROLS = ("torque", "joint_delta", "cartesian_delta")
 ROBOTS_TAKE_TURNS = True
+PROTOCOLS = {"panda": 5, "fr3": 9}
 RANDOMIZE = {
     "realism": ["real", "recorded"],
     "mass": (0.5, 2.0),
@@ -64,11 +69,74 @@ def play(env, seed):
 )
 def test_the_checker_of_gymnasium_passes(task, robot, control):
     env = make(task, robot=robot, control=control)
-    with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
         check_env(env.unwrapped, skip_render_check=True)
-    assert all("infinity" in str(warning.message) for warning in caught), "state has no bounds"
     env.close()
+
+
+def documented_bounds(task, robot):
+    """The table of docs/gym.md: lowest and highest values of the parts of the vector "observation", and of
+    a goal."""
+    rows = {}
+    for line in (TOP / "docs" / "gym.md").read_text().splitlines():
+        if found := re.fullmatch(r"\| (`.+) \| (\S+) to (\S+) \|", line):
+            rows.update(
+                dict.fromkeys(re.findall("`([^`]+)`", found[1]), tuple(map(float, found.group(2, 3))))
+            )
+    env = make(task, robot=robot, reward="dense").unwrapped
+    setup = {each.setup.name: each.setup for each in env.simulation.values()}
+    limits = {
+        "q": [env.simulation[name].limits for name in setup],
+        "dq": [(-ArmLimits(PROTOCOLS[robot]).dq, ArmLimits(PROTOCOLS[robot]).dq)] * len(setup),
+    }
+    low, high = np.full((2, env.observation_space["observation"].shape[0]), np.nan)
+    for part, where in env.layout.items():
+        name, _, field = part.partition(".")
+        if field in limits:
+            low[where], high[where] = limits[field].pop(0)
+        elif name in setup and field == "position":
+            base = np.array(setup[name].base[:3])
+            low[where], high[where] = (base + end for end in rows["position"])
+        elif field == "position":
+            low[where], high[where] = zip(rows["x, y"], rows["x, y"], rows["z"])
+        elif field == "quaternion":
+            low[where], high[where] = zip(rows["quaternion w"], *[rows["quaternion x, y, z"]] * 3)
+        else:
+            low[where], high[where] = rows[field]
+    flags = len(env.options.kind.flags)
+    goal = [rows["x, y"]] * 2 + [rows["z"]] + [rows["flags"]] * flags
+    goal += [rows["reach"]] * (task != "Reach")
+    env.close()
+    return env.observation_space, (low, high), np.transpose(goal)
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_spaces_have_the_documented_bounds(task, name):
+    space, bounds, goal = documented_bounds(task, name)
+    for part, (low, high) in {"observation": bounds, "achieved_goal": goal, "desired_goal": goal}.items():
+        box = space[part]
+        assert box.dtype == np.float32 and box.is_bounded()
+        assert (box.low == np.float32(low)).all() and (box.high == np.float32(high)).all(), part
+    vector = make_vec(task, 1, robot=name, reward="dense").unwrapped
+    assert vector.single_observation_space == space
+    vector.close()
+
+
+def test_what_is_beyond_the_bounds_is_clipped():
+    for env, of in (
+        (make("Push", disable_env_checker=True), lambda env: env.simulation),
+        (make_vec("Push", 1), lambda env: env.episodes[0].sim),
+    ):
+        env.reset(seed=1)
+        of(env.unwrapped).place_body("cube", (9, 0, 50))
+        observation, *_ = env.step(np.zeros(env.action_space.shape, dtype=np.float32))
+        assert env.observation_space.contains(observation)
+        achieved = observation["achieved_goal"].ravel()
+        assert achieved[0] == achieved[2] == 2.5, "far away, and high"
+        velocity = observation["observation"].ravel()[env.unwrapped.layout["cube.velocity"]]
+        assert velocity[0] == velocity[2] == 5.0
+        env.close()
 
 
 def test_the_checker_of_gymnasium_passes_with_pictures():
@@ -76,14 +144,52 @@ def test_the_checker_of_gymnasium_passes_with_pictures():
     check_env(env.unwrapped, skip_render_check=True)
     observation, _ = env.reset(seed=1)
     assert observation["picture"].shape == (24, 32, 3) and observation["picture"].std() > 5.0
+    assert env.render().shape == (480, 640, 3) and env.render().std() > 5.0
+    env.close()
+    env = make("Reach", observation="state+pictures", render_mode="rgb_array", render_size=(128, 96))
+    observation, _ = env.reset(seed=1)
     assert (env.render() == observation["picture"]).all()
     env.close()
 
 
-STABLE_BASELINES3 = ["torch==2.13.0", "stable-baselines3==2.9.2", "gymnasium==1.4.0"]
+def test_the_mode_human_shows_each_step_in_a_window(monkeypatch):
+    """With a stand-in for pygame; the long form has the genuine one."""
+    pygame = MagicMock()
+    pygame.__spec__ = ModuleSpec("pygame", None)
+    monkeypatch.setitem(sys.modules, "pygame", pygame)
+    with warnings.catch_warnings():
+        warnings.simplefilter("error")
+        env = make("Reach", render_mode="human", render_size=(64, 48), frequency=10)
+    env.reset(seed=1)
+    env.step(env.action_space.sample())
+    assert env.render() is None
+    pygame.display.set_mode.assert_called_once_with((64, 48))
+    assert pygame.surfarray.make_surface.call_args.args[0].shape == (64, 48, 3)
+    assert pygame.display.flip.call_count == 2 and pygame.display.quit.call_count == 0
+    pygame.time.Clock().tick.assert_called_with(10)
+    env.close()
+    pygame.display.quit.assert_called_once()
+
+
+def test_the_mode_human_without_pygame_is_refused(monkeypatch):
+    monkeypatch.setitem(sys.modules, "pygame", None)
+    with pytest.raises(ImportError, match="needs pygame: pip install pygame"):
+        make("Reach", render_mode="human")
+    env = make("Reach")
+    assert env.unwrapped.metadata["render_modes"] == ["rgb_array"], "for Gymnasium's checker"
+    env.close()
+
+
+@pytest.mark.parametrize("maker", [make, lambda task, **options: make_vec(task, 2, **options)])
+def test_an_unknown_option_is_refused_with_the_known_ones(maker):
+    with pytest.raises(TypeError, match="no option 'hue'; its options are robot, control.*, render_size"):
+        maker("Reach", hue="red")
+
+
+STABLE_BASELINES3 = ["torch==2.13.0", "stable-baselines3==2.9.2", "gymnasium==1.4.0", "pygame==2.6.1"]
 CHECKS = """
 import sys
-import gymnasium, pyfranka.gym
+import gymnasium, gymnasium.utils.env_checker, pyfranka.gym
 from stable_baselines3 import PPO, SAC, HerReplayBuffer
 from stable_baselines3.common.env_checker import check_env
 
@@ -93,6 +199,9 @@ for task in ("Reach", "Push", "PickAndPlace", "HandOver"):
             env = gymnasium.make(f"pyfranka/{task}-v0", robot=robot, control=control)
             check_env(env.unwrapped, warn=True)
             env.close()
+env = gymnasium.make("pyfranka/Reach-v0")
+gymnasium.utils.env_checker.check_env(env.unwrapped)  # renders in all modes
+env.close()
 env = gymnasium.make("pyfranka/Push-v0", observation="state+pictures", size=(48, 40), render_mode="rgb_array")
 check_env(env.unwrapped, warn=True)
 env.close()
@@ -101,8 +210,7 @@ PPO("MultiInputPolicy", env, n_steps=64, batch_size=32).learn(128)
 SAC("MultiInputPolicy", env, learning_starts=60, replay_buffer_class=HerReplayBuffer).learn(150)
 env.close()
 env = gymnasium.make("pyfranka/Reach-v0", reward="dense")
-replay = {"replay_buffer_class": HerReplayBuffer, "replay_buffer_kwargs": {"copy_info_dict": True}}
-SAC("MultiInputPolicy", env, learning_starts=60, **replay).learn(150)
+SAC("MultiInputPolicy", env, learning_starts=60, replay_buffer_class=HerReplayBuffer).learn(150)
 env.close()
 print("passed")
 """
@@ -125,7 +233,10 @@ def learning_python():
 
 @pytest.mark.long_form("its library brings torch")
 def test_the_checker_of_stable_baselines3_passes_and_it_learns(learning_python):
-    ran = subprocess.run([learning_python, "-c", CHECKS], capture_output=True, text=True, timeout=1800)
+    own = {**os.environ, "SDL_VIDEODRIVER": "dummy"}
+    ran = subprocess.run(
+        [learning_python, "-c", CHECKS], capture_output=True, text=True, timeout=1800, env=own
+    )
     assert ran.returncode == 0 and ran.stdout.endswith("passed\n"), ran.stdout[-2000:] + ran.stderr[-3000:]
 
 
@@ -239,10 +350,28 @@ def test_goals_rewards_and_success_agree():
     tray, lying = np.array([0.0, 0.2, 0.475]), np.array([1.0])
     desired = np.array([*tray, *lying])
     away = np.stack([desired, desired + [0.04, 0, 0, 0], desired + [0.06, 0, 0, 0], desired - [0, 0, 0, 1]])
-    infos = [{"reach": 0.1}] * 4
-    assert sparse.compute_reward(away, np.tile(desired, (4, 1)), infos).tolist() == [0, 0, -1, -1]
-    assert sparse.compute_reward(away[2], desired, infos[0]) == -1.0
+    assert sparse.compute_reward(away, np.tile(desired, (4, 1)), [{}] * 4).tolist() == [0, 0, -1, -1]
+    assert sparse.compute_reward(away[2], desired, {}) == -1.0
     sparse.close()
+
+
+@pytest.mark.parametrize("reward", ["sparse", "dense"])
+@pytest.mark.parametrize("task", TASKS)
+def test_rewards_come_from_goals_alone(task, reward):
+    """As replay with other goals needs it: HerReplayBuffer gives empty infos."""
+    env = make(task, reward=reward)
+    env.reset(seed=1)
+    steps = [env.step(env.action_space.sample()) for _ in range(5)]
+    goals = [np.stack([step[0][name] for step in steps]) for name in ("achieved_goal", "desired_goal")]
+    rewards = [step[1] for step in steps]
+    assert env.unwrapped.compute_reward(*goals, np.array([{}] * 5)).tolist() == rewards
+    assert env.unwrapped.compute_reward(goals[0][0], goals[1][0], {}) == rewards[0]
+    if reward == "dense":
+        info, achieved = steps[-1][4], goals[0][-1]
+        assert task == "Reach" or achieved[-1] == pytest.approx(info["reach"], abs=1e-6)
+        near = env.unwrapped.compute_reward(achieved, achieved, {})
+        assert near == pytest.approx(-info["reach"], abs=1e-6)
+    env.close()
 
 
 def test_stone_held_over_the_tray_is_not_a_success():
@@ -341,7 +470,7 @@ def test_each_episode_may_have_another_robot_and_another_stone():
         pressed = sum(c.force[2] for c in sim.contacts() if c.body2 == "stone")
         pressed -= sum(c.force[2] for c in sim.contacts() if c.body1 == "stone")
         forces.add(round(pressed / 9.81, 4))
-        seen.add((robot.setup.base[2], robot.setup.realism, float(robot.state.m_load), sim.hash()))
+        seen.add((robot.setup.base[2], robot.setup.realism, float(robot.state.m_load), sim.state_hash()))
     assert len(seen) == 2, "the same seed, the same episode"
     assert len(forces) == 2 and all(0.5 * 0.1 < mass < 2.0 * 0.11 for mass in forces), "the stone's weight"
     env.close()
@@ -370,8 +499,24 @@ def test_worlds_of_a_vector_equal_single_environments(randomize):
     vector.close()
 
 
+@pytest.mark.parametrize("realism", ["ideal", "recorded"])
+def test_each_world_of_a_vector_begins_with_open_hands(realism):
+    """Equal worlds take over the state of the first one, whose hands have opened."""
+    vector = make_vec("PickAndPlace", 3, realism=realism)
+    ticks = [episode.sim.ticks for episode in vector.unwrapped.episodes]
+    observations, _ = vector.reset(seed=1)
+    width = observations["observation"][:, vector.unwrapped.layout["panda.width"]]
+    assert width == pytest.approx(0.08, abs=1e-3)
+    single = make("PickAndPlace", realism=realism)
+    opened = single.unwrapped.simulation.ticks
+    assert ticks == [opened] * 3 or (realism == "recorded" and min(ticks) >= opened)
+    single.close()
+    vector.close()
+
+
 def test_a_vector_of_environments_has_pictures():
-    options = {"observation": "state+pictures", "size": (48, 32), "render_mode": "rgb_array"}
+    options = {"observation": "state+pictures", "size": (48, 32), "render_size": (48, 32)}
+    options["render_mode"] = "rgb_array"
     vector, action = make_vec("Push", 2, **options), np.full((2, 6), 0.5, dtype=np.float32)
     rows = [vector.reset(seed=4)[0], *(vector.step(action)[0] for _ in range(5))]
     assert rows[0]["picture"].shape == (2, 32, 48, 3) and rows[0]["picture"].dtype == np.uint8
@@ -389,7 +534,7 @@ def test_a_vector_of_environments_has_pictures():
 
 def video(episodes, steps, **options):
     """Plays a script, and yields a picture of each step, as gymnasium.wrappers.RecordVideo takes them."""
-    env = make(size=(64, 48), render_mode="rgb_array", **options)
+    env = make(render_size=(64, 48), render_mode="rgb_array", **options)
     for seed in range(episodes):
         observation, _ = env.reset(seed=seed)
         policy = scripted_policy(env)
@@ -414,6 +559,7 @@ def test_videos_of_two_environments_side_by_side_equal_those_of_each_alone():
 
 HELD = """
 import ctypes, sys
+from importlib.machinery import ModuleSpec
 from pathlib import Path
 import gymnasium, pyfranka.gym
 from pyfranka.sim import Simulation
@@ -423,7 +569,7 @@ def held():  # [pages], without what malloc keeps for later
     ctypes.CDLL(None).malloc_trim(0)
     return int(Path("/proc/self/statm").read_text().split()[1])
 
-options = {"size": (640, 480), "render_mode": "rgb_array"}
+options = {"render_mode": "rgb_array"}
 makers = {
     "simulation": lambda: [Simulation() for _ in range(COUNT)],
     "environment": lambda: [gymnasium.make("pyfranka/Reach-v0", **options) for _ in range(COUNT)],
@@ -572,3 +718,11 @@ def test_without_gymnasium_the_rest_of_pyfranka_works():
         "import sys; sys.modules['gymnasium'] = None; import pyfranka.sim; pyfranka.sim.Simulation().step()"
     )
     subprocess.run([sys.executable, "-c", code], check=True, timeout=120)
+
+
+@pytest.mark.parametrize(("module", "needed"), [("gym", "gymnasium"), ("plot", "matplotlib")])
+def test_a_module_whose_extra_is_missing_says_so(module, needed):
+    code = f"import sys; sys.modules['{needed}'] = None; import pyfranka.{module}"
+    ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
+    *_, last = ran.stderr.splitlines()
+    assert re.search(rf"pyfranka.{module} needs the Python package {needed}: .*\[{module}\]", last)

@@ -16,6 +16,8 @@ def test_a_hand_moves_and_reports_its_state(robots, addresses, name):
     state = hand.read_once()
     assert state.width == pytest.approx(0.07, abs=1e-3)
     assert state.max_width == pytest.approx(0.08)
+    assert repr(state).startswith("<GripperState: width 0.07")
+    assert repr(hand) == "<Gripper: a connection, protocol version 3>"
     assert not state.is_grasped and state.temperature > 0 and state.time > 0
     assert not hand.grasp(0.02, 0.1, 20.0)  # nothing there
     with pytest.raises(pyfranka.CommandException):

@@ -38,7 +38,7 @@ with Simulation(robots=[Panda(base=(0.0, 0.5, 0.0)), FR3(base=(0.0, -0.5, 0.0))]
             sim.step()
 with Simulation(robots=[FR3(realism="recorded")]) as sim:
     sim.step(500)
-    print(sim.hash())
+    print(sim.state_hash())
 """
 
 

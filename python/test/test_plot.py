@@ -138,6 +138,17 @@ def test_an_abort_is_drawn_with_its_reason_and_its_limit(robots, tmp_path):
         )
 
 
+def test_a_file_may_be_a_text_or_like_a_path(robots, tmp_path):
+    class Place:
+        def __fspath__(self):
+            return str(tmp_path / "nothing.csv")
+
+    for file in (str(tmp_path / "nothing.csv"), tmp_path / "nothing.csv", Place()):
+        for read in (read_log, plot.read_bag):
+            with pytest.raises(plot.BadInput, match="nothing.csv cannot be read|Bags need ROS"):
+                read(file)
+
+
 def swung(kind, version=0):
     """A recording of a robot in this process, with an error: its user stop is pressed."""
     with Simulation(robots=[kind()]) as sim:

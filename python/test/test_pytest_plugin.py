@@ -13,13 +13,16 @@ import time
 from pathlib import Path
 from types import SimpleNamespace
 
+import numpy as np
 import pyfranka
 import pytest
-from pyfranka.franka_sim import FrankaSim, FrankaSimError, SimRobot, find_program
+from pyfranka.franka_sim import FrankaSim, FrankaSimError, find_program
+from pyfranka.sim import FR3, Panda
 from waiting import wait_for
 
 pytest_plugins = ["pytester"]
 
+OWN = "catkin_ws/src/franka_sim/robots/panda.urdf"
 LIMIT = 300  # [s] for a session of a user, on a busy machine
 
 
@@ -51,7 +54,7 @@ def test_a_users_tests_get_robots_of_their_own(project):
         """
         import pyfranka
         import pytest
-        from pyfranka.franka_sim import SimRobot
+        from pyfranka.sim import FR3, Panda
 
         def test_robots(panda, fr3):
             assert panda.address != fr3.address
@@ -62,30 +65,30 @@ def test_a_users_tests_get_robots_of_their_own(project):
                 assert connection.read_once().robot_mode == pyfranka.RobotMode.Idle
                 assert robot.remote.state().protocol == version
                 assert robot.gripper().read_once().width < 0.09
-                before = robot.remote.wait() and robot.remote.time()
+                before = robot.remote.wait() and robot.remote.time
                 robot.remote.step(20)
-                assert robot.remote.time() == pytest.approx(before + 0.02), "lock-step"
+                assert robot.remote.time == pytest.approx(before + 0.02), "lock-step"
 
         def test_several_in_one_world(franka_sim):
-            left = SimRobot("fr3", arm_id="left", base=(0, 1, 0, 1.57))
-            sim = franka_sim(SimRobot("panda", base=(-0.5, 0, 0)), SimRobot("panda", base=(0, -1, 0)), left,
+            left = FR3(name="left", base=(0, 1, 0, 1.57))
+            sim = franka_sim(Panda(base=(-0.5, 0, 0)), Panda(base=(0, -1, 0)), left,
                              world="stone.xml", arguments=["--patience", "5"])
-            assert [robot.arm_id for robot in sim.robots] == ["panda", "panda_2", "left"]
+            assert [robot.name for robot in sim.robots] == ["panda", "panda_2", "left"]
             for robot in sim.robots:
-                assert sim[robot.arm_id] is robot
-                assert robot.remote.where(robot.arm_id + "_link0") is not None
+                assert sim[robot.name] is robot
+                assert robot.remote.where(robot.name + "_link0") is not None
             assert sim["left"].remote.where("left_link0") == pytest.approx([0, 1, 0])
             assert sim["panda"].remote.where("stone").shape == (3,)
             with pytest.raises(KeyError, match="There is no robot 'right'; there are: panda, panda_2, left"):
                 sim["right"]
 
         def test_options(franka_sim):
-            robot = franka_sim("fr3", arm_id="me", realism="ideal", protocol=8, hand="none").robot
+            robot = franka_sim("fr3", name="me", realism="ideal", protocol=8, hand="none").robot
             assert robot.connect().server_version == 8
             assert robot.remote.where("me_link0") == pytest.approx([0, 0, 0])
 
         def test_robot_that_cannot_start_is_reported_with_its_message(franka_sim):
-            with pytest.raises(RuntimeError, match="ur5 not in {panda,fr3}"):
+            with pytest.raises(ValueError, match="There is no robot 'ur5'; there are: panda, fr3"):
                 franka_sim("ur5")
             with pytest.raises(RuntimeError, match="There is no world 'nowhere.xml'"):
                 franka_sim(world="nowhere.xml")
@@ -104,10 +107,10 @@ def test_failed_test_shows_the_output_of_its_robot(project):
 
         @pytest.fixture(scope="module")
         def shared(franka_sim_session):
-            return franka_sim_session("fr3", arm_id="shared").robot
+            return franka_sim_session("fr3", name="shared").robot
 
         def complain(robot):
-            robot.remote.place(f"{robot.arm_id}_nothing", (0, 0, 0))
+            robot.remote.place(f"{robot.name}_nothing", (0, 0, 0))
 
         def test_good(panda, shared):
             pass
@@ -168,7 +171,7 @@ def test_options_of_a_session(project):
     test = """
         def test_pace(panda):
             print(panda.server.process.args)
-            panda.remote.time()
+            panda.remote.time
         """
     for pace, *arguments in (
         ("lockstep",),
@@ -191,11 +194,72 @@ def test_options_of_a_session(project):
         assert f"--franka-sim-{name}" in page and f"franka_sim_{name}" in page
 
 
+def test_short_names_of_fixtures_can_be_left_to_the_project(project):
+    test = """
+        import pytest
+
+        def test_name(franka_panda, franka_fr3{more}):
+            assert (franka_panda.kind, franka_fr3.kind, franka_panda.name) == ("panda", "fr3", "panda")
+            with pytest.warns(DeprecationWarning, match="ServedRobot.arm_id is now name"):
+                assert franka_fr3.arm_id == "fr3"
+        """
+    run(project, test.format(more=", panda")).assert_outcomes(passed=1)
+    run(project, test.format(more=""), "-o", "franka_short_fixtures=false").assert_outcomes(passed=1)
+    result = run(project, test.format(more=", panda"), "-o", "franka_short_fixtures=false")
+    result.assert_outcomes(errors=1)
+    assert "fixture 'panda' not found" in result.stdout.str()
+
+
+def test_a_session_without_our_fixtures_loads_neither_numpy_nor_the_simulation(project):
+    project.makepyfile(
+        """
+        import sys
+
+        def test_nothing():
+            assert "pyfranka.pytest_plugin" in sys.modules
+            assert not {"numpy", "pyfranka.remote", "pyfranka.sim", "pyfranka.franka_sim"} & set(sys.modules)
+
+        def test_fails():
+            assert False
+        """
+    )
+    result = project.runpytest_subprocess("-q")
+    result.assert_outcomes(passed=1, failed=1)
+
+
+def test_paths_may_be_like_paths(tmp_path):
+    class Place:
+        def __init__(self, place):
+            self.place = place
+
+        def __fspath__(self):
+            return str(self.place)
+
+    program = find_program()
+    for given in (program, Path(program), Place(program)):
+        assert find_program(given) == program and type(find_program(given)) is str
+    own = tmp_path / "own.urdf"
+    own.write_text((Path(__file__).resolve().parents[2] / OWN).read_text())
+    robot = Panda(base=(-0.5, 0, 0), urdf=Place(own), load=(0.3, (0, 0, 0.05)))
+    with FrankaSim(robot, world=Place("stone.xml"), program=Place(program)) as sim:
+        assert sim.robot.remote.where("stone").shape == (3,)
+        assert sim.robot.connect().read_once().m_load == pytest.approx(0.3)
+    with FrankaSim(Panda(hand=False)) as sim, pytest.raises(pyfranka.NetworkException):
+        sim.robot.gripper()
+    for wrong, error in (
+        (5, TypeError),
+        ("ur5", ValueError),
+        (Panda(load=(1, (0, 0, 0), np.eye(3))), ValueError),
+    ):
+        with pytest.raises(error, match="robots are|no robot 'ur5'|inertia of a load"):
+            FrankaSim(wrong)
+
+
 def test_the_examples_of_the_documentation_work(project):
     page = (Path(__file__).resolve().parents[2] / "docs" / "python.md").read_text()
     section = page.partition("## Tests of your own project")[2]
     tests, alone = (part.partition("```")[0] for part in section.split("```python\n")[1:3])
-    result = run(project, f"{tests}\n\ndef my_program(address):\n    pyfranka.Robot(address)\n")
+    result = run(project, tests)
     result.assert_outcomes(passed=2)
     exec(alone, {})
 
@@ -266,15 +330,15 @@ def test_addresses_are_reserved_while_their_robots_run():
         with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as other, pytest.raises(OSError):
             other.bind((sim.robot.address, 1340))
         with pytest.raises(FrankaSimError, match="Another simulated robot runs there"):
-            FrankaSim(SimRobot("panda", address=sim.robot.address))
+            FrankaSim(Panda(address=sim.robot.address))
         address = sim.robot.address
-    with FrankaSim(SimRobot("fr3", address=address)) as sim:
+    with FrankaSim(FR3(address=address)) as sim:
         assert sim.robot.address == address
 
 
 def test_an_address_that_another_program_uses_is_left_to_it(monkeypatch):
     """A robot that was not started here has no reservation: the next address is tried."""
-    with FrankaSim(SimRobot("panda", address="127.64.0.9")) as first:
+    with FrankaSim(Panda(address="127.64.0.9")) as first:
         numbers = iter([8, 8, 9])
         monkeypatch.setattr("pyfranka.franka_sim.secrets.randbelow", lambda most: next(numbers))
         with FrankaSim("panda") as second:

@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Remote: each line of franka_sim's control port, its effects, refusals and time limits."""
 
-import inspect
 import re
 import signal
 import socket
@@ -16,8 +15,8 @@ import numpy
 import pyfranka
 import pyfranka.sim
 import pytest
-from pyfranka.franka_sim import SimRobot
 from pyfranka.remote import LineRefused, Remote
+from pyfranka.sim import FR3, Panda
 from scipy.spatial.transform import Rotation
 from waiting import wait_for
 
@@ -27,14 +26,22 @@ PAGE = TOP / "docs" / "franka_sim.md"
 READY = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
 # Methods without a line of their own.
 HELPERS = {"send", "close", "remove_wall"}
+OTHER_LINES = {
+    **dict.fromkeys(("close_brakes", "open_brakes"), "brakes"),
+    **dict.fromkeys(("activate_fci", "deactivate_fci"), "fci"),
+    **dict.fromkeys(("lock_joints", "unlock_joints"), "joints"),
+    "set_input": "input",
+    "commands": "help",
+    "state_hash": "hash",
+}
 
 
 @pytest.fixture(scope="module")
 def server(franka_sim_session):
     """A Panda and an FR3 in one world with a stone, in lock-step and without friction."""
     robots = [
-        SimRobot("panda", base=(-0.5, 0, 0), realism="ideal"),
-        SimRobot("fr3", arm_id="left", base=(0, 2, 0), realism="ideal", hand="vacuum"),
+        Panda(base=(-0.5, 0, 0), realism="ideal"),
+        FR3(name="left", base=(0, 2, 0), realism="ideal", hand="vacuum"),
     ]
     server = franka_sim_session(*robots, world="stone.xml", pace="lockstep")
     yield server
@@ -71,10 +78,15 @@ def names(usages):
 
 
 def test_each_line_of_the_program_is_a_method_and_each_method_a_line(server):
-    lines = names(server["panda"].remote.help()) | names(server["left"].remote.help()) | {"help"}
-    methods = {name for name, _ in inspect.getmembers(Remote, inspect.isfunction) if not name.startswith("_")}
+    lines = names(server["panda"].remote.commands()) | names(server["left"].remote.commands()) | {"help"}
+    methods = {
+        name
+        for name, each in vars(Remote).items()
+        if not (name.startswith("_") or each.__doc__.startswith("Deprecated"))
+    }
     # hand_move(), for example, is the line `hand move`.
-    assert {name if name in lines else name.partition("_")[0] for name in methods - HELPERS} == lines
+    line_of = {name: name if name in lines else name.partition("_")[0] for name in methods - HELPERS}
+    assert {OTHER_LINES.get(name, line) for name, line in line_of.items()} == lines
     added = [
         usage for source in SOURCES for usage in re.findall(r'lines\.add\(\s*"([^"]+)"', source.read_text())
     ]
@@ -102,12 +114,27 @@ def test_switches_show_in_the_state_at_once(remote):
     remote.guiding(True)
     assert remote.state().mode == "Guiding"
     remote.guiding(False)
-    remote.brakes(True)
+    remote.close_brakes()
     assert remote.state().mode == "Other"
-    remote.brakes(False)
+    remote.open_brakes()
     state = remote.wait()
     assert state.mode == "Idle" and state.protocol == 0 and state.errors == {} and state.fault == ""
     assert state.q == pytest.approx(READY, abs=1e-3)
+
+
+def test_old_names_do_the_same_and_warn(remote):
+    old = {
+        "help": lambda: remote.help() == remote.commands(),
+        "hash": lambda: remote.hash() == remote.state_hash(),
+        "time": lambda: remote.time() == remote.time,
+        "brakes": lambda: remote.brakes(True) or remote.state().mode == "Other",
+        "brakes()": lambda: remote.brakes(False) or remote.wait().mode == "Idle",
+        "fci": lambda: remote.fci(True) is None,
+    }
+    for name, works in old.items():
+        with pytest.warns(DeprecationWarning, match=rf"^Remote\.{name.rstrip('()')}\(\) is now ") as caught:
+            assert works(), name
+        assert len(caught) == 1 and caught[0].filename == __file__
 
 
 def test_a_client_and_the_errors_of_its_motion_are_reported(server):
@@ -134,10 +161,10 @@ def test_a_client_and_the_errors_of_its_motion_are_reported(server):
 
 
 def test_the_interface_for_clients_can_be_switched_off(robot, remote):
-    remote.fci(False)
+    remote.deactivate_fci()
     with pytest.raises(pyfranka.NetworkException, match="FCI"):
         robot.connect()
-    remote.fci(True)
+    remote.activate_fci()
     assert robot.connect().read_once().robot_mode == pyfranka.RobotMode.Idle
 
 
@@ -292,16 +319,16 @@ def test_meshes_are_read_in_parts(franka_sim, tmp_path):
 @pytest.mark.realtime("the 1 kHz loop must not wait while the scene is read")
 def test_reading_the_scene_delays_no_state(franka_sim):
     """Measured at the robot's own clock: simulated time follows the wall clock while the scene is read."""
-    robots = [SimRobot("panda", base=(-0.5, 0, 0)), SimRobot("fr3", base=(0, 2, 0))]
+    robots = [Panda(base=(-0.5, 0, 0)), FR3(base=(0, 2, 0))]
     remote = franka_sim(*robots, world="stone.xml", pace="realtime").robot.remote
     with remote, Remote(remote.address) as other:
         remote.step(200)
         thread = threading.Thread(target=other.scene)
-        begin = time.monotonic() - remote.time()
+        begin = time.monotonic() - remote.time
         late = []
         thread.start()
         while thread.is_alive() or len(late) < 100:
-            late.append(time.monotonic() - remote.time() - begin)
+            late.append(time.monotonic() - remote.time - begin)
         thread.join()
     assert max(late) < 0.05, "The host makes up for delays of up to 50 ms."
 
@@ -313,9 +340,9 @@ def test_the_hand_works_for_the_operator(franka_sim):
         return numpy.linalg.norm(remote.where("panda_leftfinger") - remote.where("panda_rightfinger"))
 
     with remote:
-        begin = remote.time()
+        begin = remote.time
         remote.hand_homing()
-        assert remote.time() > begin + 4.0, "Closing and opening take seconds."
+        assert remote.time > begin + 4.0, "Closing and opening take seconds."
         assert width() == pytest.approx(0.08, abs=1e-3)
         remote.hand_move(0.02, 0.1)
         assert width() == pytest.approx(0.02, abs=1e-3)
@@ -375,12 +402,12 @@ def test_the_vacuum_gripper_has_lines_of_its_own(server):
 
 def test_steps_are_exact_in_lock_step_and_time_stands_still_between_them(remote):
     remote.wait()
-    begin = remote.time()
+    begin = remote.time
     for ticks in (1, 7, 250):
-        before = remote.time()
+        before = remote.time
         remote.step(ticks)
-        assert remote.time() == pytest.approx(before + 1e-3 * ticks, abs=1e-9)
-    assert remote.time() == pytest.approx(begin + 0.258, abs=1e-9)
+        assert remote.time == pytest.approx(before + 1e-3 * ticks, abs=1e-9)
+    assert remote.time == pytest.approx(begin + 0.258, abs=1e-9)
     with pytest.raises(LineRefused, match="from 1 to 1000000"):
         remote.step(0)
 
@@ -391,10 +418,10 @@ def test_step_follows_earlier_commands(remote, robot):
     for _ in range(2):
         remote.reset()
         remote.wait()
-        begin = remote.time()
-        remote.push(f"{robot.arm_id}_link7", (0, 5, 0), 300)
+        begin = remote.time
+        remote.push(f"{robot.name}_link7", (0, 5, 0), 300)
         remote.step(10)
-        spans.append(remote.time() - begin)
+        spans.append(remote.time - begin)
     assert spans[0] == pytest.approx(spans[1], abs=1e-9) and spans[0] > 0.31
 
 
@@ -404,9 +431,9 @@ def test_a_world_that_does_not_come_to_rest_is_reported(server):
     remote.push("panda_hand", (0, 5, 0), 60000)
     with pytest.raises(LineRefused, match="has not come to rest within 10 s of its time"):
         remote.wait()
-    before = remote.time()
+    before = remote.time
     remote.step(100)
-    assert remote.time() >= before + 0.1
+    assert remote.time >= before + 0.1
     remote.reset()
     assert remote.wait().mode == "Idle"
 
@@ -422,14 +449,14 @@ def test_abandoned_call_does_not_block_the_next_one(franka_sim):
 def test_reset_sets_time_to_its_beginning(remote):
     remote.step(500)
     remote.reset()
-    assert remote.wait() and remote.time() < 0.5
+    assert remote.wait() and remote.time < 0.5
 
 
 def test_steps_pass_in_real_time_too(franka_sim):
     remote = franka_sim("panda", pace="realtime").robot.remote
-    before, wall = remote.time(), time.monotonic()
+    before, wall = remote.time, time.monotonic()
     remote.step(300)
-    assert remote.time() - before >= 0.3
+    assert remote.time - before >= 0.3
     assert time.monotonic() - wall >= 0.25
     remote.user_stop(True)
     assert remote.wait().mode == "User stopped"
@@ -438,7 +465,7 @@ def test_steps_pass_in_real_time_too(franka_sim):
 def test_the_hash_waits_until_the_world_is_at_rest_and_repeats(server):
     robot, ticks = server["panda"], 200
     robot.remote.reset()
-    assert robot.remote.hash() == 0xCBF29CE484222325  # FNV-1a of nothing
+    assert robot.remote.state_hash() == 0xCBF29CE484222325  # FNV-1a of nothing
     client, count = robot.connect(), [0]
 
     def hold(state, period):
@@ -451,7 +478,7 @@ def test_the_hash_waits_until_the_world_is_at_rest_and_repeats(server):
         count[0] = 0
         robot.remote.reset()
         client.control_joint_positions(hold)
-        hashes.append(robot.remote.hash())
+        hashes.append(robot.remote.state_hash())
     assert hashes[0] == hashes[1] != 0xCBF29CE484222325
     assert isinstance(hashes[0], int)
 
@@ -463,7 +490,7 @@ def test_steps_of_two_clients_follow_each_other_in_lock_step(server):
     address = server["panda"].address
     with Remote(address) as first, Remote(address) as second:
         first.reset()
-        begin = first.wait() and first.time()
+        begin = first.wait() and first.time
         threads = [
             threading.Thread(target=remote.step, args=(ticks,))
             for remote, ticks in ((first, 300), (second, 400))
@@ -472,7 +499,7 @@ def test_steps_of_two_clients_follow_each_other_in_lock_step(server):
             thread.start()
         for thread in threads:
             thread.join(60)
-        assert first.time() == pytest.approx(begin + 0.7, abs=1e-9)
+        assert first.time == pytest.approx(begin + 0.7, abs=1e-9)
 
 
 def test_reset_by_another_client_does_not_block_a_step(server):
@@ -483,12 +510,12 @@ def test_reset_by_another_client_does_not_block_a_step(server):
             first.reset()
             thread = threading.Thread(target=first.step, args=(20000,))
             thread.start()
-            wait_for(lambda: second.time() >= 0.5 or not thread.is_alive(), pause=0.0)
+            wait_for(lambda: second.time >= 0.5 or not thread.is_alive(), pause=0.0)
             second.reset()
             thread.join(60)
             assert not thread.is_alive()
             # After a reset at the end of the step, less than a second has passed.
-            return 1.0 < second.time() < 20.0
+            return 1.0 < second.time < 20.0
 
         wait_for(is_reset_during_step, "A reset during a step", 120.0)
 

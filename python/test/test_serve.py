@@ -95,7 +95,7 @@ def begin_motion(sim, name, client, way, seconds):
 def test_a_client_drives_a_robot_of_the_program_with_the_bits_of_a_served_one(name):
     with simulated(name, "lockstep", *SCENE) as served:
         press(served.address, served.protocol)
-        expected = served.remote.hash()
+        expected = served.remote.state_hash()
         protocol = served.protocol
     with Simulation(contact_motion.WORLD, [KINDS[name](base=contact_motion.BASE)]) as sim:
         robot = sim[name]
@@ -110,7 +110,7 @@ def test_a_client_drives_a_robot_of_the_program_with_the_bits_of_a_served_one(na
         assert pressed > 10.0, "the hand touches the table"
         hashes = set()
         for _ in range(2000):  # a served world runs on until it rests
-            hashes.add(robot.hash())
+            hashes.add(robot.state_hash())
             sim.step()
         client.join()
         assert expected in hashes

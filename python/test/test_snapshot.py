@@ -18,7 +18,7 @@ def sim(name):
 
 
 def hashes(sim):
-    return sim.hash(), [robot.hash() for robot in sim.values()]
+    return sim.state_hash(), [robot.state_hash() for robot in sim.values()]
 
 
 def test_a_motion_goes_on_bit_for_bit(sim, name):

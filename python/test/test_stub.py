@@ -5,12 +5,15 @@
 import ast
 import builtins
 import inspect
+import pickle
 import subprocess
 import sys
 from pathlib import Path
 
 import _pyfranka
 import pyfranka
+import pyfranka.libfranka
+import pyfranka.sim
 import pytest
 
 STUB = Path(__file__).resolve().parent.parent / "src" / "pyfranka" / "__init__.pyi"
@@ -57,6 +60,23 @@ def test_a_star_import_hides_no_builtin():
     exec("from pyfranka import *", names)
     assert names["FrankaException"] is pyfranka.Exception and "RobotState" in names
     assert not set(names) & set(vars(builtins)) - {"__builtins__"}
+    names = {}
+    exec("from pyfranka.libfranka import *", names)
+    assert names["RobotState"] is pyfranka.libfranka.RobotState and "numpy" not in names
+    assert not set(names) & set(vars(builtins)) - {"__builtins__"}
+
+
+def test_classes_show_and_are_pickled_under_the_names_that_users_import():
+    errors = {cls for _, cls in classes() if issubclass(cls, RuntimeError)}
+    assert len(errors) == 9
+    for path, cls in classes():
+        assert (cls.__module__, cls.__qualname__) == ("pyfranka", ".".join(path))
+    for cls in (*errors, pyfranka.RobotState, pyfranka.RobotMode, pyfranka.sim.RequestRefused):
+        assert pickle.loads(pickle.dumps(cls)) is cls
+    for name in ("ArmModel", "GripperOutcome", "LiveState", "RequestRefused", "Snapshot"):
+        assert getattr(pyfranka.sim, name).__module__ == "pyfranka.sim"
+    assert pickle.loads(pickle.dumps(pyfranka.RobotMode.Reflex)) == pyfranka.RobotMode.Reflex
+    assert "_pyfranka" not in pyfranka.Robot.control_torques.__doc__ + pyfranka.Robot.read_once.__doc__
 
 
 def test_types_are_local_so_that_other_bindings_of_libfranka_can_be_loaded():

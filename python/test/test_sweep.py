@@ -4,12 +4,14 @@
 
 import csv
 import functools
+import importlib.metadata
 import json
 import os
 import pickle
 import signal
 import subprocess
 import sys
+import tomllib
 from collections import Counter
 from pathlib import Path
 from types import SimpleNamespace
@@ -442,17 +444,67 @@ def test_the_program_sends_the_functions_of_a_file(cluster, tmp_path, capsys, mo
     )
 
 
-def test_a_failed_case_names_its_file_line_and_function_with_an_older_cloudpickle(tmp_path):
-    """cloudpickle 3.1.2 sends the names of files, later versions do not."""
-    (tmp_path / "own.py").write_text(OWN)
-    (older,) = client_python("cloudpickle-3.1.2").parents[1].glob("lib/*/site-packages")
-    path = f"{older}:{os.environ.get('PYTHONPATH', '')}"
+# Locks of earlier versions: the oldest one that dask allows, and the last one that sends the names of files.
+OLDER = ("cloudpickle-3.0.0", "cloudpickle-3.1.2")
+
+DEADLY = """
+import os, signal
+from pathlib import Path
+
+def deadly(case, seed):
+    with open(f"ran-{case}", "a") as file:
+        file.write("x")
+    if case == 3 or (case == 5 and Path("ran-5").read_text() == "x"):
+        os.kill(os.getpid(), signal.SIGKILL)
+    return seed
+"""
+
+
+def run_with(lock, folder, *words):
+    """The program pyfranka-sweep with another version of cloudpickle, also in its workers."""
+    (older,) = client_python(lock).parents[1].glob("lib/*/site-packages")
     code = "import cloudpickle, sys; from pyfranka import sweeps; print(cloudpickle.__version__);"
-    code += "sys.exit(sweeps.main(['own.py', '--function', 'square', '--retries', '0', '--workers', '1']))"
-    options = {"capture_output": True, "text": True, "timeout": DEADLINE, "cwd": tmp_path}
-    run = subprocess.run([sys.executable, "-c", code], env={**os.environ, "PYTHONPATH": path}, **options)
-    assert run.stdout.startswith("3.1.2\n"), run.stderr
+    run = subprocess.run(
+        [sys.executable, "-c", code + f"sys.exit(sweeps.main({list(words)}))"],
+        env={**ENVIRONMENT, "PYTHONPATH": f"{older}:{os.environ.get('PYTHONPATH', '')}"},
+        capture_output=True,
+        text=True,
+        timeout=DEADLINE,
+        cwd=folder,
+    )
+    assert run.stdout.startswith(lock.removeprefix("cloudpickle-") + "\n"), run.stderr
+    return run
+
+
+@pytest.mark.parametrize("lock", OLDER)
+def test_a_failed_case_names_its_file_line_and_function_with_an_older_cloudpickle(lock, tmp_path):
+    (tmp_path / "own.py").write_text(OWN)
+    words = ["own.py", "--function", "square", "--retries", "0", "--workers", "1"]
+    run = run_with(lock, tmp_path, *words)
     assert "ValueError: no twos (own.py, line 18, in square)" in run.stdout, run.stderr
+
+
+@pytest.mark.parametrize("lock", OLDER)
+def test_killed_worker_loses_and_duplicates_no_case_with_an_older_cloudpickle(lock, tmp_path):
+    (tmp_path / "own.py").write_text(DEADLY)
+    words = ["own.py", "--function", "deadly", "--cases", "10", "--workers", "2"]
+    run = run_with(lock, tmp_path, *words)
+    assert run.returncode == 1 and "10 cases, 1 failed" in run.stdout, run.stdout + run.stderr
+    rows = pyarrow.parquet.read_table(tmp_path / "own.parquet").to_pylist()
+    assert [row["index"] for row in rows] == list(range(10))
+    assert "workers died" in rows[3]["error"] and rows[5]["tries"] == 2
+    assert all(row["result"] == row["seed"] and row["error"] is None for row in rows if row["index"] != 3)
+
+
+def test_the_oldest_and_the_newest_versions_that_the_wheel_allows_are_tested():
+    """.venv has the newest ones of its lock; of dask that is still the oldest one."""
+    project = tomllib.loads((TOP / "pyproject.toml").read_text())["project"]
+    assert (
+        f"dask>={importlib.metadata.version('dask').removesuffix('.0')}"
+        in (project["optional-dependencies"]["cluster"])
+    ), "lock the oldest dask for these tests"
+    allowed = [line for line in importlib.metadata.requires("dask") if line.startswith("cloudpickle")]
+    assert allowed == [OLDER[0].replace("-", ">=")]
 
 
 def test_program_shows_its_help_and_a_progress_bar_on_request(cluster, tmp_path):
@@ -522,7 +574,7 @@ def test_a_scheduler_that_is_not_there_is_reported(monkeypatch):
 
 def test_a_missing_package_is_named(monkeypatch):
     monkeypatch.setattr(sweeps.importlib.util, "find_spec", lambda name: None)
-    with pytest.raises(ImportError, match=r"needs the Python package distributed.*pyfranka\[cluster\]"):
+    with pytest.raises(ImportError, match="needs the Python package distributed.*./franka install extras"):
         pyfranka.sweep(lambda case, seed: 0, 1)
 
 
@@ -547,7 +599,11 @@ def motion(case, seed):
         robot = sim[case]
         robot.joint_impedance(robot.state.q + 0.1, 0.2, numpy.random.default_rng(seed).uniform(100, 300, 7))
         sim.step(500)
-        return {"hash": f"{robot.hash():016x}", "q": robot.state.q, "threads": os.environ["OMP_NUM_THREADS"]}
+        return {
+            "hash": f"{robot.state_hash():016x}",
+            "q": robot.state.q,
+            "threads": os.environ["OMP_NUM_THREADS"],
+        }
 
 
 def test_a_robot_moves_on_a_worker_as_in_this_process(cluster, monkeypatch):

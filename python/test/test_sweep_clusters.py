@@ -32,7 +32,7 @@ def motion(case, seed):
         robot = sim[case]
         robot.joint_impedance(robot.state.q + 0.1, 0.2, numpy.random.default_rng(seed).uniform(100, 300, 7))
         sim.step(500)
-        return {"hash": f"{robot.hash():016x}", "process": os.getpid()}
+        return {"hash": f"{robot.state_hash():016x}", "process": os.getpid()}
 
 
 def check(cluster):

@@ -10,10 +10,91 @@ import pytest
 from pyfranka.remote import LineRefused
 from transform_sweep import check, raised
 
+READY = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
 UNLIMITED = {"limit_rate": False, "cutoff_frequency": 1000.0}
 FRAME = np.eye(4)
 FRAME[:3, 3] = 0.01, -0.02, 0.03
 TURNED = np.array([[0.0, -1.0, 0.0, 0.01], [1.0, 0.0, 0.0, 0.02], [0.0, 0.0, 1.0, 0.1], [0.0, 0.0, 0.0, 1.0]])
+
+
+COLUMNS = TURNED.T.ravel()
+NO_TRANSFORMS = (
+    *(TURNED[None], TURNED[:, :, None], COLUMNS[None], COLUMNS[:, None], np.ones((2, 8)), np.ones((8, 2))),
+    *(TURNED.astype(complex), TURNED.astype(str), TURNED.astype(object), COLUMNS.reshape(2, 2, 4)),
+)
+
+
+def doors_of_a_model(model, q):
+    frame, end = pyfranka.Frame.EndEffector, np.eye(4)
+    return {
+        f"{type(model).__name__}.{function}.{argument}": lambda T, f=function, a=argument: getattr(model, f)(
+            frame, q, **{"F_T_EE": end, "EE_T_K": end, a: T}
+        )
+        for function in ("pose", "zero_jacobian", "body_jacobian")
+        for argument in ("F_T_EE", "EE_T_K")
+    }
+
+
+def set_and_read(state, setter, field):
+    def read(transform):
+        setter(transform)
+        return getattr(state(), field)
+
+    return read
+
+
+def test_each_entrance_takes_a_matrix_or_its_columns_and_nothing_else(robot, simulation, simulated):
+    state = pyfranka.RobotState()
+    with_client = {
+        "RobotState.O_T_EE": lambda T: setattr(state, "O_T_EE", T) or state.O_T_EE.copy(),
+        "CartesianPose": lambda T: pyfranka.CartesianPose(T).O_T_EE,
+        "is_homogeneous": pyfranka.is_homogeneous_transformation,
+        "Robot.set_EE": set_and_read(robot.read_once, robot.set_EE, "NE_T_EE"),
+        "Robot.set_K": set_and_read(robot.read_once, robot.set_K, "EE_T_K"),
+        **doors_of_a_model(robot.load_model(), READY),
+    }
+
+    def stepped():
+        simulation.step(1)
+        return simulated.state
+
+    in_process = {
+        "SimulatedRobot.set_EE": set_and_read(stepped, simulated.set_EE, "NE_T_EE"),
+        "SimulatedRobot.set_K": set_and_read(stepped, simulated.set_K, "EE_T_K"),
+        **doors_of_a_model(simulated.model, READY),
+    }
+    for door, take in {**with_client, **in_process}.items():
+        results = [np.array(take(form)) for form in (TURNED, TURNED.tolist(), COLUMNS, COLUMNS.tolist())]
+        for each in results[1:]:
+            np.testing.assert_array_equal(each, results[0], err_msg=door)
+        if results[0].shape == (4, 4) and "pose" not in door:
+            np.testing.assert_allclose(results[0], TURNED, atol=1e-12, err_msg=door)
+    motions = {
+        "SimulatedRobot.cartesian_impedance": lambda T: simulated.cartesian_impedance(T, 0.01),
+        "SimulatedRobot.command": lambda T: simulated.command(cartesian_pose=T),
+    }
+    for door, move in motions.items():
+        reached = []
+        simulation.reset()
+        pose = simulated.state.O_T_EE_d.copy()
+        assert np.abs(pose - pose.T).max() > 0.1, "a pose that would show if it were turned over"
+        for form in (pose, pose.T.ravel(), pose.tolist()):
+            simulation.reset()
+            move(form)
+            simulation.step(50)
+            assert simulated.state.robot_mode == pyfranka.RobotMode.Move, (door, simulated.state)
+            reached.append(simulated.state.O_T_EE.copy())
+        np.testing.assert_allclose(reached[0], pose, atol=1e-3, err_msg=door)
+        assert all((each == reached[0]).all() for each in reached), door
+    simulation.reset()
+    for door, take in {**with_client, **in_process, **motions}.items():
+        for wrong in NO_TRANSFORMS:
+            with pytest.raises(ValueError, match="needs 16 numbers"):
+                take(wrong)
+                pytest.fail(f"{door} takes {wrong.shape} of {wrong.dtype}")
+    assert not simulated.moving
+    for setter in (robot.set_EE, robot.set_K):
+        setter(np.eye(4))
 
 
 @pytest.mark.parametrize("options", [{}, UNLIMITED], ids=["limited", "unlimited"])
@@ -41,6 +122,9 @@ def test_poses_that_a_client_writes_itself(robot):
             return text
 
         check(start, lambda perturbed: write(perturbed.matrix))
+        assert np.abs(start - start.T).max() > 0.1
+        for form in (start, start.T.ravel(), start.tolist()):
+            assert write(form) == ""
         motion.write_once(pyfranka.motion_finished(pyfranka.CartesianPose(start)))
 
 
@@ -72,8 +156,12 @@ def test_a_matrix_and_its_columns_set_the_same_end_effector(robot, served, name)
         served[name].remote.end_effector(*body, np.eye(4))
         served[name].remote.end_effector(*body, given)
         np.testing.assert_allclose(robot.read_once().F_T_NE, TURNED, atol=1e-12)
-    with pytest.raises(ValueError, match="4x4"):
-        served[name].remote.end_effector(*body, np.ones((2, 8)))
+    for wrong in NO_TRANSFORMS:
+        with pytest.raises(ValueError, match="4x4|16 numbers"):
+            served[name].remote.end_effector(*body, wrong)
+    for wrong in (np.ones((9, 1)), np.ones((1, 3, 3)), 1j * np.eye(3)):
+        with pytest.raises(ValueError, match="inertia"):
+            served[name].remote.end_effector(*body[:2], wrong, TURNED)
     served[name].remote.end_effector(before.m_ee, before.F_x_Cee, before.I_ee, before.F_T_NE)
 
 

@@ -49,4 +49,4 @@ def follow(sim, name, step):
     for k in range(TICKS):
         robot.command(joint_positions=down_and_back(first, k))
         step()
-        yield robot.hash(), sim.hash()
+        yield robot.state_hash(), sim.state_hash()

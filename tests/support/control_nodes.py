@@ -135,8 +135,8 @@ class Arm:
 
     def wait_for_end_of_push(self) -> None:
         """After the reflex: a recovery during the push would end in another reflex."""
-        end = self.operator.time() + 2e-3 * PUSH[1]
-        wait_for(lambda: self.operator.time() > end, "The end of the push")
+        end = self.operator.time + 2e-3 * PUSH[1]
+        wait_for(lambda: self.operator.time > end, "The end of the push")
 
     def service(self, name: str) -> str:
         return f"{self._own}/{name}"

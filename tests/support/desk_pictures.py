@@ -13,7 +13,8 @@ from pathlib import Path
 
 import pyfranka
 from page_browser import PASSWORD, Browser, browser, desk_addresses, wait_for
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import FR3, Panda
 
 PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
 PHONE, DESKTOP = (390, 844), (1440, 900)
@@ -82,7 +83,7 @@ class Swing(threading.Thread):
 
 def one_robot() -> None:
     options = ("--desk=127.0.0.1:0", f"--desk-password={PASSWORD}")
-    panda = SimRobot("panda", base=(-0.5, 0, 0))
+    panda = Panda(base=(-0.5, 0, 0))
     with FrankaSim(panda, world="stone.xml", pace="patient", arguments=options) as sim:
         wait_for(lambda: desk_addresses(sim.log()), "Desk listens")
         with browser(width=DESKTOP[0], height=DESKTOP[1]) as page:
@@ -104,7 +105,7 @@ def one_robot() -> None:
 
 def two_robots() -> None:
     options = ("--desk=127.0.0.1:0", f"--desk-password={PASSWORD}")
-    robots = (SimRobot("panda"), SimRobot("fr3", base=(0, 1.0, 0)))
+    robots = (Panda(), FR3(base=(0, 1.0, 0)))
     with FrankaSim(*robots, pace="patient", arguments=options) as sim:
         wait_for(lambda: len(desk_addresses(sim.log())) == 2, "Desk listens")
         with browser(width=DESKTOP[0], height=DESKTOP[1]) as page:

@@ -14,7 +14,7 @@ import threading
 import typing
 from dataclasses import dataclass, field
 
-from pyfranka.desk import Limits, Options, Robot, Settings
+from pyfranka.desk import DeskRobot, Limits, Options, Settings
 from pyfranka.desk.certificate import tls_context
 from pyfranka.desk.server import Site, app_of, make_desks
 from pyfranka.desk.sessions import digest_of
@@ -104,7 +104,7 @@ class DeskServer:
         return asyncio.run_coroutine_threadsafe(work, self.loop).result(START_LIMIT)
 
     async def _start(self) -> None:
-        robot = Robot(self.robot_address, self.robot_port)
+        robot = DeskRobot(self.robot_address, self.robot_port)
         await robot.start(30.0)
         self.lines: list[str] = []
         self._record(robot)
@@ -117,7 +117,7 @@ class DeskServer:
         await self.site.open()
         self.port = self.site.port
 
-    def _record(self, robot: Robot) -> None:
+    def _record(self, robot: DeskRobot) -> None:
         send = robot.send
 
         def recorded(line: str, urgent: bool = False):

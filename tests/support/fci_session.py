@@ -10,7 +10,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from lines import Lines
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import KINDS
 
 HERE = Path(__file__).resolve().parent
 
@@ -30,7 +31,7 @@ def descriptors_of(pid: int) -> int:
 def simulated(kind: str, pace: str, *arguments: str, address: str = ""):
     """A ServedRobot of pyfranka.franka_sim: an ideal one unless the arguments say otherwise, so that no
     result depends on friction or on the hand's latency."""
-    robot = SimRobot(kind, address=address, realism="ideal", arguments=arguments)
+    robot = KINDS[kind](address=address, realism="ideal", arguments=arguments)
     with FrankaSim(robot, pace=pace) as server:
         yield server.robot
 

@@ -30,6 +30,7 @@ ENVIRONMENTS = (
     "aiofranka",
     "rcs",
     "positronic",
+    "cloudpickle-3.0.0",
     "cloudpickle-3.1.2",
 )
 FILES = ("positronic_sources", "wheel", "wheel-pytest")

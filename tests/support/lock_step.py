@@ -41,4 +41,4 @@ def moved(sim, client, torque=False, process=None, seconds=0.0, pause=0.0, motio
     result = client.result(timeout=120.0)
     assert result["outcome"] == "ok", result
     assert client.run_task("set_load")["outcome"] == "ok"  # answered when the world is at rest
-    return sim.remote.hash()
+    return sim.remote.state_hash()

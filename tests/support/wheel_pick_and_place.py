@@ -43,6 +43,12 @@ with pyfranka.sim.Simulation(world="stone.xml", robots=[pyfranka.sim.Panda(base=
         picture = str(error)
     print(
         json.dumps(
-            {"away": away, "grasped": grasp.succeeded, "held": held, "hash": robot.hash(), "picture": picture}
+            {
+                "away": away,
+                "grasped": grasp.succeeded,
+                "held": held,
+                "hash": robot.state_hash(),
+                "picture": picture,
+            }
         )
     )

@@ -17,7 +17,8 @@ import pyfranka
 import pyfranka.plot
 from franka_sim_mujoco.session import Session
 from PIL import Image
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import Panda
 from screen import colors, dragged, move_pointer, picture_of, press, virtual_screen, window_of
 from waiting import wait_for
 
@@ -39,7 +40,7 @@ def plot_states() -> None:
     with TemporaryDirectory() as folder:
         world, states = Path(folder) / "table.xml", Path(folder) / "states.png"
         world.write_text(TABLE)
-        with FrankaSim(SimRobot("panda"), world=world, pace="lockstep") as sim:
+        with FrankaSim(Panda(), world=world, pace="lockstep") as sim:
             robot, collector = sim.robot.connect(), pyfranka.plot.Collector("panda", version=5)
             start: list[float] = []
 
@@ -65,7 +66,7 @@ def plot_states() -> None:
 
 def plot_abort() -> None:
     """A motion in which two joints jump."""
-    with TemporaryDirectory() as folder, FrankaSim(SimRobot("panda"), pace="lockstep") as sim:
+    with TemporaryDirectory() as folder, FrankaSim(Panda(), pace="lockstep") as sim:
         robot, ticks = sim.robot.connect(), 0
 
         def jump(state, period):
@@ -84,7 +85,7 @@ def plot_abort() -> None:
 
 def viewer() -> None:
     """The window of franka_sim with its help, while the stone is pushed by mouse."""
-    robot = SimRobot("panda", base=(-0.5, 0, 0))
+    robot = Panda(base=(-0.5, 0, 0))
     with TemporaryDirectory() as folder, virtual_screen():
         picture = Path(folder) / "window.png"
         with FrankaSim(robot, world="stone.xml", pace="realtime", arguments=["--viewer"]) as sim:

@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 
 /// @file
 /// Conversion of arrays between C++ and numpy for the module pyfranka and for other bindings. Call
@@ -66,34 +67,35 @@ constexpr py::ssize_t rowsOf(std::size_t size) {
   return size == 16 ? 4 : size == 9 ? 3 : size == 42 ? 6 : size == 49 ? 7 : 0;
 }
 
-/// Whether an array has the shape of a vector or of the matrix with so many elements.
+/// Whether an array is a row of so many elements, or the robot's matrix of them.
 inline bool hasShapeOf(const py::array& array, std::size_t size) {
-  py::ssize_t sides = 0;
-  py::ssize_t first = 0;
-  for (py::ssize_t i = 0; i < array.ndim(); i++) {
-    if (array.shape(i) != 1) {
-      first = sides == 0 ? array.shape(i) : first;
-      sides++;
-    }
-  }
-  return sides <= 1 || (sides == 2 && first == rowsOf(size));
+  const auto count = static_cast<py::ssize_t>(size);
+  const py::ssize_t rows = rowsOf(size);
+  return (array.ndim() == 1 && array.shape(0) == count) ||
+         (array.ndim() == 2 && rows > 0 && array.shape(0) == rows && array.size() == count);
 }
 
-/// Any sequence of numbers, or a matrix, in the robot's column-major order.
-/// @throws std::invalid_argument if it has another number of values or another shape
+/// Any sequence of real numbers, or a matrix, in the robot's column-major order.
+/// @throws std::invalid_argument if it has another number of values, another shape or other values
 template <std::size_t size>
 std::array<double, size> arrayOf(const py::object& values, const char* name) {
-  const auto array = py::array_t<double, py::array::f_style | py::array::forcecast>::ensure(values);
-  if (!array || static_cast<std::size_t>(array.size()) != size) {
+  using Numbers = py::array_t<double, py::array::f_style | py::array::forcecast>;
+  const auto given = py::array::ensure(values);
+  const bool real = given && std::string_view("biuf").find(given.dtype().kind()) < 4;
+  if (!real || static_cast<std::size_t>(given.size()) != size) {
     PyErr_Clear();
     throw std::invalid_argument(std::string(name) + " needs " + std::to_string(size) + " numbers" +
-                                (array ? ", not " + std::to_string(array.size()) : "") + ".");
+                                (real ? ", not " + std::to_string(given.size()) : "") + ".");
   }
-  if (!hasShapeOf(array, size)) {
+  if (!hasShapeOf(given, size)) {
     const std::string rows = std::to_string(rowsOf(size));
     throw std::invalid_argument(
         std::string(name) + " needs " + std::to_string(size) + " numbers in a row" +
         (rowsOf(size) > 0 ? " or a matrix of " + rows + " rows" : "") + ", not another shape.");
+  }
+  const auto array = Numbers::ensure(given);
+  if (!array) {
+    throw py::error_already_set();
   }
   std::array<double, size> result;
   std::copy_n(array.data(), size, result.begin());

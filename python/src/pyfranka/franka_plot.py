@@ -13,7 +13,7 @@ import time
 from collections.abc import Sequence
 from pathlib import Path
 
-from pyfranka.command_line import Parser
+from pyfranka.command_line import Parser, install_command
 
 TOPIC = "/franka_state_controller/franka_states"  # as in sources.py, which takes a while to import
 KINDS = ("panda", "fr3")
@@ -49,8 +49,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         if error.name not in ("matplotlib", "scipy"):
             raise
         print(
-            f"franka_plot: it needs the Python package {error.name}. Install python3-matplotlib and "
-            "python3-scipy, or pyfranka[plot] by pip.",
+            f"franka_plot: it needs the Python package {error.name}: {install_command('plot')}.",
             file=sys.stderr,
         )
         return 1

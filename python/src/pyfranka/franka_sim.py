@@ -13,8 +13,10 @@ pyfranka.pytest_plugin has fixtures for it.
 
 from __future__ import annotations
 
+import json
 import os
 import secrets
+import select
 import shutil
 import signal
 import socket
@@ -26,11 +28,14 @@ import time
 import typing
 import weakref
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from ipaddress import IPv4Address
 from pathlib import Path
 
+from pyfranka._deprecation import renamed, warn
 from pyfranka.remote import PORT, Remote
+from pyfranka.sim.arguments import path
+from pyfranka.sim.setups import FR3, KINDS, Panda
 
 if typing.TYPE_CHECKING:
     import pyfranka
@@ -38,61 +43,70 @@ if typing.TYPE_CHECKING:
 __all__ = ["FrankaSim", "FrankaSimError", "ServedRobot", "SimRobot"]
 
 PROGRAM = "franka_sim"
-KINDS = {"panda": 5, "fr3": 10}  # and the newest protocol that each speaks
 TO_START, TO_END = 60.0, 20.0  # [s], on a busy machine (chosen here)
-PAUSE = 0.01  # [s] between two looks (chosen here)
+PAUSE = 0.1  # [s] between two looks whether it has ended (chosen here)
 LAST_LINES = 100  # of a log in a message (chosen here)
 # Chosen here, away from the addresses that users type. All of 127.0.0.0/8 belongs to the machine.
 FIRST_ADDRESS, ADDRESSES = IPv4Address("127.64.0.0"), 1 << 22
 ATTEMPTS = 50  # to find a free one (chosen here)
-TAKEN = "Another simulated robot runs there"
 
 
 class FrankaSimError(RuntimeError):
     """franka_sim could not be started, ended by itself or did not end; the text is what it has written."""
 
 
-@dataclass(frozen=True)
-class SimRobot:
-    """A robot to serve; the options of franka_sim with these names are described in docs/franka_sim.md.
+def described(kind: str, **options: typing.Any) -> Panda | FR3:
+    """The description of a robot of a kind, "panda" or "fr3". options: those of Panda and FR3."""
+    if kind not in KINDS:
+        raise ValueError(f"There is no robot '{kind}'; there are: {', '.join(KINDS)}.")
+    return KINDS[kind](**options)
 
-    kind: "panda" or "fr3". arm_id: prefix of its links and joints (its kind). base: x, y, z [m] and,
-    optionally, the turn about the vertical [rad]. hand: "gripper", "vacuum" or "none". realism: a profile
-    (real). protocol: the only version that it speaks; 0: all of its kind. urdf: another description.
-    address: where it is served; empty: an address of its own. arguments: further options.
-    """
 
-    kind: str = "panda"
-    arm_id: str = ""
-    base: Sequence[float] | None = None
-    hand: str = ""
-    realism: str = ""
-    protocol: int = 0
-    urdf: str = ""
-    address: str = ""
-    arguments: Sequence[str] = ()
-
-    def options(self) -> list[str]:
-        """The words of the command line."""
-        words = [f"--robot={self.kind}", f"--ip={self.address}"]
-        if self.base is not None:
-            words.append("--base=" + ",".join(repr(float(number)) for number in self.base))
-        for name in ("arm_id", "hand", "realism", "protocol", "urdf"):
-            if value := getattr(self, name):
-                words.append(f"--{name.replace('_', '-')}={value}")
-        return words + [str(word) for word in self.arguments]
+def SimRobot(
+    kind: str = "panda",
+    arm_id: str = "",
+    base: Sequence[float] | None = None,
+    hand: str | bool = "",
+    realism: str = "",
+    protocol: int = 0,
+    urdf: str | os.PathLike[str] = "",
+    address: str = "",
+    arguments: Sequence[str] = (),
+) -> Panda | FR3:
+    """Deprecated: robots on the network are described by pyfranka.sim.Panda and FR3, too."""
+    warn("pyfranka.franka_sim.SimRobot", "pyfranka.sim.Panda or pyfranka.sim.FR3, and arm_id is name")
+    return described(
+        kind,
+        name=arm_id,
+        base=(0.0, 0.0, 0.0) if base is None else base,
+        hand=True if hand == "" else hand,
+        realism=realism,
+        protocol=protocol,
+        urdf=urdf,
+        address=address,
+        arguments=arguments,
+    )
 
 
 class ServedRobot:
     """One robot of a running franka_sim."""
 
-    def __init__(self, server: FrankaSim, robot: SimRobot, arm_id: str):
-        self.server, self.kind, self.arm_id, self.address = server, robot.kind, arm_id, robot.address
-        self.protocol = robot.protocol or KINDS[robot.kind]  # the newest version that it speaks
+    def __init__(self, server: FrankaSim, robot: Panda | FR3, report: dict[str, typing.Any]):
+        self.server, self.kind, self.address = server, robot.kind, robot.address
+        self.name: str = report["arm_id"]
+        self.desk: str = report.get("desk", "")  # the address of its Desk, such as https://127.0.0.1:8443
+        self.protocol = robot.protocol or robot._protocols[-1]  # the newest version that it speaks
         self.remote = Remote(robot.address)  # its control interface
+        if robot.load is not None:
+            self.remote.load(*robot.load[:2])
 
     def __repr__(self) -> str:
-        return f"<{self.kind} '{self.arm_id}' at {self.address}>"
+        return f"<{self.kind} '{self.name}' at {self.address}>"
+
+    @property
+    @renamed("ServedRobot.arm_id", "name")
+    def arm_id(self) -> str:
+        return self.name
 
     def connect(self) -> pyfranka.Robot:
         """A connection to the robot that needs no real-time kernel. Raises pyfranka.Exception."""
@@ -110,11 +124,17 @@ class ServedRobot:
 class FrankaSim:
     """A running franka_sim: robots in one world. A context manager that ends it.
 
-    robots: SimRobot, or the kind alone ("panda", "fr3"); without one, a panda. world: a scene, MJCF or SDF.
-    pace: lockstep, realtime, patient or a factor. arguments: further options of the program.
+    robots: pyfranka.sim.Panda and FR3, or the kind alone ("panda", "fr3"); without one, a panda. Their
+    realism is "real" unless it is given, because their clients are programs for real robots. world: a scene,
+    MJCF or SDF. pace: lockstep, realtime, patient or a factor. patience: how long it waits for a silent
+    client [s], or "forever". wait: auto, spin or block. linger: how long it waits for clients at the end [s].
+    viewer: opens a window. desk: serves Desk, whose address is ServedRobot.desk, and robots start locked;
+    also the "ADDRESS:PORT" where. desk_user, desk_password: who may log in there. start: "ready" or
+    "locked". docs/franka_sim.md describes these options. arguments: further words of its command line.
     program: its path; empty: the one of the workspace, of this Python environment or on PATH.
 
-    Raises FrankaSimError with the program's own sentence if it does not start within a minute.
+    Raises FrankaSimError with the program's own sentence if it does not start within a minute; ValueError or
+    TypeError for robots and paths that cannot be used.
 
     The program ends with the object, with the interpreter and, if it was started by the main thread, also
     when this process is killed. Ctrl-C on a terminal does not reach it.
@@ -124,14 +144,32 @@ class FrankaSim:
 
     def __init__(
         self,
-        *robots: SimRobot | str,
-        world: str | os.PathLike = "",
+        *robots: Panda | FR3 | str,
+        world: str | os.PathLike[str] = "",
         pace: str | float = "lockstep",
+        patience: str | float | None = None,
+        wait: str | None = None,
+        linger: float | None = None,
+        viewer: bool = False,
+        desk: bool | str = False,
+        desk_user: str | None = None,
+        desk_password: str | None = None,
+        start: str | None = None,
         arguments: Sequence[str] = (),
-        program: str = "",
+        program: str | os.PathLike[str] = "",
     ):
-        self._asked = [SimRobot(each) if isinstance(each, str) else each for each in robots or ("panda",)]
-        self._options = [f"--pace={pace}", *([f"--world={world}"] if world else []), *map(str, arguments)]
+        self._asked = [_checked(each) for each in robots or ("panda",)]
+        values = {"pace": pace, "world": path(world, "world") or None, "patience": patience, "wait": wait}
+        values |= {"linger": linger, "desk": desk or None, "desk-user": desk_user, "start": start}
+        values["viewer"] = viewer or None
+        self._options = [
+            f"--{name}" if value is True else f"--{name}={value}"
+            for name, value in values.items()
+            if value is not None
+        ]
+        self._options += map(str, arguments)
+        # Other users can read the command line.
+        self._variables = {} if desk_password is None else {"FRANKA_DESK_PASSWORD": desk_password}
         self._program = find_program(program)
         self._locks: list[socket.socket] = []  # of the addresses
         self._stopped = False
@@ -147,12 +185,12 @@ class FrankaSim:
     def __exit__(self, *error) -> None:
         self.stop()
 
-    def __getitem__(self, arm_id: str) -> ServedRobot:
+    def __getitem__(self, name: str) -> ServedRobot:
         for robot in self.robots:
-            if robot.arm_id == arm_id:
+            if robot.name == name:
                 return robot
-        names = ", ".join(robot.arm_id for robot in self.robots)
-        raise KeyError(f"There is no robot '{arm_id}'; there are: {names}.")
+        names = ", ".join(robot.name for robot in self.robots)
+        raise KeyError(f"There is no robot '{name}'; there are: {names}.")
 
     @property
     def robot(self) -> ServedRobot:
@@ -214,36 +252,46 @@ class FrankaSim:
             self._log = tempfile.TemporaryFile(prefix="franka_sim.")
             weakref.finalize(self, self._log.close)
             words = [word for robot in robots for word in robot.options()]
-            self.process = _started([self._program, *words, *self._options], self._log)
-            # Ends the program when this object or the interpreter ends.
-            self._finalizer = weakref.finalize(self, _kill, self.process, os.getpid())
-            ready = False
-            try:
-                ready = self._wait_until_ready(len(robots))
-            finally:
-                if not ready:
-                    self._end()
-                    self._release()
-            if ready:
-                self.robots = [ServedRobot(self, *each) for each in zip(robots, _names(robots))]
+            ready, ready_end = os.pipe()
+            with os.fdopen(ready, "rb", buffering=0) as lines:
+                with os.fdopen(ready_end, "wb"):
+                    command = [self._program, f"--ready-fd={ready_end}", *words, *self._options]
+                    self.process = _started(command, self._log, ready_end, self._variables)
+                # Ends the program when this object or the interpreter ends.
+                self._finalizer = weakref.finalize(self, _kill, self.process, os.getpid())
+                report: dict[str, typing.Any] = {}
+                try:
+                    report = self._wait_until_ready(lines)
+                finally:
+                    if "robots" not in report:
+                        self._end()
+                        self._release()
+            if "robots" in report:
+                self.robots = [ServedRobot(self, *each) for each in zip(robots, report["robots"])]
                 return
-            text = self.log().strip() or self.status()
             # A robot that was not started here may be at an address that seemed free.
-            if TAKEN not in text or all(each.address for each in self._asked):
+            if not report.get("address_in_use") or all(each.address for each in self._asked):
                 break
-        raise FrankaSimError(text)
+        raise FrankaSimError(self.log().strip() or self.status())
 
-    def _wait_until_ready(self, count: int) -> bool:
-        deadline = time.monotonic() + TO_START
+    # The line of --ready-fd; empty if there is none, because the program has ended or takes too long.
+    def _wait_until_ready(self, lines: typing.BinaryIO) -> dict[str, typing.Any]:
+        poll = select.poll()
+        poll.register(lines, select.POLLIN)
+        deadline, text = time.monotonic() + TO_START, b""
         while time.monotonic() < deadline:
             ended = self.process.poll() is not None
-            if self.log().count(" waits for clients at ") == count:
-                return not ended
+            if poll.poll(1e3 * PAUSE):
+                part = lines.read(1 << 16)
+                text += part
+                if text.endswith(b"\n"):
+                    report: dict[str, typing.Any] = json.loads(text)
+                    return report
+                ended = not part
             if ended:
-                return False
-            time.sleep(PAUSE)
+                return {}
         os.write(self._log.fileno(), f"franka_sim was not ready within {TO_START:g} s.\n".encode())
-        return False
+        return {}
 
     def _end(self) -> None:
         self._finalizer.detach()
@@ -274,11 +322,12 @@ class FrankaSim:
         self._locks = []
 
 
-def find_program(path: str = "") -> str:
+def find_program(program: str | os.PathLike[str] = "") -> str:
     """The program franka_sim: that path; or the workspace's, this Python environment's, the one on PATH.
     Raises FrankaSimError if there is none."""
-    if path:
-        found = shutil.which(path)
+    program = path(program, "program")
+    if program:
+        found = shutil.which(program)
     else:
         prefixes = [prefix for prefix in os.environ.get("CMAKE_PREFIX_PATH", "").split(":") if prefix]
         folders = [*(str(Path(prefix) / "bin") for prefix in prefixes), str(Path(sys.executable).parent)]
@@ -286,8 +335,8 @@ def find_program(path: str = "") -> str:
     if found:
         return found
     raise FrankaSimError(
-        f"There is no program '{path}'."
-        if path
+        f"There is no program '{program}'."
+        if program
         else "There is no franka_sim in this workspace or Python environment, nor on PATH. Build it with "
         "./franka build, or install the wheel pyfranka."
     )
@@ -298,13 +347,21 @@ def last_lines(text: str) -> str:
     return "\n".join(text.splitlines()[-LAST_LINES:]) or "(it has written nothing)"
 
 
-def _started(command: list[str], log: typing.IO) -> subprocess.Popen:
+def _started(
+    command: list[str], log: typing.IO, descriptor: int, variables: dict[str, str]
+) -> subprocess.Popen:
     # The system ends the program when the thread that started it ends: only the main one lasts.
     guard = shutil.which("setpriv")
     if guard and threading.current_thread() is threading.main_thread():
         command = [guard, "--pdeathsig", "TERM", "--", *command]
     return subprocess.Popen(
-        command, stdin=subprocess.DEVNULL, stdout=log, stderr=subprocess.STDOUT, process_group=0
+        command,
+        stdin=subprocess.DEVNULL,
+        stdout=log,
+        stderr=subprocess.STDOUT,
+        process_group=0,
+        env={**os.environ, **variables},
+        pass_fds=[descriptor],
     )
 
 
@@ -315,13 +372,14 @@ def _kill(process: subprocess.Popen, owner: int) -> None:
         process.wait()
 
 
-# The names that franka_sim gives to its robots.
-def _names(robots: list[SimRobot]) -> list[str]:
-    taken, names = {robot.arm_id for robot in robots}, []
-    for robot in robots:
-        name, number = robot.arm_id or robot.kind, 2
-        while not robot.arm_id and name in taken:
-            name, number = f"{robot.kind}_{number}", number + 1
-        taken.add(name)
-        names.append(name)
-    return names
+# A robot to serve.
+def _checked(robot: typing.Any) -> Panda | FR3:
+    if isinstance(robot, str):
+        return described(robot)
+    if not isinstance(robot, (Panda, FR3)):
+        raise TypeError(f"robots are Panda(...), FR3(...) and their kinds, not {robot!r}.")
+    if robot.load is not None and any(robot.load[2]):
+        raise ValueError(
+            "The inertia of a load cannot be set on the network before a client does: give mass and center."
+        )
+    return robot

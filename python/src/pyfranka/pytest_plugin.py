@@ -2,22 +2,30 @@
 # SPDX-License-Identifier: Apache-2.0
 """Simulated robots as pytest fixtures (docs/python.md, "Tests of your own project").
 
-    def test_my_controller(panda):
-        robot = panda.connect()
+    def test_my_controller(franka_panda):
+        robot = franka_panda.connect()
         assert robot.read_once().robot_mode == pyfranka.RobotMode.Idle
 
 Each robot has a loopback address of its own, so that tests and sessions may run beside each other. It is
 ended after the test; if the test fails, the report shows what the robot has written.
+
+The fixtures have the short names panda and fr3 too, unless `franka_short_fixtures = false` in the ini file
+leaves these to the project. A session without these fixtures loads neither numpy nor the simulation.
 """
 
 from __future__ import annotations
 
+import os
+import sys
+import typing
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import ExitStack
 
 import pytest
 
-from pyfranka.franka_sim import FrankaSim, ServedRobot, SimRobot, last_lines
+if typing.TYPE_CHECKING:
+    from pyfranka.franka_sim import FrankaSim, ServedRobot
+    from pyfranka.sim import FR3, Panda
 
 # Logs before the test: bytes of each, for those that ran then.
 BEFORE: pytest.StashKey[dict[FrankaSim, int | None]] = pytest.StashKey()
@@ -33,11 +41,24 @@ def pytest_addoption(parser: pytest.Parser) -> None:
     for name, meaning in SETTINGS.items():
         group.addoption(f"--franka-sim-{name}", metavar=name.upper(), help=meaning)
         parser.addini(f"franka_sim_{name}", meaning)
+    meaning = "whether franka_panda and franka_fr3 have the names panda and fr3, too (true)"
+    parser.addini("franka_short_fixtures", meaning, type="bool", default=True)
+
+
+def pytest_configure(config: pytest.Config) -> None:
+    if config.getini("franka_short_fixtures"):
+        config.pluginmanager.register(ShortNames(), "pyfranka short fixtures")
+
+
+def _running() -> list[FrankaSim]:
+    """The programs that this process has started; none before something has imported what starts them."""
+    module = sys.modules.get("pyfranka.franka_sim")
+    return module.FrankaSim.known() if module else []
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item: pytest.Item) -> None:
-    item.stash[BEFORE] = {sim: None if sim.stopped else sim.log_size() for sim in FrankaSim.known()}
+    item.stash[BEFORE] = {sim: None if sim.stopped else sim.log_size() for sim in _running()}
 
 
 @pytest.hookimpl(hookwrapper=True)
@@ -46,10 +67,12 @@ def pytest_runtest_makereport(item: pytest.Item):
     if not report.failed:
         return
     before = item.stash.get(BEFORE, {})
-    for sim in FrankaSim.known():
+    for sim in _running():
         since = before.get(sim, 0)
         if since is not None:
-            robots = ", ".join(f"{robot.arm_id} at {robot.address}" for robot in sim.robots)
+            from pyfranka.franka_sim import last_lines
+
+            robots = ", ".join(f"{robot.name} at {robot.address}" for robot in sim.robots)
             text = "\n".join(filter(None, [last_lines(sim.log(since)), sim.status()]))
             report.sections.append((f"franka_sim, {robots}", text))
 
@@ -62,22 +85,29 @@ class Factory:
 
     def __call__(
         self,
-        *robots: SimRobot | str,
-        world: str = "",
+        *robots: Panda | FR3 | str,
+        world: str | os.PathLike[str] = "",
         pace: str | float | None = None,
         arguments: Sequence[str] = (),
-        **options,
+        **options: typing.Any,
     ) -> FrankaSim:
-        """A running franka_sim with these robots, SimRobot or their kinds; without one, a panda. options are
-        those of SimRobot, such as arm_id and realism, for robots that are given as their kind.
+        """A running franka_sim with these robots, pyfranka.sim.Panda and FR3 or their kinds; without one, a
+        panda. options are those of Panda and FR3, such as name and realism, for robots that are given as
+        their kind.
 
         Raises FrankaSimError with the program's own sentence.
         """
+        from pyfranka._deprecation import warn
+        from pyfranka.franka_sim import FrankaSim, described
+
+        if "arm_id" in options:
+            warn("The option arm_id", "name")
+            options["name"] = options.pop("arm_id")
         realism = self._setting("realism")
         if realism and "realism" not in options:
             options["realism"] = realism
         kinds = robots or ("panda",)
-        given = [SimRobot(each, **options) if isinstance(each, str) else each for each in kinds]
+        given = [described(each, **options) if isinstance(each, str) else each for each in kinds]
         return self._stack.enter_context(
             FrankaSim(
                 *given,
@@ -108,12 +138,26 @@ def franka_sim_session(pytestconfig: pytest.Config) -> Iterator[Callable[..., Fr
 
 
 @pytest.fixture
-def panda(franka_sim) -> ServedRobot:
+def franka_panda(franka_sim: Callable[..., FrankaSim]) -> ServedRobot:
     """A running Panda."""
     return franka_sim("panda").robot
 
 
 @pytest.fixture
-def fr3(franka_sim) -> ServedRobot:
+def franka_fr3(franka_sim: Callable[..., FrankaSim]) -> ServedRobot:
     """A running FR3."""
     return franka_sim("fr3").robot
+
+
+class ShortNames:
+    """The same fixtures by their short names."""
+
+    @pytest.fixture
+    def panda(self, franka_panda: ServedRobot) -> ServedRobot:
+        """A running Panda."""
+        return franka_panda
+
+    @pytest.fixture
+    def fr3(self, franka_fr3: ServedRobot) -> ServedRobot:
+        """A running FR3."""
+        return franka_fr3

@@ -28,6 +28,7 @@ from dataclasses import dataclass
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
+from pyfranka._deprecation import renamed, warn
 from pyfranka.refusals import split_refusal
 from pyfranka.robot_report import Report, report_of
 
@@ -111,6 +112,14 @@ class RemoteMesh:
     faces: NDArray[numpy.uint32]
 
 
+class _Time(float):
+    """A time [s]. The call of the method that it was gives it, and warns."""
+
+    def __call__(self, timeout: float | None = None) -> float:
+        warn("Remote.time()", "the property time")
+        return float(self)
+
+
 class Remote:
     """The control interface of one robot. Each robot of one franka_sim has its own, at its own address; lines
     about the world (push, place, where, time, step, wait, reset, quit) concern all of them.
@@ -142,7 +151,7 @@ class Remote:
         with self._locked(self.timeout):
             self._held = True
             try:
-                self.time()  # a client that has sent a line is not replaced by another one
+                self.send("time")  # a client that has sent a line is not replaced by another one
             except BaseException:
                 self.close()
                 raise
@@ -174,9 +183,13 @@ class Remote:
             f"What answers at {self._place()} is not a control interface of franka_sim: '{answer[:80]}'."
         )
 
-    def help(self, timeout: float | None = None) -> list[str]:
+    def commands(self, timeout: float | None = None) -> list[str]:
         """The lines that this robot knows, with their words."""
         return self.send("help", timeout).split("; ")
+
+    @renamed("Remote.help()", "commands()")
+    def help(self, timeout: float | None = None) -> list[str]:
+        return self.commands(timeout)
 
     # ---- the robot ---------------------------------------------------------------------------------------
 
@@ -188,16 +201,40 @@ class Remote:
         """Begins or ends guiding by hand."""
         self.send(f"guiding {_switch(active)}", timeout)
 
+    def close_brakes(self, timeout: float | None = None) -> None:
+        """Closes the brakes, which ends a motion."""
+        self.send("brakes close", timeout)
+
+    def open_brakes(self, timeout: float | None = None) -> None:
+        """Opens the brakes, which takes a while: wait() returns when they are open."""
+        self.send("brakes open", timeout)
+
+    def activate_fci(self, timeout: float | None = None) -> None:
+        """Clients may connect."""
+        self.send("fci on", timeout)
+
+    def deactivate_fci(self, timeout: float | None = None) -> None:
+        """Clients may not connect: a motion is aborted and the client disconnected."""
+        self.send("fci off", timeout)
+
+    def lock_joints(self, timeout: float | None = None) -> None:
+        """Closes the brakes with Desk's rules; returns when they have closed."""
+        self.send("joints lock", timeout)
+
+    def unlock_joints(self, timeout: float | None = None) -> None:
+        """Opens the brakes, joint by joint with Desk's rules; returns when they are open."""
+        self.send("joints unlock", timeout)
+
+    @renamed("Remote.brakes()", "close_brakes() and open_brakes()")
     def brakes(self, closed: bool, timeout: float | None = None) -> None:
-        """Closes or opens the brakes."""
         self.send("brakes " + ("close" if _switch(closed) == "on" else "open"), timeout)
 
+    @renamed("Remote.fci()", "activate_fci() and deactivate_fci()")
     def fci(self, active: bool, timeout: float | None = None) -> None:
-        """Whether clients may connect. Off: a motion is aborted and the client disconnected."""
         self.send(f"fci {_switch(active)}", timeout)
 
+    @renamed("Remote.joints()", "lock_joints() and unlock_joints()")
     def joints(self, locked: bool, timeout: float | None = None) -> None:
-        """Closes or opens the brakes, joint by joint with Desk's rules; returns when they have moved."""
         self.send("joints " + ("lock" if _switch(locked) == "on" else "unlock"), timeout)
 
     def operating_mode(
@@ -206,7 +243,7 @@ class Remote:
         """Of an FR3; programming ends the FCI."""
         self.send(f"operating_mode {_word(mode, 'The mode')}", timeout)
 
-    def input(
+    def set_input(
         self,
         name: typing.Literal["x31", "x32", "x33", "x4", "guiding"],
         pressed: bool,
@@ -214,6 +251,15 @@ class Remote:
     ) -> None:
         """Presses or releases a stop, the activation or enabling device (x4) or the guiding button."""
         self.send(f"input {_word(name, 'The name of an input')} {_switch(pressed)}", timeout)
+
+    @renamed("Remote.input()", "set_input()")
+    def input(
+        self,
+        name: typing.Literal["x31", "x32", "x33", "x4", "guiding"],
+        pressed: bool,
+        timeout: float | None = None,
+    ) -> None:
+        self.set_input(name, pressed, timeout)
 
     def button(self, name: str, pressed: bool, timeout: float | None = None) -> None:
         """Presses or releases a button of the Pilot: circle, cross, check, up, down, left or right."""
@@ -273,8 +319,8 @@ class Remote:
     ) -> None:
         """The end effector as it is set in Desk: m_ee [kg], F_x_Cee 3 [m], I_ee 9 [kg m^2], F_T_NE 4x4,
         or its 16 numbers column by column."""
-        words = [_numbers(center, 3, "The center of mass"), _numbers(inertia, 9, "The inertia")]
-        self.send(_line("end_effector", [mass], *words, _transform(F_T_NE)), timeout)
+        words = [_numbers(center, 3, "The center of mass"), _matrix(inertia, 3, "The inertia")]
+        self.send(_line("end_effector", [mass], *words, _matrix(F_T_NE, 4, "The transform")), timeout)
 
     def end_effector_power(self, on: bool, timeout: float | None = None) -> None:
         """Off: the hand is not reachable."""
@@ -354,10 +400,14 @@ class Remote:
         q = numpy.array(match["q"].split(), dtype=float)
         return RemoteState(match["mode"], int(match["protocol"]), errors, q, match["fault"] or "")
 
-    def hash(self, timeout: float | None = None) -> int:
-        """Hash of all states since the first command, as pyfranka.sim.Robot.hash(). In lock-step it waits
-        until no motion runs and the world is at rest, at most 10 s of its time."""
+    def state_hash(self, timeout: float | None = None) -> int:
+        """Hash of all states since the first command, as pyfranka.sim.SimulatedRobot.state_hash(). In
+        lock-step it waits until no motion runs and the world is at rest, at most 10 s of its time."""
         return int(self.send("hash", timeout), 16)
+
+    @renamed("Remote.hash()", "state_hash()")
+    def hash(self, timeout: float | None = None) -> int:
+        return self.state_hash(timeout)
 
     # ---- the link to the client --------------------------------------------------------------------------
 
@@ -422,9 +472,10 @@ class Remote:
         """Position [m] and quaternion w, x, y, z of each body of the scene, in its order: n x 7."""
         return numpy.array(json.loads(self.send("poses", timeout)), float)
 
-    def time(self, timeout: float | None = None) -> float:
-        """Simulated time since the start or the last reset [s]."""
-        return float(self.send("time", timeout))
+    @property
+    def time(self) -> float:
+        """Simulated time since the start or the last reset [s], as Simulation.time; asks the robot."""
+        return _Time(self.send("time"))
 
     def step(self, ticks: int = 1, timeout: float | None = None) -> None:
         """Returns when so many milliseconds of simulated time have passed.
@@ -606,20 +657,25 @@ def _word(text: str, what: str) -> str:
 
 def _numbers(values: ArrayLike, count: int, what: str) -> Array:
     try:
-        array = numpy.asarray(values, dtype=float)
-    except (TypeError, ValueError):
-        raise ValueError(f"{what} has {count} numbers, which {values!r} has not.") from None
-    if array.size != count:
-        raise ValueError(f"{what} has {count} numbers, not {array.size}.")
-    return array.ravel()
+        array = numpy.asarray(values)
+        real = array.dtype.kind in "biuf"
+    except ValueError:  # rows of different lengths
+        real = False
+    if not real:
+        raise ValueError(f"{what} has {count} numbers, which {values!r} has not.")
+    if array.size != count or array.ndim != 1:
+        raise ValueError(f"{what} has {count} numbers, not {array.size if array.ndim == 1 else array.shape}.")
+    return array.astype(float)
 
 
-def _transform(values: ArrayLike) -> Array:
-    """The 16 numbers, column by column, of a matrix or of such a list."""
-    numbers, shape = _numbers(values, 16, "The transform"), numpy.shape(values)
-    if shape not in ((16,), (4, 4)):
-        raise ValueError(f"The transform is 4x4, or 16 numbers column by column, not {shape}.")
-    return numbers.reshape(4, 4).T.ravel() if shape == (4, 4) else numbers
+def _matrix(values: ArrayLike, rows: int, what: str) -> Array:
+    """The numbers, column by column, of a square matrix or of such a list."""
+    shape = numpy.shape(values)
+    if shape not in ((rows * rows,), (rows, rows)):
+        raise ValueError(
+            f"{what} is {rows}x{rows}, or {rows * rows} numbers column by column, not of shape {shape}."
+        )
+    return _numbers(numpy.ravel(values, order="F"), rows * rows, what)
 
 
 def _line(name: str, *numbers: ArrayLike) -> str:

@@ -32,7 +32,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from pyfranka.command_line import Parser
-from pyfranka.franka_sim import KINDS, FrankaSim, FrankaSimError, SimRobot, last_lines
+from pyfranka.franka_sim import FrankaSim, FrankaSimError, described, last_lines
+from pyfranka.sim.setups import KINDS
 
 __all__ = ["main"]
 
@@ -76,15 +77,15 @@ class ServedRobot:
     """franka_sim at an address of its own."""
 
     def __init__(self, options: argparse.Namespace):
-        robot = SimRobot(
-            options.robot,
-            realism=options.realism,
-            address=options.address,
-            arguments=options.option,
-        )
         try:
+            robot = described(
+                options.robot,
+                realism=options.realism,
+                address=options.address,
+                arguments=options.option,
+            )
             self._sim = FrankaSim(robot, world=options.world, pace=options.pace or "patient")
-        except FrankaSimError as error:
+        except (FrankaSimError, ValueError) as error:
             raise RobotError(str(error)) from None
         self.variables = {"FRANKA_ROBOT_IP": self._sim.robot.address}
         self.name = f"{options.robot} at {self._sim.robot.address}"

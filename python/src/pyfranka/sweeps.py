@@ -12,7 +12,8 @@
     print(len(done.failed), [outcome.result["error"] for outcome in done if outcome.ok])
 
 The module has another name than the function, so that `pyfranka.sweep` is always the function. Dask, tqdm
-and pyarrow are imported when a sweep starts; `pip install pyfranka[cluster]` installs them.
+and pyarrow are imported when a sweep starts: the wheel's extra `cluster`; in the workspace `./franka install
+extras` installs them.
 
 dask.distributed schedules the cases. Objects of this process's `__main__` and of scripts are sent by value
 (cloudpickle), so workers do not need the file.
@@ -40,7 +41,7 @@ from types import CodeType, ModuleType
 
 import numpy
 
-from pyfranka.command_line import Parser
+from pyfranka.command_line import Parser, install_command
 
 __all__ = ["Outcome", "Sweep", "main", "seed_of", "sweep"]
 
@@ -185,8 +186,7 @@ def _require() -> None:
         if importlib.util.find_spec(name) is None:
             raise ImportError(
                 f"A sweep needs the Python package {name}, which this Python ({sys.executable}) does not "
-                "have: pip install pyfranka[cluster]; in the workspace run ./franka install extras, and use "
-                ".venv/bin/python3.",
+                f"have: {install_command('cluster')}.",
                 name=name,
             )
 

@@ -24,7 +24,8 @@ from franka_gripper.msg import (
     StopAction,
     StopGoal,
 )
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.sim import Panda
 from ros_client import Action, launched
 from ros_nodes import executable
 from sensor_msgs.msg import JointState
@@ -136,7 +137,7 @@ class Hand:
         self._world, self.server, self.session = world, None, None
 
     def start(self):
-        self.server = FrankaSim(SimRobot("panda", address=ADDRESS), world=self._world, pace=PACE)
+        self.server = FrankaSim(Panda(address=ADDRESS), world=self._world, pace=PACE)
 
     def join(self, session):
         self.session = session

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """franka_sim as a user calls it: its command line, and the control interface."""
 
+import json
 import os
 import socket
 import struct
@@ -11,7 +12,8 @@ from pathlib import Path
 
 import pytest
 from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, LAYOUTS, REFLEX, Client
-from pyfranka.franka_sim import FrankaSim, SimRobot, find_program
+from pyfranka.franka_sim import FrankaSim, find_program
+from pyfranka.sim import FR3, KINDS, Panda
 from waiting import wait_for
 
 GUIDING, USER_STOPPED, OTHER = 3, 5, 0  # robot_mode
@@ -46,7 +48,7 @@ def served(*robots, pace="realtime", world="", arguments=()):
 
 def simulated(address, *arguments, kind="panda", **options):
     """The same for one robot with these words of the command line."""
-    return served(SimRobot(kind, address=address), arguments=arguments, **options)
+    return served(KINDS[kind](address=address), arguments=arguments, **options)
 
 
 @pytest.mark.parametrize(
@@ -96,6 +98,9 @@ def simulated(address, *arguments, kind="panda", **options):
         (["--base", "1e11,0,0"], "give meters, 1000 at most"),
         (["--base=0,-1001,0"], "give meters, 1000 at most"),
         (["--ip"], "--ip: 1 required"),
+        (["--ready-fd", "2"], "--ready-fd: give a number from 3, not 2."),
+        (["--ready-fd", "3.5"], "--ready-fd: 3.5 is not a whole number."),
+        (["--ready-fd", "99"], "--ready-fd: descriptor 99 is not open for writing"),
         (["--urdf", str(ROBOTS / "panda.urdf"), "--arm-id", "nobody"], "nobody"),
     ],
 )
@@ -121,6 +126,83 @@ def test_impossible_configurations_are_reported(arguments, sentence, monkeypatch
     assert sentence in result.stderr
 
 
+@contextmanager
+def started_with_pipe(*arguments):
+    """franka_sim, and the end of the pipe for its line about itself."""
+    ours, theirs = os.pipe()
+    with open(ours, encoding="utf-8") as lines:
+        with open(theirs, "wb"):
+            words = [find_program(), f"--ready-fd={theirs}", *arguments]
+            process = subprocess.Popen(words, pass_fds=[theirs], stderr=subprocess.PIPE, text=True)
+        try:
+            yield process, lines
+        finally:
+            process.terminate()
+            process.communicate(timeout=60)
+
+
+def test_robots_are_reported_to_the_program_that_starts_them():
+    words = "--robot panda --ip 127.0.22.31".split()
+    second = "--robot panda --ip 127.0.22.32 --base 0,1,0 --hand vacuum --control-port 1341".split()
+    third = "--robot fr3 --ip 127.0.22.33 --base 0,2,0 --no-hand --control-port 0 --arm-id left".split()
+    first = {
+        "robot": "panda",
+        "arm_id": "panda",
+        "address": "127.0.22.31",
+        "protocols": [3, 5],
+        "ports": {"robot": 1337, "gripper": 1338, "control": 1340},
+    }
+    others = [
+        {
+            "robot": "panda",
+            "arm_id": "panda_2",
+            "address": "127.0.22.32",
+            "protocols": [3, 5],
+            "ports": {"robot": 1337, "vacuum_gripper": 1339, "control": 1341},
+        },
+        {
+            "robot": "fr3",
+            "arm_id": "left",
+            "address": "127.0.22.33",
+            "protocols": [6, 10],
+            "ports": {"robot": 1337},
+        },
+    ]
+    for arguments, robots in ((words, [first]), ([*words, *second, *third], [first, *others])):
+        with started_with_pipe(*arguments) as (process, lines):
+            assert [json.loads(line) for line in lines] == [{"robots": robots}]
+            for robot in robots:
+                for port in robot["ports"].values():
+                    socket.create_connection((robot["address"], port), timeout=60).close()
+        assert process.returncode == 0
+
+
+def test_errors_are_reported_to_the_program_that_starts_it():
+    with started_with_pipe("--ip", "127.0.22.34") as (_, first):
+        assert first.readline()
+        for arguments, sentence, status, in_use in (
+            (["--ip", "127.0.22.34"], "Another simulated robot runs there", 1, True),
+            (["--ip", "192.0.2.1"], "does not have that address", 1, False),
+            (["--robot", "ur5"], "--robot: ur5 not in {panda,fr3}", 2, False),
+        ):
+            with started_with_pipe(*arguments) as (process, lines):
+                (report,) = [json.loads(line) for line in lines]
+                assert process.wait(60) == report["status"] == status
+                assert sentence in report.pop("error") and report["address_in_use"] == in_use
+
+
+def test_robots_are_served_if_nobody_reads_the_report():
+    ours, theirs = os.pipe()
+    os.close(ours)
+    words = [find_program(), f"--ready-fd={theirs}", "--ip=127.0.22.35", "--pace=lockstep"]
+    with subprocess.Popen(words, pass_fds=[theirs], stderr=subprocess.PIPE, text=True) as process:
+        os.close(theirs)
+        assert "nothing can be written to descriptor" in process.stderr.readline()
+        with socket.create_connection(("127.0.22.35", 1340), timeout=60) as connection:
+            connection.sendall(b"quit\n")
+        assert process.wait(60) == 0
+
+
 def test_invalid_control_commands_are_reported():
     with simulated("127.0.22.4") as (send, _):
         assert send("dance").startswith("error: There is no command 'dance'")
@@ -140,8 +222,8 @@ def test_invalid_control_commands_are_reported():
 
 
 def test_robots_of_one_world_have_their_own_addresses_and_names():
-    turned = SimRobot("panda", base=(0.5, 1, 0, 1.5708))
-    with served("panda", turned, SimRobot("fr3", base=(0, -1, 0)), pace="lockstep") as (send, server):
+    turned = Panda(base=(0.5, 1, 0, 1.5708))
+    with served("panda", turned, FR3(base=(0, -1, 0)), pace="lockstep") as (send, server):
         heads = {}
         for name in ("panda", "panda_2", "fr3"):
             heads[name] = [float(word) for word in send(f"where {name}_link0").split()[1:]]
@@ -172,7 +254,7 @@ def test_a_vacuum_gripper_replaces_the_gripper():
 
 
 def test_every_option_also_takes_its_value_after_an_equals_sign():
-    robot = SimRobot("fr3", "left", base=(0, 1, 0), hand="none", realism="real", protocol=10)
+    robot = FR3("left", base=(0, 1, 0), hand="none", realism="real", protocol=10)
     words = [*robot.options(), "--control-port=1340", "--pace=lockstep", "--linger=0"]
     assert len(words) == 10 and all("=" in word for word in words)
     with served(robot, pace="lockstep", world="stone.xml", arguments=words[7:]) as (send, _):
@@ -299,7 +381,7 @@ def test_a_switch_is_answered_after_a_state_shows_its_mode(words, mode):
 def test_loads_pushes_and_places_are_answered_after_they_took_effect(tmp_path):
     (tmp_path / "world.xml").write_text(WORLD)
     options = {"world": tmp_path / "world.xml", "arguments": ["--realism=ideal"]}
-    robot = SimRobot("panda", address="127.0.22.19")
+    robot = Panda(address="127.0.22.19")
     with served(robot, **options) as (send, _), Client("127.0.22.19", 5) as client:
         client.connect()
         for kilograms in (0.5, 0.0) * 10:

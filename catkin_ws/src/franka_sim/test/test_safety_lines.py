@@ -10,7 +10,7 @@ import threading
 import numpy
 import pyfranka
 import pytest
-from pyfranka.franka_sim import FrankaSim, SimRobot
+from pyfranka.franka_sim import FrankaSim
 from pyfranka.remote import LineRefused, Remote
 from waiting import wait_for
 
@@ -24,7 +24,7 @@ fr3 = pytest.mark.parametrize("robot", ["fr3"], indirect=True)
 @pytest.fixture
 def robot(request):
     """A locked robot: a Panda, unless a mark says otherwise."""
-    with FrankaSim(SimRobot(getattr(request, "param", "panda")), arguments=["--start=locked"]) as sim:
+    with FrankaSim(getattr(request, "param", "panda"), arguments=["--start=locked"]) as sim:
         yield sim.robot
 
 
@@ -88,7 +88,7 @@ def test_the_hand_is_homed_once_after_each_start(robot):
 def test_the_report_is_complete(robot):
     state = report(robot)
     assert state["type"] == robot.kind
-    assert state["arm_id"] == robot.arm_id
+    assert state["arm_id"] == robot.name
     assert state["protocol"] == ([3, 5] if robot.kind == "panda" else [6, 10])
     assert (state["rules"], state["mode"], state["client"], state["fault"]) == ("desk", "Other", 0, "")
     assert (len(state["q"]), len(state["O_T_EE"]), len(state["O_F_ext"])) == (7, 16, 6)
@@ -201,7 +201,7 @@ def call_in_motion(robot, call):
 
 def test_stopped_motion_is_reported():
     with FrankaSim("panda", pace="10") as sim:
-        sim.robot.remote.fci(False)
+        sim.robot.remote.deactivate_fci()
         call_in_motion(sim.robot, lambda remote: remote.move("stop"))
         with pytest.raises(LineRefused, match="ended before"):
             sim.robot.remote.move([1, -0.8, 0, -2.4, 0, 1.6, 0.8], speed=0.002)
@@ -214,7 +214,7 @@ def test_a_reset_ends_a_motion_unfinished():
     start = [0, -0.8, 0, -2.4, 0, 1.6, 0.8]
     with FrankaSim("panda", pace="10") as sim:
         robot = sim.robot
-        robot.remote.fci(False)
+        robot.remote.deactivate_fci()
         robot.remote.move(start, speed=1.0)
         before = report(robot)["q"]
         call_in_motion(robot, Remote.reset)

@@ -5,7 +5,7 @@
     franka_desk --robot 127.0.0.1
 
 For programs that log in to a robot before they use the FCI, and for browsers, it behaves like a real one
-(docs/desk.md). It needs aiohttp and cryptography: the extra `pyfranka[desk]`, or Debian's packages. Desk
+(docs/desk.md). It needs aiohttp and cryptography: the wheel's extra `desk`, or Debian's packages. Desk
 talks to the robot over its control interface only (docs/franka_sim.md).
 
 Layers of modules, the lowest first. A module imports only those that are listed before it, also for types
@@ -26,20 +26,22 @@ from __future__ import annotations
 import importlib
 import typing
 
+from pyfranka._deprecation import warn
+
 if typing.TYPE_CHECKING:
     from pyfranka.desk.desk import Desk
     from pyfranka.desk.errors import Refused, RobotGone
-    from pyfranka.desk.robot import Robot
+    from pyfranka.desk.robot import DeskRobot
     from pyfranka.desk.server import make_app
     from pyfranka.desk.settings import Limits, Options, Settings
 
-__all__ = ["Desk", "Limits", "Options", "Refused", "Robot", "RobotGone", "Settings", "make_app"]
+__all__ = ["Desk", "DeskRobot", "Limits", "Options", "Refused", "RobotGone", "Settings", "make_app"]
 _MODULES = {
     "Desk": "desk",
+    "DeskRobot": "robot",
     "Limits": "settings",
     "Options": "settings",
     "Refused": "errors",
-    "Robot": "robot",
     "RobotGone": "errors",
     "Settings": "settings",
     "make_app": "server",
@@ -48,6 +50,9 @@ _MODULES = {
 
 def __getattr__(name: str):
     """Imports a name when it is used: the program's --help does not need aiohttp."""
+    if name == "Robot":
+        warn("pyfranka.desk.Robot", "pyfranka.desk.DeskRobot")
+        name = "DeskRobot"
     if name in _MODULES:
         return getattr(importlib.import_module(f"pyfranka.desk.{_MODULES[name]}"), name)
     raise AttributeError(f"module 'pyfranka.desk' has no attribute '{name}'")

@@ -15,8 +15,9 @@ import signal
 import sys
 from collections.abc import Sequence
 
+from pyfranka.command_line import install_command
 from pyfranka.desk.profiles import PROFILES
-from pyfranka.desk.robot import PORT, Robot
+from pyfranka.desk.robot import PORT, DeskRobot
 from pyfranka.desk.settings import USER, Options, Settings
 
 PASSWORD = "FRANKA_DESK_PASSWORD"
@@ -49,8 +50,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
         return asyncio.run(_run(robots, listen, settings, words.child))
     except ModuleNotFoundError as error:
         print(
-            f"franka_desk: Desk needs the Python package {error.name}. Install python3-aiohttp and "
-            "python3-cryptography, or pyfranka[desk] by pip.",
+            f"franka_desk: Desk needs the Python package {error.name}: {install_command('desk')}.",
             file=sys.stderr,
         )
     except CannotListen as error:
@@ -94,7 +94,12 @@ def _parser() -> argparse.ArgumentParser:
         metavar="NAME=VALUE",
         help="see docs/desk.md; may be repeated",
     )
-    parser.add_argument("--child", action="store_true", help="end when standard input ends")
+    parser.add_argument(
+        "--child",
+        type=int,
+        metavar="N",
+        help="for franka_sim: end when standard input ends; the addresses go to descriptor N, one a line",
+    )
     return parser
 
 
@@ -115,12 +120,12 @@ def _place(word: str, port: int) -> tuple[str, int]:
 
 
 async def _run(
-    places: list[tuple[str, int]], listen: tuple[str, int] | None, settings: Settings, child: bool
+    places: list[tuple[str, int]], listen: tuple[str, int] | None, settings: Settings, child: int | None
 ) -> int:
     from pyfranka.desk.server import app_of, make_desks  # aiohttp takes a while
 
-    end = _end(child)
-    robots = [Robot(*place) for place in places]
+    end = _end(child is not None)
+    robots = [DeskRobot(*place) for place in places]
     await asyncio.gather(*(robot.start(FIRST_REPORT) for robot in robots))
     desks = make_desks(robots, settings)
     sites = []
@@ -129,6 +134,9 @@ async def _run(
         desks[number].power.site = sites[-1]
     for desk, site in zip(desks, sites):
         print(f"franka_desk: robot at {desk.robot.place}: https://{site.address}:{site.port}", flush=True)
+    if child is not None:
+        with os.fdopen(child, "w") as addresses:
+            addresses.writelines(f"https://{site.address}:{site.port}\n" for site in sites)
     await end.wait()
     for site in sites:
         await site.cleanup()
@@ -138,7 +146,7 @@ async def _run(
     return 0
 
 
-def _ports(listen: tuple[str, int] | None, robot: Robot, number: int) -> list[tuple[str, int]]:
+def _ports(listen: tuple[str, int] | None, robot: DeskRobot, number: int) -> list[tuple[str, int]]:
     if listen is None:
         return [(robot.address, HTTPS), (robot.address, OTHER_HTTPS)]
     return [(listen[0], listen[1] + number if listen[1] else 0)]

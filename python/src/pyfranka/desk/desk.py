@@ -17,7 +17,7 @@ from pyfranka.desk.fci import FciActivation
 from pyfranka.desk.limits import Gate
 from pyfranka.desk.power import Power
 from pyfranka.desk.profiles import PROFILES, Profile, profile_of
-from pyfranka.desk.robot import Robot
+from pyfranka.desk.robot import DeskRobot
 from pyfranka.desk.sessions import Sessions, User, Users
 from pyfranka.desk.settings import Settings
 from pyfranka.desk.tokens import Tokens
@@ -30,7 +30,7 @@ class Desk:
     """robot: its control interface. users: of all robots of this process. tokens: control and requests for
     it."""
 
-    def __init__(self, robot: Robot, settings: Settings, users: Users, gate: Gate):
+    def __init__(self, robot: DeskRobot, settings: Settings, users: Users, gate: Gate):
         self.robot, self.settings, self.users, self.gate = robot, settings, users, gate
         self.options = settings.options
         self.all = [self]  # the Desks of this process

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 from pyfranka.desk import checks
 from pyfranka.desk.errors import DeskError, bad_request
-from pyfranka.desk.robot import Robot
+from pyfranka.desk.robot import DeskRobot
 from pyfranka.robot_report import EndEffector
 
 Json = dict[str, typing.Any]
@@ -66,7 +66,7 @@ class Profile:
 class EndEffectors:
     """Profiles of one robot; exactly one of them is active. selection: the device of a Panda."""
 
-    robot: Robot
+    robot: DeskRobot
     selection: str = GRIPPER
     _profiles: dict[str, Profile] = field(default_factory=dict)
     _active: str = ""

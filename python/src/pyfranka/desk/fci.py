@@ -8,7 +8,7 @@ import asyncio
 import contextlib
 from collections.abc import Callable, Coroutine
 
-from pyfranka.desk.robot import Robot
+from pyfranka.desk.robot import DeskRobot
 from pyfranka.desk.settings import Options
 from pyfranka.robot_report import Report
 
@@ -19,7 +19,7 @@ class FciActivation:
     """desired: the FCI becomes active as soon as the robot's rules allow it. begin: runs a coroutine in
     parallel to the requests."""
 
-    def __init__(self, robot: Robot, options: Options, begin: Callable[[Coroutine], object]):
+    def __init__(self, robot: DeskRobot, options: Options, begin: Callable[[Coroutine], object]):
         self.desired = False
         self._robot, self._options, self._begin = robot, options, begin
         self._next_attempt = 0.0

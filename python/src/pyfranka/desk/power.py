@@ -10,7 +10,7 @@ import typing
 from collections.abc import Awaitable, Callable, Coroutine
 
 from pyfranka.desk.errors import Refused, RobotGone, unavailable
-from pyfranka.desk.robot import Robot
+from pyfranka.desk.robot import DeskRobot
 from pyfranka.robot_report import Report
 
 LAST_ANSWERS = 0.3  # [s] for which Desk still answers (chosen here)
@@ -38,7 +38,7 @@ class Power:
 
     def __init__(
         self,
-        robot: Robot,
+        robot: DeskRobot,
         begin: Callable[[Coroutine], asyncio.Task],
         clear: Callable[[], Awaitable[None]],
         boot_time: Callable[[], float],

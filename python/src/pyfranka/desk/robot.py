@@ -26,7 +26,7 @@ LINES, URGENT_LINES = 3, 2
 log = logging.getLogger("franka_desk")
 
 
-class Robot:
+class DeskRobot:
     """One robot's control interface. Everything runs in one event loop.
 
     report: the newest report, or None before the first one and while the robot is lost; text: the same in
@@ -50,7 +50,7 @@ class Robot:
         self._first = asyncio.Event()
 
     def __repr__(self) -> str:
-        return f"Robot({self.address!r}, {self.port})"
+        return f"DeskRobot({self.address!r}, {self.port})"
 
     @property
     def place(self) -> str:

@@ -17,7 +17,7 @@ from pyfranka.desk import access, legacy, page_api, sockets, v1
 from pyfranka.desk.desk import Desk
 from pyfranka.desk.errors import DeskError, Refused, RobotGone, bad_request, unavailable
 from pyfranka.desk.limits import Gate
-from pyfranka.desk.robot import Robot
+from pyfranka.desk.robot import DeskRobot
 from pyfranka.desk.routes import Call, Route, Routes
 from pyfranka.desk.sessions import Users
 from pyfranka.desk.settings import Settings
@@ -32,7 +32,7 @@ TEMPORARY = {"SelfTestRunning", "NotReady"}  # refusals that end after some time
 log = logging.getLogger("franka_desk")
 
 
-def make_desks(robots: Sequence[Robot], settings: Settings) -> list[Desk]:
+def make_desks(robots: Sequence[DeskRobot], settings: Settings) -> list[Desk]:
     """Desks of robots, with the same users. Needs a running event loop."""
     users, gate = Users(settings.user, settings.password), Gate(settings.limits)
     desks = [Desk(robot, settings, users, gate) for robot in robots]
@@ -41,7 +41,7 @@ def make_desks(robots: Sequence[Robot], settings: Settings) -> list[Desk]:
     return desks
 
 
-def make_app(robots: Sequence[Robot], settings: Settings) -> web.Application:
+def make_app(robots: Sequence[DeskRobot], settings: Settings) -> web.Application:
     """The application of the first robot. The paths of the others are below /robots/N, counted from 0."""
     return app_of(make_desks(robots, settings), 0)
 

@@ -9,14 +9,25 @@ env = gymnasium.make("pyfranka/PickAndPlace-v0", robot="fr3", control="joint_del
 worlds = gymnasium.make_vec("pyfranka/PickAndPlace-v0", num_envs=8)
 """
 
-from gymnasium.envs.registration import register, registry
+try:
+    from gymnasium.envs.registration import register, registry
+except ModuleNotFoundError as error:
+    if not str(error.name).startswith("gymnasium"):
+        raise
+    raise ModuleNotFoundError(
+        "pyfranka.gym needs the Python package gymnasium: install the wheel with its extra, "
+        "pip install 'pyfranka-....whl[gym]'; in the workspace run ./franka install extras, and use "
+        ".venv/bin/python3.",
+        name="gymnasium",
+    ) from None
 
 from .environment import Environment
+from .record_episodes import RecordEpisodes
 from .scripted import scripted_policy
 from .tasks import TASKS
 from .vector_environment import VectorEnvironment
 
-__all__ = ["Environment", "VectorEnvironment", "scripted_policy"]
+__all__ = ["Environment", "RecordEpisodes", "VectorEnvironment", "scripted_policy"]
 
 for _name, _task in TASKS.items():
     if f"pyfranka/{_name}-v0" not in registry:

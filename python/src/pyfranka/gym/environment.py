@@ -5,7 +5,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import MISSING, dataclass, fields
+from importlib.util import find_spec
 from typing import Any
 
 import gymnasium
@@ -17,9 +18,10 @@ from pyfranka.sim import KINDS, Simulation
 from pyfranka.sim.arguments import items, numbers, seed_of, text, whole
 
 from .actions import CONTROLS
-from .episode import MAX_OPENING_TICKS, OPENING, Episode, layout_of, size_of_action
+from .episode import MAX_OPENING_TICKS, OPENING, Bounds, Episode, layout_of, size_of_action
 from .randomization import Randomization, Setting
 from .tasks import TASKS, Task
+from .window import Window
 
 __all__ = ["Environment", "Options"]
 
@@ -28,6 +30,7 @@ MAX_PICTURE_SIDE = 4096  # [pixel]
 OBSERVATIONS = ("state", "state+pictures")
 REWARDS = ("sparse", "dense")
 REFLEXES = ("recover", "terminate")
+RENDER_MODES = ("human", "rgb_array")
 
 
 def chosen(name: str, value: Any, known: Sequence[str]) -> Any:
@@ -53,6 +56,20 @@ class Options:
     camera: str = ""
     size: tuple[int, int] = (128, 96)
     render_mode: str | None = None
+    render_size: tuple[int, int] = (640, 480)
+
+    @classmethod
+    def of(cls, task: str | None = None, /, **arguments: Any) -> Options:
+        """From arguments by their names. Raises TypeError for unknown ones, ValueError and TypeError for
+        values that cannot be used."""
+        known = {each.name: each.default for each in fields(cls)}
+        wrong = [f"'{name}'" for name in arguments if name not in known]
+        if wrong:
+            raise TypeError(
+                f"An environment has no option {', '.join(wrong)}; its options are "
+                f"{', '.join(name for name, default in known.items() if default is not MISSING)}."
+            )
+        return cls(**{"task": task, **arguments})
 
     def __post_init__(self):
         chosen("task", self.task, tuple(TASKS))
@@ -62,7 +79,7 @@ class Options:
         chosen("reward", self.reward, REWARDS)
         chosen("on_reflex", self.on_reflex, REFLEXES)
         if self.render_mode is not None:
-            chosen("render_mode", self.render_mode, ("rgb_array",))
+            chosen("render_mode", self.render_mode, RENDER_MODES)
         (frequency,) = numbers(self.frequency, "frequency", 1)
         if not (1.0 <= frequency <= 1000.0 and abs(1000.0 / frequency % 1.0) < 1e-9):
             raise ValueError(
@@ -70,9 +87,11 @@ class Options:
             )
         text(self.camera, "camera")
         text(self.realism, "realism")
-        sides = items(self.size, "size", "width and height")
-        if len(sides) != 2 or not all(1 <= whole(side, "size") <= MAX_PICTURE_SIDE for side in sides):
-            raise ValueError(f"size is width and height, 1 to {MAX_PICTURE_SIDE} pixels, not {self.size}.")
+        for name in ("size", "render_size"):
+            size = getattr(self, name)
+            sides = items(size, name, "width and height")
+            if len(sides) != 2 or not all(1 <= whole(side, name) <= MAX_PICTURE_SIDE for side in sides):
+                raise ValueError(f"{name} is width and height, 1 to {MAX_PICTURE_SIDE} pixels, not {size}.")
 
     @property
     def kind(self) -> type[Task]:
@@ -100,39 +119,36 @@ class Options:
         """The position of each part in the vector "observation"."""
         return layout_of(self.kind, self.setting().names())
 
-    def observation_space(self) -> spaces.Dict:
-        size = max(part.stop for part in self.layout().values())
-        goal = 3 + len(self.kind.flags)
+    def observation_space(self, bounds: Mapping[str, Bounds]) -> spaces.Dict:
+        """With these bounds of its vectors."""
         parts: dict[str, spaces.Space] = {
-            name: spaces.Box(-numpy.inf, numpy.inf, (count,), numpy.float64)
-            for name, count in (("observation", size), ("achieved_goal", goal), ("desired_goal", goal))
+            name: spaces.Box(low, high, dtype=numpy.float32) for name, (low, high) in bounds.items()
         }
         if self.observation == "state+pictures":
             width, height = self.size
             parts["picture"] = spaces.Box(0, 255, (height, width, 3), numpy.uint8)
         return spaces.Dict(parts)
 
-    def rewards(self, achieved: numpy.ndarray, desired: numpy.ndarray, reach: Any) -> numpy.ndarray:
-        """Of goals, ... x size, and mean distances of end effectors from the object [m]."""
-        if self.reward == "dense":
-            return self.kind.dense(achieved, desired, reach)
-        return self.kind.success(achieved, desired) - 1.0
-
-    def reward_of(self, achieved: numpy.ndarray, desired: numpy.ndarray, info: Mapping[str, Any]) -> float:
-        """The same of a step with this info."""
-        if self.reward == "dense":
-            return float(self.kind.dense(achieved, desired, info["reach"]))
-        return 0.0 if info["is_success"] else -1.0
-
-    def check_camera(self, sim: Simulation) -> None:
-        """Raises ValueError if the world does not have the camera."""
+    def new_episode(self, sim: Simulation, like: Episode | None = None) -> Episode:
+        """In a simulation that was just made, as Episode. Raises ValueError if it lacks the camera."""
         if self.camera and self.camera not in sim.cameras():
             known = ", ".join(sim.cameras()) or "none"
             raise ValueError(f"There is no camera '{self.camera}'; there are: {known}.")
+        return Episode(self.kind(), sim, self.control, self.reward == "dense", like)
+
+    def rewards(self, achieved: numpy.ndarray, desired: numpy.ndarray) -> numpy.ndarray:
+        """Of goals, ... x size."""
+        if self.reward == "dense":
+            return self.kind.dense(achieved, desired)
+        return self.kind.success(achieved, desired) - 1.0
 
     def picture(self, sim: Simulation) -> numpy.ndarray:
-        """The camera's picture, height x width x 3."""
+        """The camera's picture for an observation, height x width x 3."""
         return sim.render(self.camera, *self.size).rgb
+
+    def rendered(self, sim: Simulation) -> numpy.ndarray:
+        """The camera's picture for people, height x width x 3."""
+        return sim.render(self.camera, *self.render_size).rgb
 
 
 def checked_action(action: Any, shape: tuple[int, ...], unit: str) -> numpy.ndarray:
@@ -158,16 +174,6 @@ def checked_goals(goals: Any, size: int) -> numpy.ndarray:
     return values
 
 
-def reach_of(info: Any) -> numpy.ndarray:
-    """The distances in infos of steps; raises ValueError."""
-    try:
-        return numpy.asarray(info["reach"] if isinstance(info, Mapping) else [one["reach"] for one in info])
-    except (TypeError, KeyError):
-        raise ValueError(
-            "The dense reward needs the info of a step, with 'reach', or a sequence of such."
-        ) from None
-
-
 def make_ready(episodes: Sequence[Episode], step) -> None:
     """Lets the hands of new episodes open. step: steps their simulations."""
     for _ in range(MAX_OPENING_TICKS // OPENING):
@@ -183,8 +189,7 @@ def make_ready(episodes: Sequence[Episode], step) -> None:
 def new_episode(options: Options, randomization: Randomization, random: numpy.random.Generator) -> Episode:
     """In a simulation of its own, in which everything that is randomized is drawn."""
     sim = randomization.make(options.setting(), random)
-    options.check_camera(sim)
-    episode = Episode(options.kind(), sim, options.control)
+    episode = options.new_episode(sim)
     make_ready([episode], sim.step)
     return episode
 
@@ -196,25 +201,32 @@ class Environment(gymnasium.Env):
     cartesian_delta. observation: state, state+pictures. reward: sparse, dense. frequency: of the policy
     [Hz]. realism: a profile of docs/sim_to_real.md. randomize: what is drawn for each episode. on_reflex:
     recover (the arm is recovered, its actions have no effect meanwhile), terminate. camera: name; empty: a
-    view of the whole world. size: width and height of pictures.
+    view of the whole world. size: width and height of observed pictures. render_mode: human (a window, which
+    needs pygame), rgb_array. render_size: width and height of what render() draws.
 
-    Raises ValueError or RuntimeError with a sentence. Called by one thread.
+    Raises ValueError, TypeError, RuntimeError or ImportError with a sentence. Called by one thread.
     """
 
-    metadata = {"render_modes": ["rgb_array"], "render_fps": 20}
+    metadata = {"render_modes": list(RENDER_MODES), "render_fps": 20}
 
     def __init__(self, task: str, **options: Any):
-        self.options = options = Options(task, **options)
-        self.action_space, self.observation_space = options.action_space(), options.observation_space()
-        self.layout = options.layout()
+        self.options = options = Options.of(task, **options)
+        self.action_space, self.layout = options.action_space(), options.layout()
         self.render_mode = options.render_mode
-        self.metadata = {**self.metadata, "render_fps": options.frequency}
+        # The checker of Gymnasium tries all modes.
+        modes = [mode for mode in RENDER_MODES if mode != "human" or find_spec("pygame")]
+        self.metadata = {"render_modes": modes, "render_fps": options.frequency}
         self._randomization = Randomization.of(options.randomize, options.kind)
         self._unit = CONTROLS[options.control].unit
         self._parts = options.parts()
         self._episode: Episode | None = None
         self._begun = self._closed = False
+        self._window: Window | None = None
+        if self.render_mode == "human":
+            title = f"pyfranka/{options.task}-v0"
+            self._window = Window(title, options.render_size, options.frequency)
         self._renew(numpy.random.default_rng(0))  # what cannot be simulated is refused now
+        self.observation_space = options.observation_space(self._episode.view.bounds)
 
     @property
     def episode(self) -> Episode:
@@ -262,7 +274,7 @@ class Environment(gymnasium.Env):
             episode.sim.step(ticks)
         observation = self._observe(1e-3 * self.options.ticks)
         info = episode.report(observation)
-        reward = self.options.reward_of(observation["achieved_goal"], episode.desired, info)
+        reward = float(self.options.rewards(observation["achieved_goal"], episode.desired))
         terminated = info["is_success"] or (self.options.on_reflex == "terminate" and episode.stopped)
         return observation, reward, terminated, episode.stuck, info
 
@@ -270,24 +282,28 @@ class Environment(gymnasium.Env):
         observation = self._episode.observe(seconds)
         if "picture" in self.observation_space.spaces:
             observation["picture"] = self.options.picture(self._episode.sim)
+        if self._window:
+            self._window.show(self.options.rendered(self._episode.sim))
         return observation
 
-    def compute_reward(self, achieved_goal: numpy.ndarray, desired_goal: numpy.ndarray, info: Any):
-        """The reward of goals, ... x size, and of the infos that belong to them: one, or a sequence. For
-        replay with other goals (HER). The sparse reward needs no info. Raises ValueError."""
+    def compute_reward(self, achieved_goal: numpy.ndarray, desired_goal: numpy.ndarray, info: Any = None):
+        """The reward of goals, ... x size, for replay with other goals (HER). info: not used. Raises
+        ValueError."""
         size = self.observation_space["desired_goal"].shape[0]
         achieved, desired = (checked_goals(goals, size) for goals in (achieved_goal, desired_goal))
-        reach = reach_of(info) if self.options.reward == "dense" else 0.0
-        rewards = self.options.rewards(achieved, desired, reach)
-        return float(rewards) if achieved.ndim == 1 else rewards
+        rewards = self.options.rewards(achieved, desired)
+        return float(rewards) if rewards.ndim == 0 else rewards
 
     def render(self):
-        """A picture, height x width x 3, with render_mode="rgb_array"."""
+        """A picture, height x width x 3, with render_mode="rgb_array". With "human" reset() and step() show
+        it."""
         self._require_open()
-        return self.options.picture(self._episode.sim) if self.render_mode else None
+        return self.options.rendered(self._episode.sim) if self.render_mode == "rgb_array" else None
 
     def close(self) -> None:
         """Ends the simulation; further calls raise ClosedEnvironmentError."""
         if not self._closed:
             self._episode.sim.close()
+            if self._window:
+                self._window.close()
         self._closed = True

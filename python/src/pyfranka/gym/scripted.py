@@ -104,11 +104,11 @@ class Script:
         self._write, self._steps = write, None
 
     def part(self, name: str) -> Vector:
-        return self._observation["observation"][self._layout[name]]
+        return self._observation["observation"][self._layout[name]].astype(float)
 
     @property
     def goal(self) -> Vector:
-        return self._observation["desired_goal"][:3]
+        return self._observation["desired_goal"][:3].astype(float)
 
     @property
     def place(self) -> Vector:

@@ -3,7 +3,8 @@
 """The tasks: their worlds, their random beginnings, and what counts as success.
 
 A goal is a vector: a position x, y, z in the world [m], and flags that are 0 or 1. A task has succeeded when
-the position is nearer than its tolerance and all flags are as desired.
+the position is nearer than its tolerance and all flags are as desired. With the dense reward, goals of a task
+with an object have one number more, the distance of the end effectors from it (Task.reach), desired 0.
 """
 
 from __future__ import annotations
@@ -70,15 +71,18 @@ class Task:
     @classmethod
     def success(cls, achieved: Vector, desired: Vector) -> Vector:
         """Whether goals are reached; both ... x size."""
-        away = achieved - desired
+        away = numpy.subtract(achieved, desired, dtype=float)
         near = length_of(away[..., :3]) < cls.tolerance
-        return near & (numpy.abs(away[..., 3:]) < 0.5).all(axis=-1) if cls.flags else near
+        flags = away[..., 3 : 3 + len(cls.flags)]
+        return near & (numpy.abs(flags) < 0.5).all(axis=-1) if cls.flags else near
 
     @classmethod
-    def dense(cls, achieved: Vector, desired: Vector, reach: Vector | float) -> Vector:
-        """The dense reward: minus all that is missing [m]."""
-        away = achieved - desired
-        return -(length_of(away[..., :3]) + FLAG_COST * numpy.abs(away[..., 3:]).sum(axis=-1) + reach)
+    def dense(cls, achieved: Vector, desired: Vector) -> Vector:
+        """The dense reward of goals with the distance of the end effectors: minus all that is missing [m]."""
+        away = numpy.subtract(achieved, desired, dtype=float)
+        flags = numpy.abs(away[..., 3 : 3 + len(cls.flags)]).sum(axis=-1)
+        reach = numpy.asarray(achieved, dtype=float)[..., 3 + len(cls.flags) :].sum(axis=-1)
+        return -(length_of(away[..., :3]) + FLAG_COST * flags + reach)
 
 
 class Reach(Task):

@@ -36,7 +36,7 @@ class VectorEnvironment(VectorEnv):
     The rest as of Environment. With `randomize` each episode has a new simulation, which takes the place of
     the one before in the batch.
 
-    Raises ValueError or RuntimeError with a sentence. Called by one thread.
+    Raises ValueError, TypeError or RuntimeError with a sentence. Called by one thread.
     """
 
     def __init__(
@@ -50,7 +50,9 @@ class VectorEnvironment(VectorEnv):
         self.num_envs = whole(num_envs, "num_envs", 1)
         if max_episode_steps is not None:
             max_episode_steps = whole(max_episode_steps, "max_episode_steps", 1)
-        self.options = options = Options(**options)
+        self.options = options = Options.of(**options)
+        if options.render_mode is not None:
+            chosen("The render_mode of many environments", options.render_mode, ("rgb_array",))
         modes = {mode.value: mode for mode in AutoresetMode}
         if not isinstance(autoreset_mode, AutoresetMode):
             autoreset_mode = modes[chosen("autoreset_mode", autoreset_mode, tuple(modes))]
@@ -62,9 +64,7 @@ class VectorEnvironment(VectorEnv):
         }
         self.render_mode, self._limit = options.render_mode, max_episode_steps
         self.single_action_space = options.action_space()
-        self.single_observation_space = options.observation_space()
         self.action_space = batch_space(self.single_action_space, self.num_envs)
-        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self.layout, self._parts = options.layout(), options.parts()
         self._unit = CONTROLS[options.control].unit
         self._randomization = Randomization.of(options.randomize, options.kind)
@@ -74,12 +74,15 @@ class VectorEnvironment(VectorEnv):
         self._batch = SimulationBatch(
             self.num_envs, options.kind.world, robots, threads=threads, observe=["time"]
         )
-        options.check_camera(self._batch[0])
-        self._episodes = [Episode(options.kind(), sim, options.control) for sim in self._batch]
-        make_ready(self._episodes, self._batch.step)
+        first = options.new_episode(self._batch[0])
+        make_ready([first], self._batch[0].step)
+        self._episodes = [first, *(options.new_episode(sim, first) for sim in self._batch[1:])]
+        make_ready(self._episodes[1:], self._batch.step)
         self._view = self._episodes[0].view
+        self.single_observation_space = options.observation_space(self._view.bounds)
+        self.observation_space = batch_space(self.single_observation_space, self.num_envs)
         self._rows = numpy.zeros((self.num_envs, self._episodes[0].native.size))
-        self._desired = numpy.zeros((self.num_envs, self._goal_size()))
+        self._desired = numpy.zeros((self.num_envs, self._goal_size()), dtype=numpy.float32)
         self._randoms: list[numpy.random.Generator] = []
         self._steps = numpy.zeros(self.num_envs, dtype=int)
         self._ended = numpy.zeros(self.num_envs, dtype=bool)
@@ -174,7 +177,7 @@ class VectorEnvironment(VectorEnv):
             "reach": self._view.reach(self._rows),
             "reflexes": numpy.array([native.reflexes for native in natives]),
         }
-        rewards = self.options.rewards(seen["achieved_goal"], self._desired, infos["reach"])
+        rewards = self.options.rewards(seen["achieved_goal"], self._desired)
         rewards[resting] = 0.0
         if "picture" in self.single_observation_space.spaces:
             seen["picture"] = numpy.stack([self.options.picture(sim) for sim in self._batch])
@@ -236,7 +239,7 @@ class VectorEnvironment(VectorEnv):
     def render(self):
         """A picture of each environment, with render_mode="rgb_array"."""
         self._require_open()
-        return tuple(self.options.picture(sim) for sim in self._batch) if self.render_mode else None
+        return tuple(self.options.rendered(sim) for sim in self._batch) if self.render_mode else None
 
     def close_extras(self, **_: Any) -> None:
         """Ends the simulations; called by close()."""

@@ -13,7 +13,16 @@ except pyfranka.ControlException as error:
 
 from __future__ import annotations
 
-from matplotlib.figure import Figure
+try:
+    from matplotlib.figure import Figure
+except ModuleNotFoundError as error:
+    if not str(error.name).startswith("matplotlib"):
+        raise
+    raise ModuleNotFoundError(
+        "pyfranka.plot needs the Python package matplotlib: install python3-matplotlib, or the wheel with "
+        "its extra, pip install 'pyfranka-....whl[plot]'.",
+        name="matplotlib",
+    ) from None
 
 import pyfranka
 from pyfranka.plot.figure import plot, plot_abort

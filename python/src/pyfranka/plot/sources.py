@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import csv
+import os
 import re
 import threading
 from collections.abc import Callable, Iterable
@@ -33,11 +34,14 @@ FIRST_STATE = 10.0  # [s] to wait for it (chosen here)
 # ---- motion logs -----------------------------------------------------------------------------------------
 
 
-def read_log(file: Path, reason: Path | None = None, version: int = 0) -> tuple[Recording, Abort | None]:
+def read_log(
+    file: str | os.PathLike[str], reason: str | os.PathLike[str] | None = None, version: int = 0
+) -> tuple[Recording, Abort | None]:
     """A motion log: the CSV of franka::logToCSV. The reason is in a text file, by default beside it.
 
     @raises BadInput with a sentence if it is none
     """
+    file, reason = Path(file), None if reason is None else Path(reason)
     columns = _read_columns(file)
     if "time" not in columns or not any(name.startswith("state.") for name in columns):
         raise BadInput(
@@ -102,8 +106,9 @@ def _read_reason(file: Path, reason: Path | None) -> Abort | None:
 # ---- bags ------------------------------------------------------------------------------------------------
 
 
-def read_bag(file: Path, topic: str = "", version: int = 0) -> Recording:
+def read_bag(file: str | os.PathLike[str], topic: str = "", version: int = 0) -> Recording:
     """The states in a bag. @raises BadInput with a sentence if there are none, or of several robots"""
+    file = Path(file)
     try:
         import rosbag
     except ImportError:

@@ -19,11 +19,12 @@ thread at a time may use a simulation.
 
 from _pyfranka._sim import ArmModel, GripperOutcome, LiveState, RequestRefused, Snapshot
 
+from pyfranka._deprecation import renamed_in
 from pyfranka.remote import LineRefused, Remote, RemoteMesh, RemoteScene, RemoteShape, RemoteState
 from pyfranka.robot_report import Report
 
 from .batch import SimulationBatch
-from .robot import Action, Gripper, Robot
+from .robot import Action, Gripper, SimulatedRobot
 from .setups import FR3, KINDS, Panda
 from .simulation import Contact, Picture, Simulation
 
@@ -46,8 +47,10 @@ __all__ = [
     "RemoteState",
     "Report",
     "RequestRefused",
-    "Robot",
+    "SimulatedRobot",
     "Simulation",
     "SimulationBatch",
     "Snapshot",
 ]
+
+__getattr__ = renamed_in(__name__, Robot="SimulatedRobot")

@@ -33,15 +33,23 @@ def seed_of(value: typing.Any) -> int:
 
 
 def numbers(value: typing.Any, name: str, *sizes: int) -> NDArray[numpy.float64]:
-    """Finite numbers, as many as one of the sizes says, in one dimension."""
+    """Finite numbers in a row, as many as one of the sizes says; a single one may stand alone."""
     try:
-        values = numpy.asarray(value, dtype=float).ravel()
+        values = numpy.asarray(value)
+        if values.dtype.kind not in "biuf" or values.ndim > 1:
+            raise ValueError
+        values = numpy.array(values, dtype=float).ravel()
     except (TypeError, ValueError):
         values = numpy.full(1, numpy.nan)
     if values.size not in sizes or not numpy.isfinite(values).all():
         what = "a finite number" if sizes == (1,) else f"{' or '.join(map(str, sizes))} finite numbers"
         raise ValueError(f"{name} must be {what}, not {value!r}.")
     return values
+
+
+def inertia(value: typing.Any, name: str) -> NDArray[numpy.float64]:
+    """The nine numbers of an inertia: 3x3, or in a row."""
+    return numbers(numpy.ravel(value) if numpy.shape(value) == (3, 3) else value, name, 9)
 
 
 def path(value: typing.Any, name: str) -> str:

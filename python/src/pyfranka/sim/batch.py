@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping, Sequence
+from concurrent.futures import ThreadPoolExecutor
 
 import numpy
 from _pyfranka import _sim
@@ -19,14 +20,29 @@ from .simulation import Simulation
 MOST_WORLDS = 100_000  # chosen here: some hundred gigabytes
 
 
+def _worlds(world, robots, seeds: Sequence[int], threads: int) -> list[Simulation]:
+    """Simulations with these seeds. What cannot be simulated is refused after the first one."""
+
+    def made(seed: int) -> Simulation:
+        simulation = Simulation.__new__(Simulation)
+        simulation._make(world, robots, seed)
+        return simulation
+
+    first = made(seeds[0])
+    if threads == 1 or len(seeds) == 1:
+        return [first, *map(made, seeds[1:])]
+    with ThreadPoolExecutor(min(threads, len(seeds) - 1)) as pool:
+        return [first, *pool.map(made, seeds[1:])]
+
+
 class SimulationBatch(Sequence):
     """Worlds of the same robots, stepped together by threads in C++. `batch[i]` is a Simulation.
 
     number: of worlds. world, robots: as of Simulation. seed: of the batch; world i equals, bit for bit,
     `Simulation(world, robots, seed=batch.seeds[i])` run alone, whatever the number of threads. threads: that
-    step at once; without one, as many as there are cores. observe: what `observations` shows: "time",
-    "<robot>.<field>" (q, dq, O_T_EE, tau_J, width, robot_mode, ...), "<body>.pose" (x, y, z [m] and the
-    quaternion w, x, y, z) and "<body>.twist" [m/s, rad/s]; without it, what is usual.
+    make worlds and step them at once; without one, as many as there are cores. observe: what `observations`
+    shows: "time", "<robot>.<field>" (q, dq, O_T_EE, tau_J, width, robot_mode, ...), "<body>.pose" (x, y, z
+    [m] and the quaternion w, x, y, z) and "<body>.twist" [m/s, rad/s]; without it, what is usual.
 
     Raises ValueError and RuntimeError with a sentence.
     """
@@ -46,7 +62,9 @@ class SimulationBatch(Sequence):
             observe = [text(name, "A name of observe") for name in items(observe, "observe", "names")]
         sequence = numpy.random.SeedSequence(seed_of(seed))
         self.seeds = tuple(int(s) for s in sequence.generate_state(number))
-        self._worlds = [Simulation(world, robots, seed=one) for one in self.seeds]
+        robots = robots if robots is None else items(robots, "robots", "Panda(...) and FR3(...)")
+        self._worlds = _worlds(world, robots, self.seeds, threads)
+        self._worlds[0]._warn_of_overlaps(3)  # all have the same robots at the same places
         self._native = _sim.Batch([one._native for one in self._worlds], threads, observe)
         self._observations = self._native.observations
 
@@ -62,6 +80,9 @@ class SimulationBatch(Sequence):
 
     def __len__(self) -> int:
         return len(self._worlds)
+
+    def __repr__(self) -> str:
+        return f"<SimulationBatch of {len(self)} worlds, the first: {self[0]!r}>"
 
     def __enter__(self) -> SimulationBatch:
         return self

@@ -9,6 +9,8 @@ from _pyfranka import _sim
 from _pyfranka._sim import ArmModel, GripperOutcome, LiveState
 from numpy.typing import ArrayLike, NDArray
 
+from pyfranka._deprecation import renamed
+
 from .setups import _Setup
 
 Array = NDArray[numpy.float64]
@@ -17,9 +19,15 @@ Array = NDArray[numpy.float64]
 class Action:
     """A command of the hand, which runs while the simulation steps."""
 
-    def __init__(self, robot: _sim.Robot, ticket: int):
-        self._robot, self._ticket = robot, ticket
-        self._outcome = GripperOutcome.Running if ticket else GripperOutcome.Failed
+    def __init__(self, robot: _sim.Robot, ticket: int, what: str):
+        self._robot, self._ticket, self._what = robot, ticket, what
+        self._outcome = GripperOutcome.Running
+
+    def __repr__(self) -> str:
+        try:
+            return f"<Action {self._what}: {self.outcome.name}>"
+        except RuntimeError as error:
+            return f"<Action {self._what}: {error}>"
 
     @property
     def outcome(self) -> GripperOutcome:
@@ -40,31 +48,42 @@ class Action:
 
 
 class Gripper:
-    """The hand of a robot. Commands return at once with an Action; a new one interrupts the running one."""
+    """The hand of a robot. Commands return at once with an Action; a new one interrupts the running one.
+
+    What the hand refuses raises RequestRefused, as the arm's requests do: a width beyond max_width, a speed
+    or a force below zero. ValueError or TypeError: what is not a finite number. Nothing has changed then.
+    """
 
     def __init__(self, robot: _sim.Robot):
         self._robot = robot
         robot.hand_state()  # raises without a hand
 
+    def __repr__(self) -> str:
+        try:
+            width, max_width, grasped, _ = self._robot.hand_state()
+        except RuntimeError as error:
+            return f"<Gripper: {error}>"
+        return f"<Gripper: width {width:.4g} of {max_width:.4g} m, {'' if grasped else 'not '}grasped>"
+
     def homing(self) -> Action:
         """Closes and opens the fingers fully."""
-        return Action(self._robot, self._robot.hand_homing())
+        return Action(self._robot, self._robot.hand_homing(), "homing")
 
     def move(self, width: float, speed: float = 0.1) -> Action:
-        """Moves the fingers to a width [m] at a speed [m/s]; refused (Failed) for values that no hand has.
-        Raises ValueError or TypeError, as all commands do, for a value that is not a finite number."""
-        return Action(self._robot, self._robot.hand_move(width, speed))
+        """Moves the fingers to a width [m] at a speed [m/s]. Raises RequestRefused."""
+        return Action(self._robot, self._robot.hand_move(width, speed), "move")
 
     def grasp(
         self, width: float, speed: float, force: float, epsilon_inner=0.005, epsilon_outer=0.005
     ) -> Action:
         """Closes [m, m/s] and holds with a force [N]. Succeeds if the held object has the requested width,
-        within the epsilons [m]."""
-        return Action(self._robot, self._robot.hand_grasp(width, speed, force, epsilon_inner, epsilon_outer))
+        within the epsilons [m]. Raises RequestRefused."""
+        ticket = self._robot.hand_grasp(width, speed, force, epsilon_inner, epsilon_outer)
+        return Action(self._robot, ticket, "grasp")
 
     def stop(self) -> Action:
         """Ends the running command and the force of a grasp."""
-        return Action(self._robot, self._robot.hand_stop())
+        return Action(self._robot, self._robot.hand_stop(), "stop")
 
     @property
     def width(self) -> float:
@@ -87,18 +106,39 @@ class Gripper:
         return self._robot.hand_state()[3]
 
 
-class Robot:
-    """A robot of a simulation: `sim["panda"]`."""
+class SimulatedRobot:
+    """A robot of a simulation: `sim["panda"]`.
 
-    state: LiveState
-    model: ArmModel
+    What it refuses raises RequestRefused with its mode and what to do; ValueError or TypeError: arguments
+    that cannot be used; RuntimeError: the simulation is closed or in use by another thread. Nothing has
+    changed then.
+    """
 
     def __init__(self, native: _sim.Robot, setup: _Setup):
         self._native, self.setup = native, setup
-        self.state, self.model = native.state, native.model
+        self._state, self._model = native.state, native.model
         self._gripper: Gripper | None = None
-        if (load := setup._load()) is not None:
-            native.set_load(*load)
+        if setup.load is not None:
+            native.set_load(*setup.load)
+
+    def __repr__(self) -> str:
+        try:
+            mode = "moving" if self.moving else self.state.robot_mode.name
+        except RuntimeError as error:
+            mode = str(error)
+        return f"<{type(self.setup).__name__} '{self.name}': {mode}>"
+
+    @property
+    def state(self) -> LiveState:
+        """The present state. Its arrays are views that show each new tick; state.copy() stays."""
+        self._native.require_open()
+        return self._state
+
+    @property
+    def model(self) -> ArmModel:
+        """The model of its own control."""
+        self._native.require_open()
+        return self._model
 
     @property
     def name(self) -> str:
@@ -219,12 +259,21 @@ class Robot:
         """Presses or releases the user stop."""
         self._native.set_user_stop(pressed)
 
+    def close_brakes(self) -> None:
+        """Closes the brakes, which ends a motion."""
+        self._native.set_brakes(True)
+
+    def open_brakes(self) -> None:
+        """Opens the brakes, which takes some ticks."""
+        self._native.set_brakes(False)
+
+    @renamed("SimulatedRobot.set_brakes()", "close_brakes() and open_brakes()")
     def set_brakes(self, closed: bool) -> None:
-        """Closes or opens the brakes."""
         self._native.set_brakes(closed)
 
     def set_guiding(self, active: bool) -> None:
-        """Begins or ends guiding by hand. Raises RequestRefused."""
+        """Begins or ends guiding by hand. Raises RequestRefused with closed brakes, while the user stop is
+        pressed and in a recovery."""
         self._native.set_guiding(active)
 
     def set_joint_impedance(self, K_theta: ArrayLike) -> None:
@@ -259,6 +308,10 @@ class Robot:
         [kg m^2]."""
         self._native.set_load(mass, F_x_Cload, load_inertia)
 
-    def hash(self) -> int:
+    def state_hash(self) -> int:
         """Hash of all states since the first command; the control interface's `hash` of a served robot."""
         return self._native.hash()
+
+    @renamed("SimulatedRobot.hash()", "state_hash()")
+    def hash(self) -> int:
+        return self.state_hash()

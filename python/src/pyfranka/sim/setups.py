@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Robots as they are described before a simulation begins."""
+"""Robots as they are described before they are simulated, in process or on the network."""
 
 from __future__ import annotations
 
@@ -8,65 +8,90 @@ import os
 import re
 import typing
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy
 from _pyfranka import _sim
 from numpy.typing import ArrayLike
 
-from .arguments import numbers, path, text
+from .arguments import inertia, items, numbers, path, text, whole
 
 NOT_IN_NAMES = re.compile(r"[\s\"'<>&/:]")  # of XML, and of names in names
 
 
 @dataclass(frozen=True)
 class _Setup:
-    """A robot to add to a world.
+    """A robot to simulate, in this process (Simulation) or on the network (FrankaSim).
 
     name: prefix of its joints and links (its kind). base: x, y, z [m] and, optionally, the turn about the
-    vertical [rad]. hand: False for an arm without one; that of a urdf of one's own stays then, but is not
-    driven. load: mass [kg], center of mass in the flange's frame [m] and, optionally, inertia 3x3 [kg m^2],
-    as entered in Desk; it is not simulated. realism: a profile of docs/sim_to_real.md, such as
-    "real,friction=off". urdf: another description of this kind of robot.
+    vertical [rad]. hand: True (or "gripper"): the Franka Hand; False (or "none"): an arm without one, whose
+    urdf may have one that is not driven; "vacuum": the vacuum gripper, on the network only. load: mass [kg],
+    center of mass in the flange's frame [m] and, optionally, inertia 3x3 [kg m^2], as entered in Desk; it is
+    not simulated. realism: a profile of docs/sim_to_real.md, such as "real,friction=off"; empty: "ideal" in
+    this process, where programs learn, tune and test against exact physics, and "real" on the network, where
+    programs for a real robot must meet its friction and delays. urdf: another description of this kind of
+    robot.
 
-    Raises ValueError or TypeError with a sentence.
+    On the network only: protocol: the only version that it speaks; 0: all of its kind. address: where it is
+    served; empty: an address of its own. arguments: further options of the program franka_sim.
+
+    All values are checked here. Raises ValueError or TypeError with a sentence.
     """
 
     name: str = ""
     base: Sequence[float] = (0.0, 0.0, 0.0)
-    hand: bool = True
+    hand: bool | str = True
     load: Sequence[ArrayLike] | None = None
     realism: str = ""
     urdf: str | os.PathLike[str] = ""
+    protocol: int = field(default=0, kw_only=True)
+    address: str = field(default="", kw_only=True)
+    arguments: Sequence[str] = field(default=(), kw_only=True)
 
     kind: typing.ClassVar[str] = ""
+    _protocols: typing.ClassVar[range] = range(0)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if NOT_IN_NAMES.search(text(self.name, "name")):
             raise ValueError(f"name is the prefix of joints and links; it cannot be {self.name!r}.")
-        numbers(self.base, "base (x, y, z [m] and, optionally, the turn [rad])", 3, 4)
-        if not isinstance(self.hand, (bool, numpy.bool_)):
-            raise TypeError(f"hand must be True or False, not {self.hand!r}.")
-        text(self.realism, "realism")
-        path(self.urdf, "urdf")
-        self._load()
+        base = numbers(self.base, "base (x, y, z [m] and, optionally, the turn [rad])", 3, 4)
+        self._set("base", tuple(base.tolist()))
+        self._set("hand", _hand(self.hand))
+        self._set("load", _load(self.load))
+        _sim.check_realism(text(self.realism, "realism"))
+        self._set("urdf", path(self.urdf, "urdf"))
+        if self.urdf and not os.path.isfile(self.urdf):
+            raise ValueError(f"urdf: there is no file '{self.urdf}'.")
+        if whole(self.protocol, "protocol") and self.protocol not in self._protocols:
+            known = f"{self._protocols[0]} to {self._protocols[-1]}"
+            raise ValueError(f"protocol of a {self.kind} must be {known}, or 0 for all, not {self.protocol}.")
+        text(self.address, "address")
+        self._set("arguments", tuple(map(str, items(self.arguments, "arguments", "options"))))
 
-    def _load(self) -> tuple[float, numpy.ndarray, numpy.ndarray] | None:
-        """Mass, center of mass and inertia."""
-        if self.load is None:
-            return None
-        try:
-            mass, center, *inertia = self.load
-            (inertia,) = inertia or [numpy.zeros(9)]
-        except (TypeError, ValueError):
-            raise ValueError(
-                f"load must be mass, center of mass and, optionally, inertia, not {self.load!r}."
-            ) from None
-        return (
-            float(numbers(mass, "The mass of load [kg]", 1)[0]),
-            numbers(center, "The center of mass of load [m]", 3),
-            numbers(inertia, "The inertia of load [kg m^2]", 9),
-        )
+    def _set(self, name: str, value: typing.Any) -> None:
+        object.__setattr__(self, name, value)  # it is frozen for its users
+
+    def _require_in_process(self) -> None:
+        """Raises ValueError for what only robots on the network have."""
+        for name in ("protocol", "address", "arguments"):
+            if getattr(self, name):
+                raise ValueError(f"{name} of {self.kind} is for robots on the network: use FrankaSim.")
+        if self.hand == "vacuum":
+            raise ValueError("The vacuum gripper is served on the network only: use FrankaSim.")
+
+    def options(self) -> list[str]:
+        """The words of franka_sim's command line."""
+        words = [f"--robot={self.kind}", f"--ip={self.address}"]
+        given = {
+            "base": ",".join(map(repr, self.base)) if any(self.base) else "",
+            "hand": "" if self.hand is True else self.hand or "none",
+            "arm-id": self.name,
+            "realism": self.realism,
+            "protocol": self.protocol,
+            "urdf": self.urdf,
+        }
+        words += [f"--{option}={value}" for option, value in given.items() if value]
+        return [*words, *self.arguments]
 
     def _named(self, taken: set[str]) -> _Setup:
         """This, with a name of its own."""
@@ -86,33 +111,63 @@ class _Setup:
         return replace(self, realism=",".join([*words, f"seed={seed}"]))
 
     def _native(self) -> _sim.RobotSetup:
-        base = numpy.asarray(self.base, dtype=float).ravel()
-        yaw = float(base[3]) if base.size == 4 else 0.0
         return _sim.RobotSetup(
             robot=self.kind,
             name=self.name,
-            urdf=path(self.urdf, "urdf"),
-            base=base[:3],
-            yaw=yaw,
+            urdf=self.urdf,
+            base=self.base[:3],
+            yaw=self.base[3] if len(self.base) == 4 else 0.0,
             realism=self.realism,
-            hand=bool(self.hand),
+            hand=self.hand,
         )
+
+
+def _hand(hand: typing.Any) -> bool | str:
+    """True, False or "vacuum"."""
+    if isinstance(hand, (bool, numpy.bool_)):
+        return bool(hand)
+    words: dict[str, bool | str] = {"gripper": True, "none": False, "vacuum": "vacuum"}
+    if not isinstance(hand, str):
+        raise TypeError(f"hand must be True, False or 'vacuum', not {hand!r}.")
+    if hand not in words:
+        raise ValueError(f"hand must be True, False or 'vacuum', not {hand!r}.")
+    return words[hand]
+
+
+def _load(load: typing.Any) -> tuple[float, tuple[float, ...], tuple[float, ...]] | None:
+    """Mass, center of mass and inertia."""
+    if load is None:
+        return None
+    try:
+        mass, center, *rest = load
+        (turning,) = rest or [numpy.zeros(9)]
+    except (TypeError, ValueError):
+        raise ValueError(
+            f"load must be mass, center of mass and, optionally, inertia, not {load!r}."
+        ) from None
+    return (
+        float(numbers(mass, "The mass of load [kg]", 1)[0]),
+        tuple(numbers(center, "The center of mass of load [m]", 3).tolist()),
+        tuple(inertia(turning, "The inertia of load [kg m^2]").tolist()),
+    )
 
 
 @dataclass(frozen=True)
 class Panda(_Setup):
-    """A Panda to add to a world."""
+    """A Panda to simulate."""
 
     __doc__ = (__doc__ or "") + _Setup.__doc__.partition("\n")[2]  # none under python -OO
     kind: typing.ClassVar[str] = "panda"
+    _protocols: typing.ClassVar[range] = range(3, 6)
 
 
 @dataclass(frozen=True)
 class FR3(_Setup):
-    """An FR3 to add to a world."""
+    """An FR3 to simulate."""
 
     __doc__ = (__doc__ or "") + _Setup.__doc__.partition("\n")[2]  # none under python -OO
     kind: typing.ClassVar[str] = "fr3"
+    _protocols: typing.ClassVar[range] = range(6, 11)
 
 
 # The kinds of robots by their names.

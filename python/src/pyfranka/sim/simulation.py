@@ -12,15 +12,17 @@ import time
 import typing
 import warnings
 import weakref
-from collections.abc import Mapping, Sequence
+from collections.abc import ItemsView, Iterator, KeysView, Mapping, Sequence, ValuesView
 
 import numpy
 from _pyfranka import _sim
 from _pyfranka._sim import Snapshot
 from numpy.typing import ArrayLike, NDArray
 
+from pyfranka._deprecation import renamed
+
 from .arguments import items, mapping, numbers, path, seed_of, text
-from .robot import Array, Robot
+from .robot import Array, SimulatedRobot
 from .setups import FR3, Panda, _Setup
 
 NO_TURN = (1.0, 0.0, 0.0, 0.0)
@@ -66,8 +68,9 @@ def _attend(simulation: weakref.ref) -> None:
         time.sleep(ATTENTION)
 
 
-class Simulation(Mapping):
-    """A world with robots, stepped by the program. `sim["panda"]` is a Robot.
+class Simulation:
+    """A world with robots, stepped by the program. `sim["panda"]` is a SimulatedRobot; `for name in sim`,
+    `name in sim`, `len(sim)` and `sim.items()` are about its robots.
 
     world: an MJCF or SDF file, or the name of one that is installed with franka_sim (stone.xml, push.xml,
     hand_over.xml); empty: an empty world. robots: Panda and FR3. seed: of all randomness; the same seed and
@@ -79,33 +82,67 @@ class Simulation(Mapping):
     def __init__(
         self, world: str | os.PathLike[str] = "", robots: Sequence[_Setup] | None = None, seed: int = 1
     ):
+        self._make(world, robots, seed)
+        self._warn_of_overlaps(3)
+
+    def _make(self, world: str | os.PathLike[str], robots: Sequence[_Setup] | None, seed: int) -> None:
+        """Any thread may call it."""
         world, seed, taken = path(world, "world"), seed_of(seed), set()
         robots = [Panda()] if robots is None else items(robots, "robots", "Panda(...) and FR3(...)")
         for robot in robots:
             if not isinstance(robot, (Panda, FR3)):
                 raise TypeError(f"robots are Panda(...) and FR3(...), not {robot!r}.")
+            robot._require_in_process()
         named = [robot._named(taken) for robot in robots]
         setups = [robot._seeded(seed + i) for i, robot in enumerate(named)]
         self._random = numpy.random.default_rng(seed)
         self._attendant: threading.Thread | None = None
         self._native = _sim.Simulation(world, [setup._native() for setup in setups])
-        self._robots = {setup.name: Robot(self._native.robot(setup.name), setup) for setup in setups}
+        self._robots = {setup.name: SimulatedRobot(self._native.robot(setup.name), setup) for setup in setups}
+
+    def _warn_of_overlaps(self, stacklevel: int) -> None:
         for name in self:
             if overlaps := self._native.overlaps(name):
-                warnings.warn(f"{overlaps} Give it another base.", stacklevel=2)
+                warnings.warn(f"{overlaps} Give it another base.", stacklevel=stacklevel)
 
-    def __getitem__(self, name: str) -> Robot:
-        if not isinstance(name, str) or name not in self._robots:
-            raise KeyError(f"There is no robot '{name}'; there are: {', '.join(self._robots)}.")
+    def __repr__(self) -> str:
+        robots = ", ".join(f"'{name}'" for name in self) or "no robots"
+        try:
+            return f"<Simulation of {robots} at {self.time:g} s>"
+        except RuntimeError as error:
+            return f"<Simulation of {robots}: {error}>"
+
+    def __bool__(self) -> bool:
+        return True  # also without robots
+
+    def __getitem__(self, name: str) -> SimulatedRobot:
+        if name not in self:
+            raise KeyError(f"There is no robot '{name}'; there are: {', '.join(self) or 'none'}.")
         return self._robots[name]
 
-    def __iter__(self):
+    def __contains__(self, name: object) -> bool:
+        return isinstance(name, str) and name in self._robots
+
+    def __iter__(self) -> Iterator[str]:
         return iter(self._robots)
 
     def __len__(self) -> int:
         return len(self._robots)
 
+    def keys(self) -> KeysView[str]:
+        """Names of the robots."""
+        return self._robots.keys()
+
+    def values(self) -> ValuesView[SimulatedRobot]:
+        """The robots, in the order of `robots`."""
+        return self._robots.values()
+
+    def items(self) -> ItemsView[str, SimulatedRobot]:
+        """Names and robots."""
+        return self._robots.items()
+
     def __enter__(self) -> Simulation:
+        self._native.require_open()
         return self
 
     def __exit__(self, *error) -> None:
@@ -157,7 +194,7 @@ class Simulation(Mapping):
 
     @property
     def time(self) -> float:
-        """The same [s]."""
+        """Simulated time since the start or the last reset [s]."""
         return 1e-3 * self.ticks
 
     def step(self, ticks: int = 1) -> None:
@@ -222,7 +259,7 @@ class Simulation(Mapping):
         self._native.check_body_pose(body, position, orientation)
         return position, orientation
 
-    def _checked_pose(self, robot: Robot, q: ArrayLike | str) -> Array | None:
+    def _checked_pose(self, robot: SimulatedRobot, q: ArrayLike | str) -> Array | None:
         """None for a random pose."""
         if isinstance(q, str):
             if q != "random":
@@ -232,7 +269,7 @@ class Simulation(Mapping):
         robot._native.check_positions(values)
         return values
 
-    def _place_randomly(self, robot: Robot) -> None:
+    def _place_randomly(self, robot: SimulatedRobot) -> None:
         before = self.snapshot()
         for _ in range(TRIES):
             q = self._random.uniform(*robot.limits)
@@ -246,7 +283,7 @@ class Simulation(Mapping):
                 return
         raise RuntimeError(f"No random pose of '{robot.name}' is free of contacts ({TRIES} tries).")
 
-    def _touches(self, robot: Robot) -> bool:
+    def _touches(self, robot: SimulatedRobot) -> bool:
         own = f"{robot.name}_"
         touched = any(c.body1.startswith(own) or c.body2.startswith(own) for c in self.contacts())
         return touched or bool(self._native.overlaps(robot.name))
@@ -266,9 +303,13 @@ class Simulation(Mapping):
         """
         self._native.restore(snapshot)
 
-    def hash(self) -> int:
+    def state_hash(self) -> int:
         """Hash of the world's state: bodies, joints and what acts on them."""
         return self._native.hash()
+
+    @renamed("Simulation.hash()", "state_hash()")
+    def hash(self) -> int:
+        return self.state_hash()
 
     def bodies(self) -> list[str]:
         """Names of all bodies, links included."""

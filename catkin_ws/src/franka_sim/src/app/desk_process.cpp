@@ -7,15 +7,19 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <system_error>
 #include <thread>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 extern char** environ;
@@ -35,8 +39,8 @@ std::string programFile() {
   return !error && ::access(beside.c_str(), X_OK) == 0 ? beside.string() : kProgram;
 }
 
-std::vector<std::string> commandLine(const Options& options) {
-  std::vector<std::string> words{programFile(), "--child"};
+std::vector<std::string> commandLine(const Options& options, const fci::Descriptor& addresses) {
+  std::vector<std::string> words{programFile(), "--child=" + std::to_string(addresses.get())};
   for (const ArmOptions& arm : options.arms) {
     words.push_back("--robot=" + arm.ip + ":" + std::to_string(arm.control_port));
   }
@@ -74,20 +78,38 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
   return pointers;
 }
 
-}  // namespace
-
-DeskProcess::DeskProcess(const Options& options) {
+// Its end for reading, then that for writing.
+std::pair<fci::Descriptor, fci::Descriptor> makePipe() {
   std::array<int, 2> ends{-1, -1};
   if (::pipe2(ends.data(), O_CLOEXEC) != 0) {
     throw std::runtime_error(std::string("Desk cannot be started: ") + std::strerror(errno) + ".");
   }
-  const fci::Descriptor child_end(ends[0]);
-  input_ = fci::Descriptor(ends[1]);
-  std::vector<std::string> words = commandLine(options);
+  return {fci::Descriptor(ends[0]), fci::Descriptor(ends[1])};
+}
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream stream(text);
+  for (std::string line; std::getline(stream, line);) {
+    lines.push_back(line);
+  }
+  return lines;
+}
+
+}  // namespace
+
+DeskProcess::DeskProcess(const Options& options, Ready ready) : ready_(std::move(ready)) {
+  fci::Descriptor child_input, child_output;
+  std::tie(child_input, input_) = makePipe();
+  std::tie(output_, child_output) = makePipe();
+  ::fcntl(output_.get(), F_SETFL, O_NONBLOCK);
+  std::vector<std::string> words = commandLine(options, child_output);
   std::vector<std::string> variables = environmentOf(options);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
-  posix_spawn_file_actions_adddup2(&actions, child_end.get(), STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, child_input.get(), STDIN_FILENO);
+  // The same number: the child inherits it.
+  posix_spawn_file_actions_adddup2(&actions, child_output.get(), child_output.get());
   const int error = ::posix_spawnp(&process_, words.front().c_str(), &actions, nullptr,
                                    pointersTo(words).data(), pointersTo(variables).data());
   posix_spawn_file_actions_destroy(&actions);
@@ -108,6 +130,20 @@ bool DeskProcess::hasEnded(int& status) noexcept {
   return process_ <= 0;
 }
 
+void DeskProcess::readAddresses() {
+  std::array<char, 4096> part{};
+  ssize_t count = 0;
+  while (output_ && (count = ::read(output_.get(), part.data(), part.size())) > 0) {
+    addresses_.append(part.data(), static_cast<std::size_t>(count));
+  }
+  if (output_ && count == 0) {
+    output_.close();
+    if (!addresses_.empty()) {
+      std::exchange(ready_, nullptr)(linesOf(addresses_));
+    }
+  }
+}
+
 void DeskProcess::serve() {
   constexpr std::chrono::milliseconds kPause{200};
   const Clock::time_point now = Clock::now();
@@ -116,12 +152,22 @@ void DeskProcess::serve() {
   }
   checked_at_ = now;
   int status = 0;
-  if (hasEnded(status)) {
-    std::fprintf(stderr,
-                 "franka_sim: Desk has ended by itself (status %d); its messages stand above. The "
-                 "robots go on without it.\n",
-                 WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status));
+  const bool ended = hasEnded(status);
+  readAddresses();
+  if (!ended) {
+    return;
   }
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  // A request to end, such as Ctrl-C, reaches both programs.
+  const bool requested = code == 0 || code == 128 + SIGINT || code == 128 + SIGTERM;
+  if (ready_ && !requested) {
+    throw std::runtime_error("Desk has ended before it was ready (status " + std::to_string(code) +
+                             "); its messages stand above. The robots would stay locked.");
+  }
+  std::fprintf(stderr,
+               "franka_sim: Desk has ended by itself (status %d); its messages stand above. The "
+               "robots go on without it.\n",
+               code);
 }
 
 DeskProcess::~DeskProcess() {

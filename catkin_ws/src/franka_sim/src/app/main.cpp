@@ -13,18 +13,23 @@
 #include <malloc.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <deque>
 #include <exception>
 #include <functional>
 #include <future>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
@@ -35,7 +40,9 @@
 #include <vector>
 
 #include "desk_process.h"
+#include "fci/sockets.h"
 #include "options.h"
+#include "serve/robot_report.h"
 
 namespace franka_sim {
 namespace {
@@ -300,7 +307,56 @@ std::unique_ptr<Arm> addArm(const ArmOptions& options, bool locked, World& world
   return arm;
 }
 
-void serve(const Options& options) {
+// Writes the line of --ready-fd, if there is a descriptor, and closes it.
+void writeReady(fci::Descriptor& ready, const fci::JsonWriter& json) {
+  if (!ready) {
+    return;
+  }
+  const std::string line = json.text() + "\n";
+  const auto handler = std::signal(SIGPIPE, SIG_IGN);
+  for (std::size_t done = 0; done < line.size();) {
+    const ssize_t count = ::write(ready.get(), line.data() + done, line.size() - done);
+    if (count < 0) {
+      std::fprintf(stderr, "franka_sim: nothing can be written to descriptor %d: %s.\n",
+                   ready.get(), std::strerror(errno));
+      break;
+    }
+    done += static_cast<std::size_t>(count);
+  }
+  std::signal(SIGPIPE, handler);
+  ready.close();
+}
+
+// @param desks addresses of their Desks, in the same order; or none
+void reportReady(Options& options, const std::vector<std::string>& desks) {
+  using namespace franka_core::fci;
+  fci::JsonWriter json;
+  json.beginObject().key("robots").beginArray();
+  for (std::size_t i = 0; i < options.arms.size(); i++) {
+    const ArmOptions& arm = options.arms[i];
+    const ProtocolRange range = servedProtocols(arm);
+    json.beginObject().member("robot", arm.robot).member("arm_id", arm.arm_id);
+    json.member("address", arm.ip).member("protocols", std::array{range.oldest, range.newest});
+    std::map<std::string, std::uint16_t> ports{{"robot", kRobotPort}};
+    if (arm.tool == Tool::kGripper) {
+      ports["gripper"] = kGripperPort;
+    } else if (arm.tool == Tool::kVacuum) {
+      ports["vacuum_gripper"] = kVacuumGripperPort;
+    }
+    if (arm.control_port != 0) {
+      ports["control"] = arm.control_port;
+    }
+    json.member("ports", ports);
+    if (i < desks.size()) {
+      json.member("desk", desks[i]);
+    }
+    json.endObject();
+  }
+  json.endArray().endObject();
+  writeReady(options.ready, json);
+}
+
+void serve(Options& options) {
   World world(worldFile(options.world), resolveUri);
   std::vector<std::unique_ptr<Arm>> arms;
   std::vector<fci::SimRobot*> robots;
@@ -329,7 +385,8 @@ void serve(const Options& options) {
   }
   std::optional<DeskProcess> desk;
   if (options.desk.served) {
-    host.add(desk.emplace(options));
+    host.add(desk.emplace(options,
+                          [&options](const auto& addresses) { reportReady(options, addresses); }));
   }
   std::optional<Viewer> viewer;
   if (options.viewer) {
@@ -357,6 +414,9 @@ void serve(const Options& options) {
     }
   }
   malloc_trim(0);  // what the compilation of the world has freed
+  if (!desk) {
+    reportReady(options, {});
+  }
   host.run(ended);
 }
 
@@ -365,8 +425,17 @@ void serve(const Options& options) {
 
 int main(int argc, char** argv) {
   using namespace franka_sim;  // NOLINT: the program's own
+  Options options;
+  const auto fail = [&options](const std::exception& error, int status) {
+    std::fprintf(stderr, "franka_sim: %s\n", error.what());
+    fci::JsonWriter json;
+    json.beginObject().member("error", error.what()).member("status", status);
+    json.member("address_in_use", dynamic_cast<const fci::AddressInUse*>(&error) != nullptr);
+    writeReady(options.ready, json.endObject());
+    return status;
+  };
   try {
-    const Options options = readOptions(argc, argv);
+    readOptions(argc, argv, options);
     if (!options.help.empty()) {
       std::fputs(options.help.c_str(), stdout);
       return 0;
@@ -376,10 +445,8 @@ int main(int argc, char** argv) {
     serve(options);
     return 0;
   } catch (const std::invalid_argument& error) {
-    std::fprintf(stderr, "franka_sim: %s\n", error.what());
-    return 2;
+    return fail(error, 2);
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "franka_sim: %s\n", error.what());
-    return 1;
+    return fail(error, 1);
   }
 }

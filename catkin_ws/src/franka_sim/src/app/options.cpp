@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "options.h"
 
+#include <fcntl.h>
 #include <franka_core/fci/protocol.h>
 #include <franka_core/numbers.h>
 #include <franka_core/spin_rule.h>
@@ -127,6 +128,19 @@ void readWait(const std::string& text, fci::Pace& pace) {
     throw CLI::ValidationError("--wait", "give auto, spin or block, not " + text + ".");
   }
   pace.wait = *mode;
+}
+
+// A descriptor that was opened for this program, and not one of the terminal's.
+void readReady(const std::string& text, fci::Descriptor& ready) {
+  const int number = static_cast<int>(franka_core::readNumber(text).value());
+  const int flags = ::fcntl(number, F_GETFL);
+  if (flags < 0 || (flags & O_ACCMODE) == O_RDONLY) {
+    throw CLI::ValidationError(
+        "--ready-fd",
+        "descriptor " + text + " is not open for writing: in a shell 3>FILE opens 3.");
+  }
+  ::fcntl(number, F_SETFD, FD_CLOEXEC);
+  ready = fci::Descriptor(number);
 }
 
 // Options that only a robot with the pace patient or lockstep can follow.
@@ -340,6 +354,14 @@ void addOptionsOfAll(CLI::App& app, Options& options) {
       ->option_text("SECONDS")
       ->check(within(0, 60, "a number of seconds from 0 to 60"));
   app.add_flag("--viewer", options.viewer, "open a window");
+  app.add_option_function<std::string>(
+         "--ready-fd", [&options](const std::string& text) { readReady(text, options.ready); },
+         "write one line of JSON to this descriptor when clients can connect: robots,\n"
+         "addresses, ports; or the error (docs/franka_sim.md)")
+      ->option_text("N")
+      ->check(within(3, 1e6, "a number from 3"))
+      ->check({wholeNumberFault, ""})
+      ->trigger_on_parse();
 }
 
 // An earlier option, which scripts may still give.
@@ -378,8 +400,7 @@ std::vector<std::string> wordsOf(int argc, const char* const* argv) {
 
 }  // namespace
 
-Options readOptions(int argc, const char* const* argv) {
-  Options options;
+void readOptions(int argc, const char* const* argv, Options& options) {
   CLI::App app("Simulated robots that genuine libfranka programs can connect to.", "franka_sim");
   bool robot_named = false;
   addOptionsOfRobots(app, options.arms, robot_named);
@@ -401,7 +422,6 @@ Options readOptions(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw std::invalid_argument(error.what());
   }
-  return options;
 }
 
 }  // namespace franka_sim

@@ -9,6 +9,8 @@
 #include <string>
 #include <vector>
 
+#include "fci/sockets.h"
+
 namespace franka_sim {
 
 /// The tool of an arm.
@@ -39,10 +41,12 @@ struct Options {
   double linger{0.0};  ///< how long the end of the program waits for clients to disconnect [s]
   bool viewer{false};
   DeskOptions desk;
+  fci::Descriptor ready;  ///< where it is reported that clients can connect; or none
   bool locked{false};  ///< robots start with closed brakes and without FCI, see SafetyRules::kDesk
 };
 
+/// @param options with defaults; an error leaves what was read before it.
 /// @throws std::invalid_argument that names the error.
-Options readOptions(int argc, const char* const* argv);
+void readOptions(int argc, const char* const* argv, Options& options);
 
 }  // namespace franka_sim

@@ -40,18 +40,21 @@ void setOption(int fd, int level, int option, int value) noexcept {
   setsockopt(fd, level, option, &value, sizeof(value));
 }
 
-std::runtime_error cannotOpen(const std::string& what, const std::string& address,
-                              std::uint16_t port, int error) {
-  std::string text = "Cannot open " + what + " " + address + ":" + std::to_string(port) + ": " +
-                     std::strerror(error) + ".";
+[[noreturn]] void failToOpen(const std::string& what, const std::string& address,
+                             std::uint16_t port, int error) {
+  const std::string text = "Cannot open " + what + " " + address + ":" + std::to_string(port) +
+                           ": " + std::strerror(error) + ".";
   if (error == EADDRINUSE) {
-    text +=
-        " Another simulated robot runs there: end it, or give this one an address of its own, "
-        "for example 127.0.0.2.";
-  } else if (error == EADDRNOTAVAIL) {
-    text += " This machine does not have that address; 127.0.0.1 to 127.255.255.254 always work.";
+    throw AddressInUse(text +
+                       " Another simulated robot runs there: end it, or give this one an address "
+                       "of its own, for example 127.0.0.2.");
   }
-  return std::runtime_error(text);
+  if (error == EADDRNOTAVAIL) {
+    throw std::runtime_error(
+        text +
+        " This machine does not have that address; 127.0.0.1 to 127.255.255.254 always work.");
+  }
+  throw std::runtime_error(text);
 }
 
 Descriptor bound(int type, const std::string& what, const std::string& address,
@@ -59,13 +62,13 @@ Descriptor bound(int type, const std::string& what, const std::string& address,
   const sockaddr_in name = toAddress(address, port);
   Descriptor result(::socket(AF_INET, type | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (!result) {
-    throw cannotOpen(what, address, port, errno);
+    failToOpen(what, address, port, errno);
   }
   if (type == SOCK_STREAM) {
     setOption(result.get(), SOL_SOCKET, SO_REUSEADDR, 1);
   }
   if (::bind(result.get(), reinterpret_cast<const sockaddr*>(&name), sizeof(name)) != 0) {
-    throw cannotOpen(what, address, port, errno);
+    failToOpen(what, address, port, errno);
   }
   return result;
 }
@@ -111,7 +114,7 @@ void Descriptor::close() noexcept {
 Listener::Listener(const std::string& address, std::uint16_t port)
     : socket_(bound(SOCK_STREAM, "the robot's TCP port", address, port)) {
   if (::listen(socket_.get(), kBacklog) != 0) {
-    throw cannotOpen("the robot's TCP port", address, port, errno);
+    failToOpen("the robot's TCP port", address, port, errno);
   }
   socklen_t size = sizeof(name_);
   ::getsockname(socket_.get(), reinterpret_cast<sockaddr*>(&name_), &size);

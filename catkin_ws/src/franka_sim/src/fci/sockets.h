@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
@@ -43,11 +44,17 @@ class Descriptor {
   int fd_{-1};
 };
 
+/// Another program has that address and port.
+class AddressInUse : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
 /// Waits for connections on one address of this machine.
 class Listener {
  public:
   /// @param port 0: the system chooses.
-  /// @throws std::runtime_error with a sentence that names address, port and cause.
+  /// @throws std::runtime_error with a sentence that names address, port and cause; AddressInUse.
   Listener(const std::string& address, std::uint16_t port);
 
   std::uint16_t port() const noexcept { return port_; }

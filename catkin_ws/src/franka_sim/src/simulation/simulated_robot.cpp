@@ -137,6 +137,34 @@ std::optional<WholeRobot::Hand> handOf(const RobotInWorld& robot, bool driven) {
              : std::nullopt;
 }
 
+/// What the user has to do before a refused request is possible, or nothing.
+std::string remedy(const RobotState& state, const UnitStatus& unit, bool recovery) {
+  using franka_core::RobotMode;
+  switch (state.robot_mode) {
+    case RobotMode::kUserStopped:
+      return " Release the user stop first.";
+    case RobotMode::kOther:
+      return " Its brakes are closed: open them first.";
+    case RobotMode::kAutomaticErrorRecovery:
+      return " It recovers: step until it is Idle.";
+    case RobotMode::kGuiding:
+      return " End guiding first.";
+    case RobotMode::kMove:
+      return " End the motion first.";
+    case RobotMode::kReflex:
+      return recovery ? " A joint is beyond its limits: guide the arm back first."
+                      : " Recover it first.";
+    default:
+      return unit.settling ? " The arm still brakes: step until it rests." : "";
+  }
+}
+
+bool canBeGuided(franka_core::RobotMode mode) noexcept {
+  using franka_core::RobotMode;
+  return mode == RobotMode::kIdle || mode == RobotMode::kMove || mode == RobotMode::kReflex ||
+         mode == RobotMode::kGuiding;
+}
+
 constexpr double kShareOfLimit = 0.999;  // chosen here: rounding must not exceed the limit
 
 // Steps of a target or a stiffness become steps of the torque, which the robot would refuse.
@@ -158,7 +186,7 @@ SimulatedRobot::SimulatedRobot(const RobotSetup& setup, bool hand, const RobotIn
       robot_(in_world.unit, *in_world.arm, handOf(in_world, hand), {},
              in_world.physics.command_delay) {}
 
-void SimulatedRobot::refuse(const std::string& what) const {
+void SimulatedRobot::refuse(const std::string& what, bool recovery) const {
   std::string errors;
   for (std::size_t i = 0; i < state_.errors.size(); i++) {
     if (state_.errors[i]) {
@@ -167,7 +195,7 @@ void SimulatedRobot::refuse(const std::string& what) const {
   }
   throw RequestRefused(what + " was refused: the robot is in mode " +
                        franka_core::fci::modeName(state_.robot_mode) + errors + "." +
-                       (errors.empty() ? "" : " Recover it first."));
+                       remedy(state_, robot_.unit().status(), recovery));
 }
 
 void SimulatedRobot::start(const MoveRequest& motion) {
@@ -232,6 +260,10 @@ CartesianLaw& SimulatedRobot::cartesianLaw() { return law<CartesianLaw>(); }
 void SimulatedRobot::finish() noexcept { finishing_ = moving(); }
 
 void SimulatedRobot::request(const UnitRequest& request, const std::string& what) {
+  const auto* const guiding = std::get_if<Guiding>(&request);
+  if (guiding != nullptr && guiding->active && !canBeGuided(state_.robot_mode)) {
+    refuse(what);  // the button of a real one has no effect, without an answer
+  }
   const std::optional<Status> status = robot_.unit().request(request);
   if (status == Status::kInvalidArgumentRejected) {
     throw RequestRefused(what + " was refused: a value is outside of what the robot accepts.");
@@ -246,7 +278,7 @@ void SimulatedRobot::recover() {
   const std::optional<Status> status =
       robot_.unit().request(franka_core::fci::AutomaticErrorRecoveryRequest{});
   if (status && status != Status::kSuccess) {
-    refuse("The recovery");
+    refuse("The recovery", true);
   }
   recovering_ = !status;
   refresh();

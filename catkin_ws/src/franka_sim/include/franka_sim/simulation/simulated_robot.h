@@ -124,7 +124,7 @@ class SimulatedRobot {
   bool moving() const noexcept { return !std::holds_alternative<std::monostate>(input_); }
 
   /// Makes a request of the unit. @param what for the message: "The load"
-  /// @throws RequestRefused
+  /// @throws RequestRefused; guiding also where the unit would ignore it (user stop, brakes)
   void request(const UnitRequest& request, const std::string& what);
   /// Starts the recovery from errors; it takes time. @throws RequestRefused
   void recover();
@@ -163,7 +163,7 @@ class SimulatedRobot {
   void start(const franka_core::fci::MoveRequest& motion);
   const franka_core::RobotCommand* nextCommand() noexcept;
   void endOwnMotion() noexcept;
-  [[noreturn]] void refuse(const std::string& what) const;
+  [[noreturn]] void refuse(const std::string& what, bool recovery = false) const;
 
   RobotSetup setup_;
   WholeRobot robot_;

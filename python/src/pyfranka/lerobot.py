@@ -1,0 +1,357 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Episodes as a data set of LeRobot (format v2.1), for imitation learning.
+
+    from pyfranka.lerobot import Dataset
+
+    with Dataset("demonstrations", fps=20, robot_type="panda") as dataset:
+        for q, action in ((joints, command) for joints, command in steps):
+            dataset.add_frame({"observation.state": q, "action": action})
+        dataset.save_episode("carry the stone")
+
+pyfranka.gym.RecordEpisodes writes what an environment does. `python3 -m pyfranka.lerobot FOLDER run.csv`
+converts recordings of `franka_info record`. Needs pyarrow, and for pictures the program ffmpeg.
+"""
+
+from __future__ import annotations
+
+import argparse
+import csv
+import json
+import os
+import shutil
+import subprocess
+import sys
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy
+from numpy.typing import NDArray
+
+from pyfranka.sim.arguments import numbers, path, text, whole
+
+__all__ = ["Dataset", "convert_recording", "main"]
+
+Values = NDArray[Any]
+VERSION = "v2.1"
+CHUNK = 1000  # episodes in a folder
+DATA = "data/chunk-{episode_chunk:03d}/episode_{episode_index:06d}.parquet"
+VIDEO = "videos/chunk-{episode_chunk:03d}/{video_key}/episode_{episode_index:06d}.mp4"
+DTYPES = {"f": numpy.float32, "i": numpy.int64, "u": numpy.int64, "b": numpy.bool_}  # by numpy's kinds
+OWN = ("timestamp", "frame_index", "episode_index", "index", "task_index")
+RECORDED = {  # features of a recording of franka_info, from its columns of seven joints each
+    "observation.state": ("q", "dq"),
+    "observation.effort": ("tau_J",),
+    "observation.external_torque": ("tau_ext_hat_filtered",),
+    "action": ("dq_d",),
+}
+
+
+def _pyarrow() -> Any:
+    try:
+        import pyarrow
+        import pyarrow.parquet
+    except ModuleNotFoundError:
+        raise ModuleNotFoundError(
+            "A data set of LeRobot needs the Python package pyarrow: pip install pyarrow; in the workspace "
+            "run ./franka install extras, and use .venv/bin/python3.",
+            name="pyarrow",
+        ) from None
+    return pyarrow
+
+
+def _ffmpeg() -> str:
+    try:
+        import imageio_ffmpeg
+    except ModuleNotFoundError:
+        program = shutil.which("ffmpeg")
+    else:
+        program = imageio_ffmpeg.get_ffmpeg_exe()
+    if program is None:
+        raise RuntimeError(
+            "Pictures need the program ffmpeg: apt install ffmpeg, or pip install imageio-ffmpeg."
+        )
+    return program
+
+
+class _Video:
+    """Pictures of an episode on their way into a file."""
+
+    def __init__(self, file: Path, shape: tuple[int, ...], fps: int):
+        height, width, _ = shape
+        self.file, self._count, self._sum, self._squares = file, 0, numpy.zeros(3), numpy.zeros(3)
+        self._low, self._high = numpy.full(3, 255.0), numpy.zeros(3)
+        file.parent.mkdir(parents=True, exist_ok=True)
+        source = ["-f", "rawvideo", "-pix_fmt", "rgb24", "-s", f"{width}x{height}", "-r", str(fps), "-i", "-"]
+        # Short distances between whole pictures: learning programs read single ones.
+        target = ["-an", "-c:v", "libx264", "-pix_fmt", "yuv420p", "-g", "2", "-crf", "20", str(file)]
+        self._process = subprocess.Popen(
+            [_ffmpeg(), "-loglevel", "error", "-y", *source, *target],
+            stdin=subprocess.PIPE,
+            stderr=subprocess.PIPE,
+        )
+
+    def add(self, picture: Values) -> None:
+        values = picture.reshape(-1, 3).astype(float)
+        self._count += 1
+        self._sum += values.mean(axis=0)
+        self._squares += (values**2).mean(axis=0)
+        self._low = numpy.minimum(self._low, values.min(axis=0))
+        self._high = numpy.maximum(self._high, values.max(axis=0))
+        assert self._process.stdin is not None
+        try:
+            self._process.stdin.write(picture.tobytes())
+        except BrokenPipeError:
+            self.close()
+            raise
+
+    def close(self) -> None:
+        """Completes the file. Raises RuntimeError with what ffmpeg says."""
+        _, error = self._process.communicate()
+        if self._process.returncode != 0:
+            raise RuntimeError(f"ffmpeg cannot write {self.file}: {error.decode(errors='replace').strip()}")
+
+    def discard(self) -> None:
+        self._process.kill()
+        self._process.communicate()
+        self.file.unlink(missing_ok=True)
+
+    def statistics(self) -> dict[str, Any]:
+        """Of each color, in [0, 1], as LeRobot expects them: 3 x 1 x 1."""
+        mean = self._sum / self._count
+        deviation = numpy.sqrt(numpy.maximum(self._squares / self._count - mean**2, 0.0))
+        values = {"min": self._low, "max": self._high, "mean": mean, "std": deviation}
+        shaped = {name: (value / 255.0).reshape(3, 1, 1).tolist() for name, value in values.items()}
+        return {**shaped, "count": [self._count]}
+
+
+def _statistics(values: Values) -> dict[str, Any]:
+    """Of a feature in an episode: frames x size."""
+    rows = values.astype(float)
+    result = {name: getattr(rows, name)(axis=0).tolist() for name in ("min", "max", "mean", "std")}
+    return {**result, "count": [len(rows)]}
+
+
+class Dataset:
+    """Writes episodes, frame by frame, into a new folder. The first frame says what features there are.
+
+    folder: does not exist yet, or is empty. fps: frames a second. robot_type: such as panda. names: of the
+    numbers of features, by the features' names.
+
+    Raises ValueError, TypeError, FileExistsError or RuntimeError with a sentence. Called by one thread.
+    """
+
+    def __init__(
+        self,
+        folder: str | os.PathLike[str],
+        fps: int,
+        robot_type: str = "",
+        names: Mapping[str, Sequence[str]] | None = None,
+    ):
+        self.folder = Path(path(folder, "folder"))
+        self.fps, self._robot = whole(fps, "fps", 1, 1000), text(robot_type, "robot_type")
+        self._arrow = _pyarrow()
+        if self.folder.exists() and any(self.folder.iterdir()):
+            raise FileExistsError(f"There is something in {self.folder} already; name another folder.")
+        (self.folder / "meta").mkdir(parents=True, exist_ok=True)
+        self._names = dict(names or {})
+        self._features: dict[str, dict[str, Any]] = {}
+        self._tasks: list[str] = []
+        self.episodes, self.frames = 0, 0  # that are saved
+        self._begin()
+
+    def __enter__(self) -> Dataset:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        self.discard_episode()
+
+    def _begin(self) -> None:
+        self._rows: list[dict[str, Values]] = []
+        self._videos: dict[str, _Video] = {}
+
+    def _is_video(self, name: str) -> bool:
+        return bool(self._features[name]["dtype"] == "video")
+
+    def add_frame(self, frame: Mapping[str, Any]) -> None:
+        """Adds what belongs to one moment: numbers, vectors, and pictures (height x width x 3, uint8), by the
+        names of features such as observation.state, observation.images.wrist and action."""
+        values = {
+            text(name, "The name of a feature"): self._checked(name, value) for name, value in frame.items()
+        }
+        if not self._features:
+            self._features = {name: self._feature(name, value) for name, value in values.items()}
+        for name in sorted({*values, *self._features}):
+            have = values.get(name)
+            expected = self._features.get(name, {}).get("shape")
+            if have is None or expected is None or list(have.shape) != expected:
+                raise ValueError(
+                    f"All frames have the features of the first one; '{name}' has the shape {expected} there "
+                    f"and {None if have is None else list(have.shape)} here."
+                )
+        for name in values:
+            if self._is_video(name):
+                if name not in self._videos:
+                    file = self.folder / self._path(VIDEO, video_key=name)
+                    self._videos[name] = _Video(file, values[name].shape, self.fps)
+                self._videos[name].add(values[name])
+        self._rows.append({name: value for name, value in values.items() if not self._is_video(name)})
+
+    def _checked(self, name: str, value: Any) -> Values:
+        values = numpy.asarray(value)
+        if values.ndim == 3 and values.dtype == numpy.uint8 and values.shape[2] == 3:
+            if values.shape[0] % 2 or values.shape[1] % 2:
+                raise ValueError(
+                    f"Width and height of a video are even; '{name}' has the shape {values.shape}."
+                )
+            return values
+        if name in OWN or values.dtype.kind not in DTYPES or values.ndim > 1:
+            raise ValueError(
+                f"A frame has numbers, vectors and pictures (height x width x 3, uint8) by names other than "
+                f"{', '.join(OWN)}; '{name}' has the shape {values.shape} and the type {values.dtype}."
+            )
+        result: Values = numpy.atleast_1d(values).astype(DTYPES[values.dtype.kind])
+        return result
+
+    def _feature(self, name: str, value: Values) -> dict[str, Any]:
+        if value.ndim == 1:
+            names = list(self._names.get(name, [])) or None
+            return {"dtype": value.dtype.name, "shape": list(value.shape), "names": names}
+        height, width, channels = value.shape
+        video: dict[str, Any] = {
+            "video.height": height,
+            "video.width": width,
+            "video.channels": channels,
+            "video.fps": self.fps,
+        }
+        video |= {"video.codec": "h264", "video.pix_fmt": "yuv420p", "video.is_depth_map": False}
+        names = ["height", "width", "channels"]
+        return {
+            "dtype": "video",
+            "shape": list(value.shape),
+            "names": names,
+            "info": {**video, "has_audio": False},
+        }
+
+    def _path(self, pattern: str, **more: str) -> str:
+        return pattern.format(episode_chunk=self.episodes // CHUNK, episode_index=self.episodes, **more)
+
+    def discard_episode(self) -> None:
+        """Forgets the frames since the last episode that was saved."""
+        for video in self._videos.values():
+            video.discard()
+        self._begin()
+
+    def save_episode(self, task: str) -> None:
+        """Writes the frames since the last one as an episode. task: what is to be done, in words."""
+        text(task, "task")
+        if not self._rows:
+            raise ValueError("The episode has no frames; call add_frame() first.")
+        for video in self._videos.values():
+            video.close()
+        number = self._tasks.index(task) if task in self._tasks else len(self._tasks)
+        count = len(self._rows)
+        columns = {name: numpy.stack([row[name] for row in self._rows]) for name in self._rows[0]}
+        frame = numpy.arange(count)
+        moments, episode = (frame / self.fps).astype(numpy.float32), numpy.full(count, self.episodes)
+        own = (moments, frame, episode, frame + self.frames, numpy.full(count, number))
+        columns |= {name: values.reshape(-1, 1) for name, values in zip(OWN, own, strict=True)}
+        self._write_table(self.folder / self._path(DATA), columns)
+        statistics = {name: _statistics(values) for name, values in columns.items()}
+        statistics |= {name: video.statistics() for name, video in self._videos.items()}
+        if number == len(self._tasks):
+            self._tasks.append(task)
+            self._append("tasks", {"task_index": number, "task": task})
+        self._append("episodes", {"episode_index": self.episodes, "tasks": [task], "length": count})
+        self._append("episodes_stats", {"episode_index": self.episodes, "stats": statistics})
+        self.episodes, self.frames = self.episodes + 1, self.frames + count
+        self._write_info(columns)
+        self._begin()
+
+    def _write_table(self, file: Path, columns: Mapping[str, Values]) -> None:
+        """One number of a frame is a column of numbers, several are one of lists."""
+        arrow, arrays = self._arrow, {}
+        for name, values in columns.items():
+            flat = arrow.array(values.ravel())
+            lists = arrow.FixedSizeListArray.from_arrays
+            arrays[name] = flat if values.shape[1] == 1 else lists(flat, values.shape[1])
+        file.parent.mkdir(parents=True, exist_ok=True)
+        arrow.parquet.write_table(arrow.table(arrays), file)
+
+    def _append(self, name: str, line: Mapping[str, Any]) -> None:
+        with open(self.folder / "meta" / f"{name}.jsonl", "a", encoding="utf-8") as file:
+            file.write(json.dumps(line, ensure_ascii=False) + "\n")
+
+    def _write_info(self, columns: Mapping[str, Values]) -> None:
+        own = {name: {"dtype": columns[name].dtype.name, "shape": [1], "names": None} for name in OWN}
+        videos = [name for name in self._features if self._is_video(name)]
+        info = {
+            "codebase_version": VERSION,
+            "robot_type": self._robot,
+            "total_episodes": self.episodes,
+            "total_frames": self.frames,
+            "total_tasks": len(self._tasks),
+            "total_videos": self.episodes * len(videos),
+            "total_chunks": -(-self.episodes // CHUNK),
+            "chunks_size": CHUNK,
+            "fps": self.fps,
+            "splits": {"train": f"0:{self.episodes}"},
+            "data_path": DATA,
+            "video_path": VIDEO if videos else None,
+            "features": {**self._features, **own},
+        }
+        file = self.folder / "meta" / "info.json"
+        partial = file.with_suffix(".part")
+        partial.write_text(json.dumps(info, indent=4) + "\n", encoding="utf-8")
+        partial.replace(file)
+
+
+def convert_recording(dataset: Dataset, recording: str | os.PathLike[str], task: str) -> None:
+    """Adds a recording of `franka_info record` (1 kHz, CSV) as an episode; of each frame's moment the last
+    sample counts. Raises ValueError for another file, OSError."""
+    file = Path(path(recording, "recording"))
+    with open(file, newline="", encoding="utf-8") as stream:
+        titles, *rows = [*csv.reader(stream)] or [[]]
+    wanted = {name: [f"{s}{j}" for s in signals for j in range(1, 8)] for name, signals in RECORDED.items()}
+    missing = {"time", *(title for names in wanted.values() for title in names)} - set(titles)
+    if missing or not rows:
+        raise ValueError(
+            f"{file} is not a recording of franka_info record: it has no {min(missing, default='rows')}."
+        )
+    values = numpy.stack([numbers(row, f"A row of {file}", len(titles)) for row in rows])
+    at = {title: number for number, title in enumerate(titles)}
+    time = values[:, at["time"]] - values[0, at["time"]]
+    moments = numpy.arange(int(time[-1] * dataset.fps + 1e-6) + 1) / dataset.fps
+    samples = numpy.searchsorted(time, moments + 1e-6, side="right") - 1
+    dataset._names |= wanted
+    for row in values[samples]:
+        dataset.add_frame({name: row[[at[title] for title in titles]] for name, titles in wanted.items()})
+    dataset.save_episode(task)
+
+
+def main(arguments: Sequence[str] | None = None) -> int:
+    """The program. @returns 0; 1 if a file cannot be converted; 2 for a wrong call"""
+    parser = argparse.ArgumentParser(
+        prog="python3 -m pyfranka.lerobot",
+        description="Writes recordings of franka_info record as episodes of a data set of LeRobot.",
+    )
+    parser.add_argument("folder", help="of the data set; a new one")
+    parser.add_argument("recordings", nargs="+", metavar="RECORDING.csv", help="an episode each")
+    parser.add_argument("--fps", type=int, default=50, help="frames a second (50)")
+    parser.add_argument("--task", default="move the arm", help="what the robot does, in words")
+    parser.add_argument("--robot", default="panda", help="kind of the robot (panda)")
+    words = parser.parse_args(arguments)
+    try:
+        with Dataset(words.folder, words.fps, words.robot) as dataset:
+            for recording in words.recordings:
+                convert_recording(dataset, recording, words.task)
+    except (OSError, ValueError, ImportError) as error:
+        print(f"pyfranka.lerobot: {error}", file=sys.stderr)
+        return 1
+    print(f"{dataset.episodes} episodes with {dataset.frames} frames in {dataset.folder}")
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

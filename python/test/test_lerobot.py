@@ -1,0 +1,227 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""pyfranka.lerobot and pyfranka.gym.RecordEpisodes: episodes as a data set of LeRobot, read back."""
+
+import json
+import sys
+from pathlib import Path
+
+import gymnasium
+import numpy as np
+import pyarrow.parquet
+import pyfranka.gym
+import pytest
+from pyfranka.lerobot import Dataset, main
+
+TOP = Path(__file__).resolve().parents[2]
+# A stand-in for ffmpeg: keeps what it is given, and its arguments beside it.
+FFMPEG = """#!{python}
+import sys
+from pathlib import Path
+file = Path(sys.argv[-1])
+file.write_bytes(sys.stdin.buffer.read())
+file.with_suffix(".txt").write_text(" ".join(sys.argv))
+"""
+OWN = {"timestamp": "float", "frame_index": "int64", "episode_index": "int64", "index": "int64"}
+OWN["task_index"] = "int64"
+
+
+@pytest.fixture
+def ffmpeg(tmp_path, monkeypatch):
+    program = tmp_path / "bin" / "ffmpeg"
+    program.parent.mkdir()
+    program.write_text(FFMPEG.format(python=sys.executable))
+    program.chmod(0o755)
+    monkeypatch.setenv("PATH", str(program.parent))
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    return tmp_path / "set"
+
+
+def lines(folder, name):
+    return [json.loads(line) for line in (folder / "meta" / f"{name}.jsonl").read_text().splitlines()]
+
+
+def info_of(folder):
+    return json.loads((folder / "meta" / "info.json").read_text())
+
+
+def episode(folder, number):
+    return pyarrow.parquet.read_table(folder / "data" / "chunk-000" / f"episode_{number:06d}.parquet")
+
+
+def values(table, name):
+    return np.array(table[name].to_pylist())
+
+
+def play(env, seed, steps=None):
+    """The observations, actions and rewards of an episode, or of its first steps."""
+    env.action_space.seed(seed)
+    observation, _ = env.reset(seed=seed)
+    seen, over = [], False
+    while not over and len(seen) != steps:
+        action = env.action_space.sample()
+        after, reward, terminated, truncated, _ = env.step(action)
+        seen.append((observation, action, reward))
+        observation, over = after, terminated or truncated
+    return seen
+
+
+def test_episodes_of_an_environment_are_read_back(folder, ffmpeg):
+    options = {"observation": "state+pictures", "size": (32, 24), "frequency": 25, "robot": "fr3"}
+    inner = gymnasium.make("pyfranka/Push-v0", max_episode_steps=4, **options)
+    env = pyfranka.gym.RecordEpisodes(inner, folder, "push the cube")
+    played = [play(env, 1), play(env, 2)]
+    play(env, 3, steps=2)  # does not end
+    env.close()
+
+    info = info_of(folder)
+    assert (info["codebase_version"], info["robot_type"], info["fps"]) == ("v2.1", "fr3", 25)
+    totals = {name: info[f"total_{name}"] for name in ("episodes", "frames", "tasks", "videos", "chunks")}
+    assert totals == {"episodes": 2, "frames": 8, "tasks": 1, "videos": 2, "chunks": 1}
+    assert info["splits"] == {"train": "0:2"}
+    assert lines(folder, "tasks") == [{"task_index": 0, "task": "push the cube"}]
+    expected = [{"episode_index": i, "tasks": ["push the cube"], "length": 4} for i in (0, 1)]
+    assert lines(folder, "episodes") == expected
+    state = info["features"]["observation.state"]
+    assert state["shape"] == [33] and state["names"][0] == "fr3.q.0" and len(state["names"]) == 33
+
+    for number, steps in enumerate(played):
+        table = episode(folder, number)
+        assert {name: str(table.schema.field(name).type) for name in OWN} == OWN
+        assert values(table, "timestamp") == pytest.approx(np.arange(4) / 25)
+        assert values(table, "frame_index").tolist() == [0, 1, 2, 3]
+        assert values(table, "episode_index").tolist() == [number] * 4
+        assert values(table, "index").tolist() == list(range(4 * number, 4 * number + 4))
+        assert values(table, "task_index").tolist() == [0] * 4
+        assert values(table, "next.done").tolist() == [False, False, False, True]
+        assert values(table, "next.reward").tolist() == [reward for *_, reward in steps]
+        assert (values(table, "action") == [action for _, action, _ in steps]).all()
+        for name in ("observation", "achieved_goal", "desired_goal"):
+            column = "observation.state" if name == "observation" else f"observation.{name}"
+            assert (values(table, column) == [seen[name] for seen, *_ in steps]).all()
+            assert table.schema.field(column).type.list_size == info["features"][column]["shape"][0]
+        path = info["video_path"].format(
+            episode_chunk=0, video_key="observation.images.picture", episode_index=number
+        )
+        pictures = np.stack([seen["picture"] for seen, *_ in steps])
+        assert (folder / path).read_bytes() == pictures.tobytes()
+        assert "-s 32x24 -r 25 " in (folder / path).with_suffix(".txt").read_text()
+        stats = lines(folder, "episodes_stats")[number]["stats"]
+        assert stats.keys() == info["features"].keys()
+        assert stats["action"]["mean"] == pytest.approx(np.mean([action for _, action, _ in steps], axis=0))
+        colors = pictures.reshape(-1, 3) / 255
+        for name in ("min", "max", "mean", "std"):
+            measured = np.array(stats["observation.images.picture"][name])
+            assert measured.shape == (3, 1, 1)
+            assert measured.ravel() == pytest.approx(getattr(colors, name)(axis=0)), name
+    names = {file.name for file in folder.rglob("*.mp4")}
+    assert names == {"episode_000000.mp4", "episode_000001.mp4"}, "none of the episode that did not end"
+
+
+def test_the_example_of_the_documentation_runs(folder, monkeypatch):
+    code = (TOP / "docs" / "gym.md").read_text().rpartition("```python\n")[2].partition("```")[0]
+    monkeypatch.chdir(folder.parent)
+    exec(compile(code, "docs/gym.md", "exec"), {})
+    assert info_of(folder.parent / "demonstrations")["total_episodes"] == 2
+
+
+def test_any_environment_can_be_recorded(folder):
+    env = pyfranka.gym.RecordEpisodes(gymnasium.make("CartPole-v1"), folder)
+    seen = play(env, 1)
+    env.close()
+    info, table = info_of(folder), episode(folder, 0)
+    assert (info["fps"], info["video_path"], info["features"]["action"]["dtype"]) == (50, None, "int64")
+    assert (values(table, "observation.state") == [observation for observation, *_ in seen]).all()
+    assert values(table, "action").tolist() == [action for _, action, _ in seen]
+    assert lines(folder, "tasks")[0]["task"] == "CartPole-v1"
+
+
+def test_failed_episodes_can_be_left_out(folder):
+    env = gymnasium.make("pyfranka/Reach-v0")
+    env = pyfranka.gym.RecordEpisodes(env, folder, only_success=True)
+    play(env, 1)
+    observation, _ = env.reset(seed=2)
+    policy, over, steps = pyfranka.gym.scripted_policy(env), False, 0
+    while not over:
+        observation, _, over, _, _ = env.step(policy(observation))
+        steps += 1
+    env.close()
+    assert [line["length"] for line in lines(folder, "episodes")] == [steps]
+    assert values(episode(folder, 0), "next.success").tolist() == [False] * (steps - 1) + [True]
+
+
+def recording(file, seconds):
+    signals = ("q", "dq", "tau_J", "tau_J_d", "tau_ext_hat_filtered", "dq_d", "ddq_d", "gravity")
+    titles = ["time", *(f"{signal}{joint}" for signal in signals for joint in range(1, 8))]
+    rows = np.arange(round(1000 * seconds))[:, None] + np.arange(len(titles)) / 100
+    rows[:, 0] = 5 + 1e-3 * np.arange(len(rows))
+    rows = np.delete(rows, range(41, 44), axis=0)  # states that did not arrive
+    np.savetxt(file, rows, delimiter=",", header=",".join(titles), comments="")
+    return rows
+
+
+def test_recordings_of_franka_info_become_episodes(folder, tmp_path, capsys):
+    files = [tmp_path / "one.csv", tmp_path / "two.csv"]
+    rows = [recording(file, 0.2) for file in files]
+    arguments = [str(folder), *map(str, files), "--fps", "50", "--task", "wave", "--robot", "fr3"]
+    assert main(arguments) == 0
+    assert capsys.readouterr().out.startswith("2 episodes with 20 frames in ")
+    assert info_of(folder)["robot_type"] == "fr3" and info_of(folder)["fps"] == 50
+    table = episode(folder, 1)
+    ticks = np.array([0, 20, 40, 60, 80, 100, 120, 140, 160, 180])
+    assert values(table, "observation.state")[:, 0] == pytest.approx(ticks + 0.01)
+    assert values(table, "observation.state").shape == (10, 14)
+    assert (values(table, "action") == rows[1][ticks - 3 * (ticks > 40)][:, 36:43].astype(np.float32)).all()
+    assert info_of(folder)["features"]["action"]["names"][0] == "dq_d1"
+
+    assert main(arguments) == 1 and "There is something in" in capsys.readouterr().err
+    files[0].write_text("time,a\n1,2\n")
+    assert main([str(tmp_path / "other"), str(files[0])]) == 1
+    assert "one.csv is not a recording of franka_info record" in capsys.readouterr().err
+
+
+def with_frames(folder, *frames, fps=20):
+    with Dataset(folder, fps) as dataset:
+        for frame in frames:
+            dataset.add_frame(frame)
+        dataset.save_episode("x")
+
+
+REFUSED = {
+    "The episode has no frames": (),
+    "fps must be 1 to 1000": ({"action": [1.0]}, 0),
+    "'action' has the shape [2] there and [3] here": ({"action": [1, 2]}, {"action": [1, 2, 3]}),
+    "'b' has the shape None there and [1] here": ({"a": 1.0}, {"a": 1.0, "b": 1.0}),
+    "'a' has the shape [1] there and None here": ({"a": 1.0}, {}),
+    "by names other than timestamp": ({"index": 1},),
+    "'a' has the shape () and the type <U4": ({"a": "text"},),
+    "Width and height of a video are even": ({"a": np.zeros((3, 4, 3), dtype=np.uint8)},),
+    "Pictures need the program ffmpeg": ({"a": np.zeros((4, 4, 3), dtype=np.uint8)},),
+}
+
+
+@pytest.mark.parametrize("sentence", REFUSED)
+def test_what_cannot_be_written_is_refused_with_a_sentence(sentence, folder, monkeypatch):
+    monkeypatch.setenv("PATH", "/nowhere")
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+    *frames, last = REFUSED[sentence] or [None]
+    frames, fps = ([*frames], last) if last == 0 else ([*frames, last], 20)
+    with pytest.raises((ValueError, RuntimeError)) as refused:
+        with_frames(folder, *[frame for frame in frames if frame is not None], fps=fps)
+    assert sentence in str(refused.value)
+    assert not list(folder.rglob("*.parquet"))
+
+
+def test_tasks_are_numbered_and_a_full_folder_is_refused(folder):
+    with Dataset(folder, 10) as dataset:
+        for task in ("take", "put", "take"):
+            dataset.add_frame({"action": np.float64(2.5)})
+            dataset.save_episode(task)
+    assert [values(episode(folder, i), "task_index")[0] for i in range(3)] == [0, 1, 0]
+    assert [line["task"] for line in lines(folder, "tasks")] == ["take", "put"]
+    with pytest.raises(FileExistsError, match="name another folder"):
+        Dataset(folder, 10)
