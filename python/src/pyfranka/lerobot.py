@@ -29,7 +29,7 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from pyfranka.sim.arguments import numbers, path, text, whole
+from pyfranka.sim.arguments import path, text, whole
 
 __all__ = ["Dataset", "convert_recording", "main"]
 
@@ -319,7 +319,12 @@ def convert_recording(dataset: Dataset, recording: str | os.PathLike[str], task:
         raise ValueError(
             f"{file} is not a recording of franka_info record: it has no {min(missing, default='rows')}."
         )
-    values = numpy.stack([numbers(row, f"A row of {file}", len(titles)) for row in rows])
+    try:
+        values = numpy.array(rows, dtype=float)
+    except ValueError:
+        values = numpy.empty(0)
+    if values.shape != (len(rows), len(titles)) or not numpy.isfinite(values).all():
+        raise ValueError(f"Each row of {file} must be {len(titles)} finite numbers.")
     at = {title: number for number, title in enumerate(titles)}
     time = values[:, at["time"]] - values[0, at["time"]]
     moments = numpy.arange(int(time[-1] * dataset.fps + 1e-6) + 1) / dataset.fps
