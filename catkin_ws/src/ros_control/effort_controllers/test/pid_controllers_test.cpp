@@ -21,7 +21,7 @@ using three_joints::LogCatcher;
 
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kNotANumber = std::numeric_limits<double>::quiet_NaN();
 
 class PidControllers : public three_joints::ControllerTest {
  protected:
@@ -47,7 +47,7 @@ TEST_F(PidControllers, HoldsAPositionByAnEffort) {
   step();
   EXPECT_NEAR(10.0 * 0.2, robot_.effort_command_[kArm], 1e-9);
   LogCatcher log;
-  publisher.publish(one(kNan));
+  publisher.publish(one(kNotANumber));
   ASSERT_TRUE(stepsUntil([&] { return !log.text().empty(); }));
   EXPECT_THAT(log.text(), HasSubstr("joint 'arm'"));
   step();
@@ -103,7 +103,7 @@ TEST_F(PidControllers, HoldsAVelocityByAnEffort) {
   held.setCommand(2.0);
   step();
   EXPECT_NEAR(4.5, robot_.effort_command_[kSlide], 1e-12);
-  held.setCommand(kNan);
+  held.setCommand(kNotANumber);
   double command;
   held.getCommand(command);
   EXPECT_EQ(2.0, command);
