@@ -25,7 +25,6 @@ template <typename Error>
 void bindPlain(py::module_& module, const char* name, const py::object& base, const char* doc) {
   const py::object type = py::register_local_exception<Error>(module, name, base);
   type.attr("__doc__") = doc;
-  type.attr("__module__") = module.attr("__module__");
 }
 
 }  // namespace
@@ -33,7 +32,6 @@ void bindPlain(py::module_& module, const char* name, const py::object& base, co
 void bindExceptions(py::module_& module) {
   const py::object base =
       py::register_local_exception<franka::Exception>(module, "Exception", PyExc_RuntimeError);
-  base.attr("__module__") = module.attr("__module__");
   base.attr("__doc__") = "Base of all errors of a robot; the text is a sentence for the user.";
   alias(module, {{"Exception", "FrankaException"}});
   bindPlain<franka::ModelException>(module, "ModelException", base, "The model is not available.");
@@ -51,13 +49,11 @@ void bindExceptions(py::module_& module) {
 
   static py::exception<franka::ControlException> control(module, "ControlException", base);
   control.attr("__doc__") = "A motion was aborted. `log` holds the last records, oldest first.";
-  control.attr("__module__") = module.attr("__module__");
   control_exception = control.ptr();
   static py::exception<franka::IncompatibleVersionException> version(
       module, "IncompatibleVersionException", base);
   version.attr("__doc__") =
       "Robot and library have no protocol in common: `server_version`, `library_version`.";
-  version.attr("__module__") = module.attr("__module__");
   version_exception = version.ptr();
   py::register_local_exception_translator([](std::exception_ptr pointer) {
     try {

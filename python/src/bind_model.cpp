@@ -221,7 +221,6 @@ void bindModel(py::module_& module) {
 void bindSimModel(py::module_& module) {
   py::class_<SimModel> model(module, "ArmModel", py::module_local(),
                              "The model of a simulated robot's own control.");
-  model.attr("__module__") = "pyfranka.sim";
   model.def("__repr__", [](const SimModel&) {
     return "<ArmModel of a simulated robot: pose, Jacobians, mass, coriolis, gravity>";
   });

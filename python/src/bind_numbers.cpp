@@ -28,7 +28,7 @@ py::object asObject(PyTypeObject& type) {
 PyObject* derive(py::module_& module, const char* name, PyTypeObject& base, const char* doc) {
   py::dict members;
   members["__doc__"] = doc;
-  members["__module__"] = module.attr("__module__");
+  members["__module__"] = module.attr("__name__");
   members["__slots__"] = py::tuple();
   py::object type = asObject(PyType_Type)(name, py::make_tuple(asObject(base)), members);
   module.attr(name) = type;

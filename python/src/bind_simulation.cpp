@@ -701,9 +701,6 @@ void bindSimulation(py::module_& module) {
       "check_realism",
       [](const std::string& text) { franka_sim::readRealism(text, franka_sim::kInProcessProfile); },
       py::arg("realism"), "Raises ValueError for a profile that does not exist.");
-  for (const char* const name : {"GripperOutcome", "RequestRefused", "Snapshot"}) {
-    module.attr(name).attr("__module__") = "pyfranka.sim";
-  }
   module.def("world_file", &franka_sim::worldFile, py::arg("name"),
              "The file of a world by its name, as Simulation takes it.");
 }

@@ -299,7 +299,6 @@ void bindSimState(py::module_& module) {
                " s: " + py::str(self.attr("robot_mode").attr("name")).cast<std::string>() + ", q " +
                shortText(state.q) + (errors == "[]" ? "" : ", errors " + errors) + ">";
       });
-  state.attr("__module__") = "pyfranka.sim";
 }
 
 }  // namespace pyfranka

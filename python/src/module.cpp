@@ -4,8 +4,6 @@
 
 PYBIND11_MODULE(_pyfranka, module) {
   module.doc() = "libfranka and ModelKDL; import pyfranka instead.";
-  // Classes show, and are pickled, under the names that users import.
-  module.attr("__module__") = "pyfranka";
   pyfranka::bindExceptions(module);
   pyfranka::bindNumbers(module);
   pyfranka::bindState(module);
@@ -15,7 +13,6 @@ PYBIND11_MODULE(_pyfranka, module) {
   pyfranka::bindRobot(module);
   pyfranka::bindAsync(module);
   pyfranka::bindGripper(module);
-  pybind11::delattr(module, "__module__");
 
   pybind11::module_ sim = module.def_submodule("_sim", "Simulations; import pyfranka.sim instead.");
   pyfranka::bindSimState(sim);
