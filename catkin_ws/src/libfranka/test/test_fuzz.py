@@ -56,7 +56,8 @@ def codec(tmp_path_factory):
     compiler = shutil.which("clang++-22") or shutil.which("clang++")
     assert compiler, "No clang++-22: install the Debian packages clang-22 and libclang-rt-22-dev."
     build = tmp_path_factory.mktemp("fuzz")
-    sources = [*sorted((PACKAGE / "src" / "fci").glob("*.cpp")), PACKAGE / "src" / "core" / "payload.cpp"]
+    core = [PACKAGE / "src" / "core" / name for name in ("numbers.cpp", "payload.cpp")]
+    sources = [*sorted((PACKAGE / "src" / "fci").glob("*.cpp")), *core]
     with ThreadPoolExecutor(2) as pool:
         objects = list(pool.map(lambda source: compile_object(compiler, source, build), sources))
     return compiler, objects, build
