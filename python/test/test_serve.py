@@ -18,6 +18,7 @@ from waiting import wait_for
 
 ADDRESSES = {"panda": "127.0.33.11", "fr3": "127.0.33.12"}
 ROBOTS_TAKE_TURNS = True
+PAUSE = 0.3  # [s] of a program that computes: clients are then sent the last state again
 TORQUES = np.array([0.5, -1.0, 0.3, 0.8, 0.1, -0.2, 0.05])  # [Nm]
 
 
@@ -107,6 +108,8 @@ def test_a_client_drives_a_robot_of_the_program_with_the_bits_of_a_served_one(na
         while robot.state.robot_mode == pyfranka.RobotMode.Move:
             sim.step()
             pressed = max(pressed, abs(robot.state.tau_ext_hat_filtered[1]))
+            if sim.ticks % 2000 == 0:
+                time.sleep(PAUSE)
         assert pressed > 10.0, "the hand touches the table"
         hashes = set()
         for _ in range(2000):  # a served world runs on until it rests

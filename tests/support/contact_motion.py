@@ -25,7 +25,9 @@ def down_and_back(first, k):
 
 def press(address, protocol, first=None):
     """The motion by a client of a robot at an address. first: joint positions at its start; without them,
-    those of the state in which it begins, which rounding makes differ from those before it (FR3)."""
+    those of the state in which it begins, which rounding makes differ from those before it (FR3).
+
+    As libfranka's clients, it answers a state once, also if the robot sends it again while no time passes."""
     with Client(address, protocol) as client:
         assert client.connect()[0] == 0
         set_collision_behavior = 4 if protocol <= 5 else 3
@@ -36,7 +38,7 @@ def press(address, protocol, first=None):
         for k in range(TICKS + 1):
             positions = down_and_back(first, k)
             client.send(command(protocol, state.message_id, positions, finished=k == TICKS))
-            state = client.state()
+            state = client.state_until(lambda new, last=state: new.message_id > last.message_id)
         assert client.reply()[1][0] == 0
 
 
