@@ -1,9 +1,10 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""How the time of a tick grows with arms and with bodies: tables, and the exponent of the growth."""
+"""How the time of a tick grows with arms, bodies and worlds: tables, and the exponent of the growth."""
 
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy
@@ -11,7 +12,8 @@ import pyfranka.sim
 from report import figure
 
 ARMS = (1, 2, 4, 8, 16)
-BODIES = (1, 10, 30, 100, 300)  # of more boxes MuJoCo 2.2 cannot hold all contacts (contact_settings.h)
+BODIES = (1, 10, 30, 100, 300, 1000)
+WORLDS = (1, 2, 4, 8, 16, 32, 64)
 SPENT = 1.0  # [s] on each row
 TRIES = 3
 SPACING = 2.0  # [m] between arms, which do not reach each other
@@ -22,16 +24,18 @@ BOX = (
 )
 
 
-def microseconds(sim: pyfranka.sim.Simulation) -> float:
-    """The shortest time of a tick in which each arm holds its pose by an impedance law [us]."""
-    for name in sim:
-        sim[name].joint_impedance(sim[name].state.q)
-    sim.step(300)  # objects come to rest
+def microseconds(step: Callable[[int], object], *sims: pyfranka.sim.Simulation) -> float:
+    """The shortest time of a tick in which each arm holds its pose by an impedance law [us]. step: advances
+    all of `sims` by a number of ticks."""
+    for sim in sims:
+        for name in sim:
+            sim[name].joint_impedance(sim[name].state.q)
+    step(300)  # objects come to rest
     best, ticks = numpy.inf, 20
     for _ in range(TRIES):
         count, begin = 0, time.perf_counter()
         while time.perf_counter() - begin < SPENT / TRIES:
-            sim.step(ticks)
+            step(ticks)
             count += ticks
         best = min(best, 1e6 * (time.perf_counter() - begin) / count)
     return float(best)
@@ -40,7 +44,7 @@ def microseconds(sim: pyfranka.sim.Simulation) -> float:
 def arms(count: int) -> float:
     robots = [pyfranka.sim.Panda(f"arm_{i}", base=(SPACING * i, 0, 0)) for i in range(count)]
     with pyfranka.sim.Simulation(robots=robots) as sim:
-        return microseconds(sim)
+        return microseconds(sim.step, sim)
 
 
 def bodies(count: int) -> float:
@@ -50,10 +54,15 @@ def bodies(count: int) -> float:
         world = Path(folder) / "boxes.xml"
         world.write_text(f"<mujoco><worldbody>{floor}{''.join(boxes)}</worldbody></mujoco>")
         with pyfranka.sim.Simulation(world=str(world)) as sim:
-            spent = microseconds(sim)
+            spent = microseconds(sim.step, sim)
             heights = [sim.body_pose(f"box_{i}")[0][2] for i in range(count)]
             assert max(abs(height - 0.02) for height in heights) < 0.001, "boxes rest on the floor"
             return spent
+
+
+def worlds(count: int) -> float:
+    with pyfranka.sim.SimulationBatch(count, threads=1) as batch:
+        return microseconds(batch.step, *batch)
 
 
 def table(what: str, counts: tuple[int, ...], measure) -> None:
@@ -67,6 +76,7 @@ def table(what: str, counts: tuple[int, ...], measure) -> None:
 
 
 def growth() -> None:
-    print("Growth of a tick in one world, on one thread")
+    print("Growth of a tick on one thread")
     table("arms with impedance laws", ARMS, arms)
     table("boxes on the floor beside an arm", BODIES, bodies)
+    table("worlds of a batch, with an arm, a hand and an impedance law each", WORLDS, worlds)

@@ -9,6 +9,7 @@ import sys
 import threading
 import time
 
+import cloudpickle
 import pyfranka
 from pyfranka import _sweep_run
 from report import TOP, figure
@@ -16,6 +17,7 @@ from report import TOP, figure
 sys.path.append(str(TOP / "examples" / "python"))
 import sweep_stiffness
 
+cloudpickle.register_pickle_by_value(sweep_stiffness)  # workers of another's cluster do not find its folder
 CASES = int(os.environ.get("FRANKA_BENCH_CASES", "200"))  # a few for a short form
 ROUND_TRIP = 60.0  # [s] for a question to the workers
 
