@@ -109,7 +109,7 @@ def test_a_client_drives_a_robot_of_the_program_with_the_bits_of_a_served_one(na
             sim.step()
             pressed = max(pressed, abs(robot.state.tau_ext_hat_filtered[1]))
             if sim.ticks % 2000 == 0:
-                time.sleep(PAUSE)
+                time.sleep(PAUSE)  # the fault itself
         assert pressed > 10.0, "the hand touches the table"
         hashes = set()
         for _ in range(2000):  # a served world runs on until it rests
