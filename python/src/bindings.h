@@ -5,10 +5,14 @@
 #include <pybind11/pybind11.h>
 #include <pyfranka/arrays.h>
 
+#include <memory>
+
 /// @file
 /// The parts of the module.
 
 namespace pyfranka {
+
+class Shared;
 
 void bindExceptions(py::module_& module);
 void bindNumbers(py::module_& module);
@@ -24,6 +28,9 @@ void bindLimits(py::module_& module);
 void bindSimState(py::module_& module);
 void bindSimModel(py::module_& module);
 void bindSimulation(py::module_& module);
+void bindSimulatedRobot(py::module_& module,
+                        py::class_<Shared, std::shared_ptr<Shared>>& simulation);
+void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation);
 void bindBatch(py::module_& module);
 void bindEpisode(py::module_& module);
 

@@ -2,7 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 """pyfranka.lerobot and pyfranka.gym.RecordEpisodes: episodes as a data set of LeRobot, read back."""
 
+import errno
 import json
+import os
 import sys
 from pathlib import Path
 
@@ -182,6 +184,59 @@ def test_recordings_of_franka_info_become_episodes(folder, tmp_path, capsys):
     files[0].write_text("time,a\n1,2\n")
     assert main([str(tmp_path / "other"), str(files[0])]) == 1
     assert "one.csv is not a recording of franka_info record" in capsys.readouterr().err
+
+
+def another_file(file):
+    file.write_text("time,a\n1,2\n")
+
+
+def binary_file(file):
+    file.write_bytes(bytes(range(256)))
+
+
+def backwards(file):
+    lines = file.read_text().splitlines()
+    file.write_text("\n".join([lines[0], *lines[:0:-1]]))
+
+
+def without_number(file):
+    file.write_text(file.read_text().rpartition(",")[0] + ",nan\n")
+
+
+@pytest.mark.parametrize("empty_folder", [True, False])
+@pytest.mark.parametrize(
+    ("spoil", "sentence"),
+    [
+        (another_file, "two.csv is not a recording of franka_info record: it has no dq1."),
+        (binary_file, "two.csv is not a recording of franka_info record: 'utf-8' codec"),
+        (without_number, "two.csv must be 57 finite numbers."),
+        (backwards, "The time of each row of"),
+        (Path.unlink, "No such file or directory"),
+        (None, "No space left on device"),
+    ],
+)
+def test_all_recordings_become_episodes_or_none(spoil, sentence, empty_folder, tmp_path, capsys, monkeypatch):
+    files = [tmp_path / "one.csv", tmp_path / "two.csv"]
+    for file in files:
+        recording(file, 0.06)
+    folder = tmp_path / "data sets" / "set"
+    if empty_folder:
+        folder.mkdir(parents=True)
+    if spoil:
+        spoil(files[1])
+    else:
+        write = Dataset._write_table
+
+        def fill_disk(self, file, columns):
+            write(self, file, columns)
+            if self.episodes == 1:
+                raise OSError(errno.ENOSPC, os.strerror(errno.ENOSPC))
+
+        monkeypatch.setattr(Dataset, "_write_table", fill_disk)
+    before = sorted(tmp_path.rglob("*"))
+    assert main([str(folder), *map(str, files)]) == 1
+    assert sentence in capsys.readouterr().err
+    assert sorted(tmp_path.rglob("*")) == before
 
 
 def with_frames(folder, *frames, fps=20):

@@ -34,7 +34,7 @@ from pathlib import Path
 
 from pyfranka._deprecation import renamed, warn
 from pyfranka.remote import PORT, Remote
-from pyfranka.sim.arguments import path
+from pyfranka.sim.arguments import no_robot, path
 from pyfranka.sim.setups import FR3, KINDS, Panda
 
 if typing.TYPE_CHECKING:
@@ -58,7 +58,7 @@ class FrankaSimError(RuntimeError):
 def described(kind: str, **options: typing.Any) -> Panda | FR3:
     """The description of a robot of a kind, "panda" or "fr3". options: those of Panda and FR3."""
     if kind not in KINDS:
-        raise ValueError(f"There is no robot '{kind}'; there are: {', '.join(KINDS)}.")
+        raise ValueError(no_robot(kind, KINDS))
     return KINDS[kind](**options)
 
 
@@ -189,8 +189,7 @@ class FrankaSim:
         for robot in self.robots:
             if robot.name == name:
                 return robot
-        names = ", ".join(robot.name for robot in self.robots)
-        raise KeyError(f"There is no robot '{name}'; there are: {names}.")
+        raise KeyError(no_robot(name, (robot.name for robot in self.robots)))
 
     @property
     def robot(self) -> ServedRobot:

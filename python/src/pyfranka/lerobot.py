@@ -16,13 +16,14 @@ converts recordings of `franka_info record`. Needs pyarrow, and for pictures the
 from __future__ import annotations
 
 import argparse
+import contextlib
 import csv
 import json
 import os
 import shutil
 import subprocess
 import sys
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -45,6 +46,9 @@ RECORDED = {  # features of a recording of franka_info, from its columns of seve
     "observation.effort": ("tau_J",),
     "observation.external_torque": ("tau_ext_hat_filtered",),
     "action": ("dq_d",),
+}
+RECORDED_NAMES = {
+    name: [f"{s}{j}" for s in signals for j in range(1, 8)] for name, signals in RECORDED.items()
 }
 
 
@@ -307,14 +311,15 @@ class Dataset:
         partial.replace(file)
 
 
-def convert_recording(dataset: Dataset, recording: str | os.PathLike[str], task: str) -> None:
-    """Adds a recording of `franka_info record` (1 kHz, CSV) as an episode; of each frame's moment the last
-    sample counts. Raises ValueError for another file, OSError."""
+def _read_recording(recording: str | os.PathLike[str], fps: int) -> dict[str, Values]:
+    """The features of a recording, frames x size each, as convert_recording() says. Raises what it raises."""
     file = Path(path(recording, "recording"))
-    with open(file, newline="", encoding="utf-8") as stream:
-        titles, *rows = [*csv.reader(stream)] or [[]]
-    wanted = {name: [f"{s}{j}" for s in signals for j in range(1, 8)] for name, signals in RECORDED.items()}
-    missing = {"time", *(title for names in wanted.values() for title in names)} - set(titles)
+    try:
+        with open(file, newline="", encoding="utf-8") as stream:
+            titles, *rows = [*csv.reader(stream)] or [[]]
+    except (csv.Error, UnicodeDecodeError) as error:
+        raise ValueError(f"{file} is not a recording of franka_info record: {error}.") from None
+    missing = {"time", *(title for titles in RECORDED_NAMES.values() for title in titles)} - set(titles)
     if missing or not rows:
         raise ValueError(
             f"{file} is not a recording of franka_info record: it has no {min(missing, default='rows')}."
@@ -327,16 +332,44 @@ def convert_recording(dataset: Dataset, recording: str | os.PathLike[str], task:
         raise ValueError(f"Each row of {file} must be {len(titles)} finite numbers.")
     at = {title: number for number, title in enumerate(titles)}
     time = values[:, at["time"]] - values[0, at["time"]]
-    moments = numpy.arange(int(time[-1] * dataset.fps + 1e-6) + 1) / dataset.fps
-    samples = numpy.searchsorted(time, moments + 1e-6, side="right") - 1
-    dataset._names |= wanted
-    for row in values[samples]:
-        dataset.add_frame({name: row[[at[title] for title in titles]] for name, titles in wanted.items()})
+    if (numpy.diff(time) < 0.0).any():
+        raise ValueError(f"The time of each row of {file} must not be less than that of the row before.")
+    moments = numpy.arange(int(time[-1] * fps + 1e-6) + 1) / fps
+    samples = values[numpy.searchsorted(time, moments + 1e-6, side="right") - 1]
+    return {name: samples[:, [at[title] for title in names]] for name, names in RECORDED_NAMES.items()}
+
+
+def _add_recording(dataset: Dataset, features: Mapping[str, Values], task: str) -> None:
+    dataset._names |= RECORDED_NAMES
+    for rows in zip(*features.values(), strict=True):
+        dataset.add_frame(dict(zip(features, rows, strict=True)))
     dataset.save_episode(task)
 
 
+def convert_recording(dataset: Dataset, recording: str | os.PathLike[str], task: str) -> None:
+    """Adds a recording of `franka_info record` (1 kHz, CSV) as an episode; of each frame's moment the last
+    sample counts. Raises ValueError for another file, OSError."""
+    _add_recording(dataset, _read_recording(recording, dataset.fps), task)
+
+
+@contextlib.contextmanager
+def _restored_on_failure(folder: Path) -> Iterator[None]:
+    """If the block fails, removes what it has put into a folder, and the folder if the block has made it."""
+    missing = [each for each in (folder, *folder.parents) if not each.exists()]
+    before = set() if missing else {*folder.iterdir()}
+    try:
+        yield
+    except BaseException:
+        for added in {*folder.iterdir()} - before if folder.is_dir() else ():
+            shutil.rmtree(added, ignore_errors=True)
+        with contextlib.suppress(OSError):
+            for each in missing:
+                each.rmdir()
+        raise
+
+
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The program. @returns 0; 1 if a file cannot be converted; 2 for a wrong call"""
+    """The program. @returns 0; 1 and no data set if a file cannot be converted; 2 for a wrong call"""
     parser = argparse.ArgumentParser(
         prog="python3 -m pyfranka.lerobot",
         description="Writes recordings of franka_info record as episodes of a data set of LeRobot.",
@@ -348,9 +381,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--robot", default="panda", help="kind of the robot (panda)")
     words = parser.parse_args(arguments)
     try:
-        with Dataset(words.folder, words.fps, words.robot) as dataset:
-            for recording in words.recordings:
-                convert_recording(dataset, recording, words.task)
+        folder = Path(path(words.folder, "folder"))
+        with _restored_on_failure(folder), Dataset(folder, words.fps, words.robot) as dataset:
+            # All are read before the first one is written.
+            for features in [_read_recording(recording, dataset.fps) for recording in words.recordings]:
+                _add_recording(dataset, features, words.task)
     except (OSError, ValueError, ImportError) as error:
         print(f"pyfranka.lerobot: {error}", file=sys.stderr)
         return 1

@@ -7,7 +7,7 @@ from __future__ import annotations
 import operator
 import os
 import typing
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 
 import numpy
 from numpy.typing import NDArray
@@ -50,6 +50,11 @@ def numbers(value: typing.Any, name: str, *sizes: int) -> NDArray[numpy.float64]
 def inertia(value: typing.Any, name: str) -> NDArray[numpy.float64]:
     """The nine numbers of an inertia: 3x3, or in a row."""
     return numbers(numpy.ravel(value) if numpy.shape(value) == (3, 3) else value, name, 9)
+
+
+def no_robot(name: str, robots: Iterable[str]) -> str:
+    """The sentence for a name that none of the robots has."""
+    return f"There is no robot '{name}'; there are: {', '.join(robots) or 'none'}."
 
 
 def path(value: typing.Any, name: str) -> str:

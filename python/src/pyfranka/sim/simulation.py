@@ -21,7 +21,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyfranka._deprecation import renamed
 
-from .arguments import items, mapping, numbers, path, seed_of, text
+from .arguments import items, mapping, no_robot, numbers, path, seed_of, text
 from .robot import Array, SimulatedRobot
 from .setups import FR3, Panda, _Setup
 
@@ -117,7 +117,7 @@ class Simulation:
 
     def __getitem__(self, name: str) -> SimulatedRobot:
         if name not in self:
-            raise KeyError(f"There is no robot '{name}'; there are: {', '.join(self) or 'none'}.")
+            raise KeyError(no_robot(name, self))
         return self._robots[name]
 
     def __contains__(self, name: object) -> bool:
