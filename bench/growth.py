@@ -4,6 +4,7 @@
 
 import tempfile
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy
@@ -56,7 +57,7 @@ def bodies(count: int) -> float:
             return spent
 
 
-def table(what: str, counts: tuple[int, ...], measure) -> None:
+def table(what: str, counts: tuple[int, ...], measure: Callable[[int], float]) -> None:
     times = []
     for count in counts:
         times.append(measure(count))
