@@ -8,18 +8,19 @@ last 50 ms of simulated time in all.
 
 import sys
 import time
+from typing import Any
 
 import numpy
 
 
-def pyfranka():
+def pyfranka() -> Any:
     import gymnasium
     import pyfranka.gym  # noqa: F401
 
     return gymnasium.make("pyfranka/PickAndPlace-v0")
 
 
-def robosuite():
+def robosuite() -> Any:
     import robosuite
 
     return robosuite.make(
@@ -32,11 +33,11 @@ def robosuite():
     )
 
 
-def panda_gym():
+def panda_gym() -> Any:
     import gymnasium
     import panda_gym  # noqa: F401
 
-    env = gymnasium.make("PandaPickAndPlace-v3")
+    env: Any = gymnasium.make("PandaPickAndPlace-v3")
     env.unwrapped.sim.n_substeps = 25  # of 2 ms; 20 is its default
     return env
 

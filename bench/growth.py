@@ -65,7 +65,7 @@ def worlds(count: int) -> float:
         return microseconds(batch.step, *batch)
 
 
-def table(what: str, counts: tuple[int, ...], measure) -> None:
+def table(what: str, counts: tuple[int, ...], measure: Callable[[int], float]) -> None:
     times = []
     for count in counts:
         times.append(measure(count))

@@ -24,13 +24,13 @@ TRIES = 5
 WALL = 3.0  # [s] of one measurement
 
 
-def start_client(library: str, address: str) -> subprocess.Popen:
+def start_client(library: str, address: str) -> subprocess.Popen[str]:
     command = [str(LIBRARIES[library]), str(CLIENT), library, address]
     return subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
 
 
 def line_of(lines: Lines, library: str) -> str:
-    line = lines.next(60.0)
+    line: str | None = lines.next(60.0)
     assert line is not None, f"A {library} client has ended, or has written nothing for 60 s."
     return line
 
@@ -49,6 +49,7 @@ def factors(library: str, pairs: int, wall: float = WALL, *options: str) -> list
             assert line_of(output, library) == "ready"
         begin = time.monotonic() + 0.3  # [s] in which all of them run already
         for client in clients:
+            assert client.stdin is not None
             client.stdin.write(f"{begin} {begin + wall}\n")
             client.stdin.flush()
         return [1e-3 * int(line_of(output, library)) / wall for output in outputs]

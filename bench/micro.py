@@ -93,7 +93,8 @@ def micro() -> None:
     with tempfile.TemporaryDirectory() as folder, Session("--core", log=Path(folder) / "core.log") as core:
         core.wait_for_master()
         # Once each: a benchmark's parameters stay in the master, where the next run would add its robot.
-        for name in dict.fromkeys(row.executable for row in (*RATIOS, *COUNTERS)):
+        of_ratios = [ratio.executable for ratio in RATIOS]
+        for name in dict.fromkeys([*of_ratios, *(counter.executable for counter in COUNTERS)]):
             if name not in found:
                 failures.append(f"{name} is not built")
                 print(f"  {name}: not built")

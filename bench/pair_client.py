@@ -10,12 +10,14 @@ library, so it imports nothing of this project but pyfranka.
 import sys
 import threading
 import time
+from collections.abc import Callable
+from typing import Any
 
 
 class Count:
     """Cycles from `begin` to `end`, of the monotonic clock."""
 
-    def __init__(self):
+    def __init__(self) -> None:
         self.cycles, self.begin, self.end = 0, float("inf"), float("inf")
 
     def next(self) -> bool:
@@ -30,10 +32,10 @@ class Count:
         self.begin, self.end = float(begin), float(end)
 
 
-def run(torques, control, count: Count) -> None:
+def run(torques: Any, control: Callable[[Callable[[Any, Any], Any]], object], count: Count) -> None:
     reader = threading.Thread(target=count.read)
 
-    def callback(_state, _period):
+    def callback(_state: Any, _period: Any) -> Any:
         if reader.ident is None:
             reader.start()
         command = torques([0.0] * 7)

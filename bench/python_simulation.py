@@ -4,10 +4,11 @@
 
 import os
 import time
+from collections.abc import Callable
 
 import numpy
-import pyfranka.sim
 from environments import environments
+from pyfranka.sim import SimulatedRobot, Simulation, SimulationBatch
 from report import figure
 
 TICKS = 10000
@@ -17,11 +18,11 @@ WORLDS, BATCH_STEPS = 16, 20
 STIFFNESS, DAMPING = numpy.array([600.0] * 4 + [250, 150, 50]), numpy.array([50.0] * 4 + [20, 15, 8])
 
 
-def speed(run) -> float:
+def speed(run: Callable[[Simulation, SimulatedRobot], None]) -> float:
     """Times real time of the best try; `run` steps a simulation by TICKS."""
     best = 0.0
     for _ in range(TRIES):
-        with pyfranka.sim.Simulation() as sim:
+        with Simulation() as sim:
             robot = sim["panda"]
             sim.step(100)
             begin = time.perf_counter()
@@ -31,19 +32,19 @@ def speed(run) -> float:
     return best
 
 
-def in_cpp(sim, robot) -> None:
+def in_cpp(sim: Simulation, robot: SimulatedRobot) -> None:
     robot.joint_impedance(robot.state.q)
     sim.step(TICKS)
 
 
-def below_a_policy(sim, robot) -> None:
+def below_a_policy(sim: Simulation, robot: SimulatedRobot) -> None:
     target = robot.state.q.copy()
     for _ in range(TICKS // POLICY):
         robot.joint_impedance(target, duration=1e-3 * POLICY)
         sim.step(POLICY)
 
 
-def torques_in_python(sim, robot) -> None:
+def torques_in_python(sim: Simulation, robot: SimulatedRobot) -> None:
     state, target = robot.state, robot.state.q.copy()
     q, dq = state.q, state.dq
     for _ in range(TICKS):
@@ -51,14 +52,14 @@ def torques_in_python(sim, robot) -> None:
         sim.step()
 
 
-def move_all(batch) -> None:
+def move_all(batch: SimulationBatch) -> None:
     for sim in batch:
         robot = sim["panda"]
         robot.joint_impedance(robot.state.q, duration=1e-3 * POLICY)
     batch.step(POLICY)
 
 
-def batch_speed(batch) -> float:
+def batch_speed(batch: SimulationBatch) -> float:
     """Simulated over real seconds of all worlds together."""
     begin = time.perf_counter()
     for _ in range(BATCH_STEPS):
@@ -69,8 +70,8 @@ def batch_speed(batch) -> float:
 def batches() -> None:
     """One thread and two in turns, so that other work on the machine slows both."""
     with (
-        pyfranka.sim.SimulationBatch(WORLDS, threads=1) as alone,
-        pyfranka.sim.SimulationBatch(WORLDS, threads=2) as both,
+        SimulationBatch(WORLDS, threads=1) as alone,
+        SimulationBatch(WORLDS, threads=2) as both,
     ):
         best = {alone: 0.0, both: 0.0}
         for _ in range(TRIES):
@@ -87,10 +88,10 @@ def resident() -> float:
 
 
 def memory() -> None:
-    with pyfranka.sim.SimulationBatch(1) as first:
+    with SimulationBatch(1) as first:
         move_all(first)
         before = resident()
-        with pyfranka.sim.SimulationBatch(WORLDS) as more:
+        with SimulationBatch(WORLDS) as more:
             move_all(more)
             figure("memory of a world more", (resident() - before) / WORLDS, "MB", 8.0)
 

@@ -8,10 +8,12 @@ import signal
 import sys
 import threading
 import time
+from typing import Any
 
 import cloudpickle
 import pyfranka
 from pyfranka import _sweep_run
+from pyfranka.sweeps import Outcome
 from report import TOP, figure
 
 sys.path.append(str(TOP / "examples" / "python"))
@@ -22,11 +24,11 @@ CASES = int(os.environ.get("FRANKA_BENCH_CASES", "200"))  # a few for a short fo
 ROUND_TRIP = 60.0  # [s] for a question to the workers
 
 
-def cases() -> list[dict]:
+def cases() -> list[dict[str, object]]:
     return [{"robot": "panda", "stiffness": 800.0, "scene": scene + 1} for scene in range(CASES)]
 
 
-def run(**where) -> tuple[list, float]:
+def run(**where: Any) -> tuple[list[Outcome], float]:
     """The outcomes, and cases per second."""
     begin = time.perf_counter()
     done = pyfranka.sweep(sweep_stiffness.case, cases(), **where)
@@ -35,13 +37,13 @@ def run(**where) -> tuple[list, float]:
     return list(done), len(done) / took
 
 
-def hashes(done: list) -> list[str]:
+def hashes(done: list[Outcome]) -> list[str]:
     """Case by case, in order, each once."""
     assert [outcome.index for outcome in done] == list(range(CASES)), "lost or doubled"
     return [outcome.result["hash"] for outcome in done]
 
 
-def run_with_a_killed_worker(seconds: float) -> tuple[list, float, int]:
+def run_with_a_killed_worker(seconds: float) -> tuple[list[Outcome], float, int]:
     """On two workers, one of which is killed from outside after so long. @returns also its process"""
     with _sweep_run.client_of(None, 2, CASES) as client:
         client.wait_for_workers(2, timeout=ROUND_TRIP)

@@ -2,7 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Helpers of all benchmarks: the workspace's path, and printing of results."""
 
+from __future__ import annotations
+
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from stalls import Stalls
 
 TOP = Path(__file__).resolve().parent.parent
 DEVEL = TOP / "catkin_ws" / "devel"
@@ -25,7 +31,7 @@ def figure(text: str, value: float, unit: str, goal: float | None = None, at_lea
     print(line, flush=True)
 
 
-def print_stalls(stalls) -> None:
+def print_stalls(stalls: Stalls) -> None:
     """Prints the machine's delays of a thread that only sleeps: the reference for real-time results."""
     figure("meanwhile a bare thread was woken up more than 1 ms late", stalls.late, "times")
     figure("its longest delay", 1e3 * stalls.worst, "ms")

@@ -4,6 +4,7 @@
 
 import threading
 import time
+from typing import Self
 
 from fci_session import go_first
 
@@ -16,17 +17,17 @@ class Stalls:
     `worst` is the longest delay [s], `late` counts delays of more than a period.
     """
 
-    def __enter__(self):
+    def __enter__(self) -> Self:
         self.worst, self.late, self._ended = 0.0, 0, threading.Event()
         self._thread = threading.Thread(target=self._watch)
         self._thread.start()
         return self
 
-    def __exit__(self, *_):
+    def __exit__(self, *_: object) -> None:
         self._ended.set()
         self._thread.join()
 
-    def _watch(self):
+    def _watch(self) -> None:
         go_first()
         while not self._ended.is_set():
             begin = time.monotonic()

@@ -12,12 +12,13 @@ import json
 import re
 import sys
 from pathlib import Path
+from typing import Any
 
 SEVERAL = re.compile(r"/Unity/unity_\d+_cxx\.cxx$")
 INCLUDED = re.compile(r'^#include "(.+)"$', re.M)
 
 
-def with_each_source(entries: list[dict]) -> list[dict]:
+def with_each_source(entries: list[dict[str, Any]]) -> list[dict[str, Any]]:
     """The entries, those of several sources replaced."""
     named = []
     for entry in entries:

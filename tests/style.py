@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The style checks: our own rules, ruff, clang-format, shellcheck, codespell, clang-tidy, and noexcept
+"""The style checks: our own rules, ruff, mypy, clang-format, shellcheck, codespell, clang-tidy, and noexcept
 functions that call what throws (nothrow.py).
 
 Called by `./franka test --style`, by continuous integration and by the hooks of pre-commit. Each finding is
@@ -86,6 +86,8 @@ REPLACED_WORDS = [
     ),
     (re.compile(r"\b(?i:whoever|whomever)\b"), "the caller, the client or the user"),
 ]
+# Python that mypy does not read: tests, and what only the build runs.
+UNTYPED = re.compile(r"(^|/)(setup|conftest)\.py$|(^|/)tests?/|^(ci|docs|packaging)/")
 MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(work|home|root|Users)/\w+")
 
 
@@ -258,13 +260,52 @@ def check_text(files: list[Path], long: bool) -> bool:
 # ---- checks by tools -------------------------------------------------------------------------------------
 
 
+def python_of(files: list[Path]) -> list[Path]:
+    """Modules, and scripts without a suffix."""
+    scripts = [path for path in files if not path.suffix and re.match(rb"#!.*python", first_line(path))]
+    return [path for path in files if path.suffix == ".py"] + scripts
+
+
 def check_ruff(files: list[Path], long: bool) -> bool:
     ruff = pinned_tool("ruff")
-    scripts = [path for path in files if not path.suffix and re.match(rb"#!.*python", first_line(path))]
-    python = [path for path in files if path.suffix == ".py"] + scripts
+    python = python_of(files)
     tables = [path for path in files if path.suffix == ".cfg"]
     linted = passes([ruff, "check", "--quiet", "--output-format=concise"], python + tables)
     return passes([ruff, "format", "--check", "--quiet"], python) and linted
+
+
+def module_of(path: Path) -> str:
+    """The name by which others import it. A script that imports a package of its own name has none."""
+    name, folder = path.stem, path.parent
+    if not path.suffix and re.search(rf"^\s*(from|import) {name}\b", path.read_text(), re.MULTILINE):
+        return "__main__"
+    while (folder / "__init__.py").is_file():
+        name, folder = folder.name if name == "__init__" else f"{folder.name}.{name}", folder.parent
+    return name
+
+
+def without_clashes(files: list[Path]) -> list[list[Path]]:
+    """The files in groups; mypy reads one of each name, and imports the others of the group by theirs."""
+    groups: list[dict[str, Path]] = []
+    for path in files:
+        name = module_of(path)
+        # One of these is alone: its neighbors would be found in place of the package that it imports.
+        if name == "__main__" or all(name in group or "__main__" in group for group in groups):
+            groups.append({name: path})
+        else:
+            next(each for each in groups if name not in each and "__main__" not in each)[name] = path
+    return [list(group.values()) for group in groups]
+
+
+def check_mypy(files: list[Path], long: bool) -> bool:
+    mypy = [pinned_tool("mypy"), "--no-error-summary"]
+    stubs = [path for path in files if path.suffix == ".pyi"]  # which are imported in place of their modules
+    typed = [path for path in python_of(files) if not UNTYPED.search(str(path.relative_to(TOP)))]
+    clean = True
+    for group in without_clashes([*stubs, *typed]):
+        scripts = [] if module_of(group[0]) == "__main__" else ["--scripts-are-modules"]
+        clean = passes([*mypy, *scripts], group) and clean
+    return clean
 
 
 def check_clang_format(files: list[Path], long: bool) -> bool:
@@ -383,6 +424,7 @@ def check_nothrow(files: list[Path], long: bool) -> bool:
 CHECKS: dict[str, Callable[[list[Path], bool], bool]] = {
     "text": check_text,
     "ruff": check_ruff,
+    "mypy": check_mypy,
     "clang-format": check_clang_format,
     "shellcheck": check_shellcheck,
     "codespell": check_codespell,

@@ -9,6 +9,8 @@ import sys
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+import pytest
+
 TOP = Path(__file__).resolve().parent.parent
 SOURCE, DEVEL = TOP / "catkin_ws" / "src", TOP / "catkin_ws" / "devel"
 EXAMPLES = [path for path in (TOP / "examples" / "python").glob("*.py") if path.name != "common.py"]
@@ -32,9 +34,9 @@ def programs() -> list[Path]:
     return [*found.values(), *EXAMPLES]
 
 
-def help_of(path: Path) -> tuple[int | None, str]:
+def help_of(path: Path, **variables: str) -> tuple[int | None, str]:
     """Its status, and its output."""
-    environment = {**os.environ, "ROS_MASTER_URI": NO_MASTER}
+    environment = {**os.environ, "ROS_MASTER_URI": NO_MASTER, **variables}
     options = {"text": True, "stdin": subprocess.DEVNULL, "capture_output": True, "timeout": PATIENCE}
     try:
         command = [sys.executable, str(path)] if path in EXAMPLES else [str(path)]
@@ -56,3 +58,20 @@ def test_every_program_answers_help():
         if status != 0 or not re.search("usage", text, re.IGNORECASE)
     }
     assert not wrong
+
+
+@pytest.mark.parametrize(
+    "name",
+    [
+        "catkin_ws/src/franka_description/scripts/install_meshes",
+        "catkin_ws/src/franka_example_controllers/scripts/dual_arm_interactive_marker.py",
+        "catkin_ws/src/franka_example_controllers/scripts/move_to_start.py",
+        "examples/python/first_steps.py",
+        "examples/python/sweep_stiffness.py",
+        "python/scripts/install_page_libraries",
+    ],
+)
+def test_programs_answer_help_without_docstrings(name):
+    """As python -OO, and a machine with the variable PYTHONOPTIMIZE, run them."""
+    status, text = help_of(TOP / name, PYTHONOPTIMIZE="2", PYTHONDONTWRITEBYTECODE="1")
+    assert status == 0 and "usage" in text

@@ -51,7 +51,7 @@ class Repository:
 def repository(tmp_path, monkeypatch):
     monkeypatch.setattr(style, "TOP", tmp_path)
     monkeypatch.setattr(style, "COMPILE_COMMANDS", tmp_path / "compile_commands.json")
-    for name in (".clang-format", ".clang-tidy", ".codespellrc", "ruff.toml"):
+    for name in (".clang-format", ".clang-tidy", ".codespellrc", "mypy.ini", "ruff.toml"):
         shutil.copy(TOP / name, tmp_path)
     return Repository(tmp_path)
 
@@ -92,6 +92,12 @@ def run(*arguments: str, monkeypatch) -> int:
         ),
         ("ruff", "a.py", "import os\n\nprint(os.name)\n", "import os\n"),
         ("ruff", "program", "#!/usr/bin/env python3\nprint(1)\n", "#!/usr/bin/env python3\nprint( 1 )\n"),
+        (
+            "mypy",
+            "program",
+            "#!/usr/bin/env python3\nimport rospy\n\n\ndef rate() -> float:\n    return 1.0\n",
+            "#!/usr/bin/env python3\nimport rospy\n\n\ndef rate():\n    return 1.0\n",
+        ),
         ("clang-format", "a.cpp", "int a = 1;\n", "int a=1;\n"),
         ("shellcheck", "script", '#!/bin/sh\necho "$1"\n', "#!/bin/sh\necho $1\n"),
         ("codespell", "a.md", "the word and numberIn\n", "teh word\n"),  # codespell:ignore
@@ -331,8 +337,19 @@ def test_nothrow_reports_a_source_that_it_cannot_read(repository, monkeypatch, c
     assert "a.cpp cannot be compiled by clang++-22" in found
 
 
+def test_files_of_one_name_are_checked_one_after_the_other(repository):
+    python = "#!/usr/bin/env python3\n"
+    package = [repository.add(f"one/src/one/{name}.py", "") for name in ("__init__", "arm")]
+    stub = repository.add("one/src/one/__init__.pyi", "")
+    first, second = repository.add("one/scripts/arm", python), repository.add("two/scripts/arm", python)
+    alone = repository.add("two/scripts/one", python + "from one import arm\n")
+    files = [stub, *package, first, second, alone]
+    assert style.without_clashes(files) == [[stub, package[1], first], [package[0], second], [alone]]
+
+
 @pytest.mark.parametrize(
-    "check, tool", [("ruff", "ruff"), ("clang-tidy", "clang-tidy-22"), ("nothrow", "clang++-22")]
+    "check, tool",
+    [("ruff", "ruff"), ("mypy", "mypy"), ("clang-tidy", "clang-tidy-22"), ("nothrow", "clang++-22")],
 )
 def test_missing_tool_fails_with_a_message(repository, check, tool, monkeypatch, capsys):
     repository.add("a.py", "")

@@ -395,13 +395,17 @@ TYPED = """
 import numpy
 from _pyfranka import Robot
 from _pyfranka._sim import ArmModel
-from pyfranka import sim
+from pyfranka import sim, sweep
+
+def reach(case: str, seed: int) -> dict[str, float]:
+    return {"error": seed / len(case)}
 
 def mass(model: ArmModel, robot: sim.SimulatedRobot) -> numpy.ndarray:
     return model.mass(robot.state)
 
 reveal_type(Robot("").read_once().robot_mode)
 reveal_type(sim.Panda().base)
+print([outcome.result["error"] for outcome in sweep(reach, ["left", "right"]) if outcome.ok])
 sim.Panda(bass=(0, 0, 0))
 """
 
@@ -414,7 +418,7 @@ def test_types_are_found_by_a_type_checker(environment, archive):
     assert [name for name in stubs if b"pybind11_stubgen" in archive.read(name)] == []
     script = environment.folder / "typed.py"
     script.write_text(TYPED)
-    options = ["--python-executable", environment.bin / "python", "--cache-dir", os.devnull]
+    options = ["--python-executable", environment.bin / "python", "--cache-dir", os.devnull, "--config-file="]
     checked = subprocess.run(
         [sys.executable, "-m", "mypy", *options, script], text=True, capture_output=True, timeout=300
     )

@@ -137,7 +137,7 @@ def heat_map(done, stiffnesses, scenes, path):
 
 
 def main(arguments=None):
-    parser = argparse.ArgumentParser(description=__doc__.partition("\n")[0])
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--robot", choices=["panda", "fr3"], default="panda")
     parser.add_argument("--scenes", type=int, default=8)
     parser.add_argument("--stiffnesses", type=int, nargs="+", default=STIFFNESSES, metavar="N/m")

@@ -46,7 +46,7 @@ for number, (task, one) in enumerate(zip(TASKS, axes.flat, strict=True)):
     for color, (name, make_policy) in enumerate(policies.items()):
         episodes = [play(env, make_policy, seed) for seed in range(arguments.episodes)]
         for rewards, success in episodes:
-            time = numpy.arange(1, len(rewards) + 1) / env.unwrapped.options.frequency
+            time = numpy.arange(1, len(rewards) + 1) / env.metadata["render_fps"]
             one.plot(time, rewards, color=f"C{color}", alpha=0.5, linewidth=1)
             if success:
                 one.plot(time[-1], rewards[-1], "o", color=f"C{color}", markersize=4)

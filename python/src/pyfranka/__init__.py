@@ -14,12 +14,13 @@ Arrays of a RobotState are numpy views of it; matrices have two dimensions and a
 """
 
 import builtins as _builtins
+from collections.abc import Iterable as _Iterable
 
 from _pyfranka import *  # noqa: F401, F403
 
 
 # Classes show, and are pickled, under the names that users import.
-def _rename(values) -> None:
+def _rename(values: _Iterable[object]) -> None:
     for value in values:
         if isinstance(value, type) and value.__module__ == "_pyfranka":
             value.__module__ = __name__
@@ -32,7 +33,7 @@ _rename([*globals().values()])
 __all__ = [name for name in globals() if not name.startswith("_") and not hasattr(_builtins, name)]
 
 
-def __getattr__(name: str):
+def __getattr__(name: str) -> object:
     """Imports pyfranka.sweep when it is used: robots and simulations do not need Dask."""
     if name == "sweep":
         from pyfranka.sweeps import sweep

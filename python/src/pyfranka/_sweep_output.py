@@ -16,7 +16,8 @@ import json
 import math
 import os
 import time
-from collections.abc import Iterator, Mapping
+import typing
+from collections.abc import Iterator, Mapping, Sequence
 from pathlib import Path
 
 import numpy
@@ -40,7 +41,7 @@ FIXED = {  # the columns of every sweep
     "worker": pyarrow.string(),
 }
 ADVICE = "Choose another output, or remove it."
-Row = dict[str, object]
+Row = dict[str, typing.Any]
 
 
 def check_path(path: Path) -> None:
@@ -143,7 +144,7 @@ class Output:
     def __enter__(self) -> Output:
         return self
 
-    def __exit__(self, *error) -> None:
+    def __exit__(self, *error: object) -> None:
         try:
             self.flush()
             if self._part_files() or not self._path.exists():
@@ -205,7 +206,7 @@ class Output:
         indices = [row["index"] for row in rows]
         cases = self._cases.take(indices) if self._cases is not None else pyarrow.table({})
         results = {n: kind for n, kind in self._types.items() if n == "result" or n.startswith("result.")}
-        data = {}
+        data: dict[str, typing.Any] = {}
         for name, kind in (FIXED | results).items():
             if name == "error":  # the case stands before its outcome
                 data |= {case: cases[case] for case in cases.column_names}
@@ -269,7 +270,7 @@ def result_of(row: Row) -> object:
     return {n.partition(".")[2]: value for n, value in row.items() if n.startswith("result.")} or None
 
 
-def table_of(values: list[object], name: str) -> pyarrow.Table:
+def table_of(values: Sequence[object], name: str) -> pyarrow.Table:
     """Columns of all cases. Cases that have no common columns become texts."""
     try:
         rows = [columns(name, value) for value in values]

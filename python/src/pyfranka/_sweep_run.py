@@ -18,14 +18,21 @@ from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 from types import CodeType
+from typing import TYPE_CHECKING, Any
 
 import cloudpickle
 import dask
 from dask.system import CPU_COUNT
-from distributed import CancelledError, Client, KilledWorker, Scheduler, as_completed, get_worker
+from distributed import CancelledError, Client, Future, KilledWorker, Scheduler, as_completed, get_worker
 from distributed.deploy.spec import SpecCluster
 from distributed.deploy.subprocess import SubprocessWorker
 from distributed.utils import silence_logging_cmgr
+
+if TYPE_CHECKING:
+    from pyfranka.sweeps import Function, Row, _Plan
+
+# Result (its columns if they are to be written), error, duration [s], worker.
+CaseResult = tuple[dict[str, object], str | None, float, str]
 
 IN_FLIGHT = 100  # futures at least: an adaptive cluster sees that there is work (chosen here)
 PER_THREAD = 3  # futures a thread: a worker has its next case queued (chosen here)
@@ -55,7 +62,7 @@ def check_cluster(cluster: object) -> None:
 
 
 @contextmanager
-def client_of(cluster: object, workers: int | None, cases: int) -> Iterator:
+def client_of(cluster: object, workers: int | None, cases: int) -> Iterator[Client]:
     """A client of the cluster, or of a new one on this machine."""
     if isinstance(cluster, Client):
         yield cluster
@@ -64,10 +71,12 @@ def client_of(cluster: object, workers: int | None, cases: int) -> Iterator:
         if cluster is None:
             # Until all is closed: Dask reports connections that end then.
             stack.enter_context(silence_logging_cmgr(logging.CRITICAL))
-            cluster = local_cluster(min(workers or CPU_COUNT, cases))
-            stack.callback(cluster.close, timeout=CONNECT)
-        file = isinstance(cluster, os.PathLike) or (isinstance(cluster, str) and cluster.endswith(".json"))
-        where = {"scheduler_file": os.fspath(cluster)} if file else {"address": cluster}
+            cluster = local = local_cluster(min(workers or CPU_COUNT, cases))
+            stack.callback(local.close, timeout=CONNECT)
+        if isinstance(cluster, os.PathLike) or (isinstance(cluster, str) and cluster.endswith(".json")):
+            where = {"scheduler_file": os.fspath(cluster)}
+        else:
+            where = {"address": cluster}
         try:
             client = Client(**where, timeout=CONNECT, set_as_default=False)
         except (OSError, ValueError) as error:  # TimeoutError is an OSError
@@ -76,7 +85,7 @@ def client_of(cluster: object, workers: int | None, cases: int) -> Iterator:
         yield client
 
 
-def local_cluster(workers: int):
+def local_cluster(workers: int) -> SpecCluster:
     """As LocalCluster, but workers are programs of their own: multiprocessing would run the caller's script
     again in each of them, and fail in one without `if __name__ == "__main__"`. Their nannies set
     OMP_NUM_THREADS=1 and the like, so that libraries use one thread each."""
@@ -105,14 +114,14 @@ class _Pickler(cloudpickle.Pickler):
     """cloudpickle's, but code that travels by value keeps the name of its file, which a failed case reports:
     cloudpickle 3.1.3 and later replace it."""
 
-    def reducer_override(self, obj):
+    def reducer_override(self, obj: Any) -> Any:
         if not isinstance(obj, CodeType):
             return super().reducer_override(obj)
         make, arguments = self.dispatch_table[CodeType](obj)[:2]
         return _code_of_file, (make, arguments, obj.co_filename)
 
 
-def _code_of_file(make: Callable, arguments: tuple, file: str) -> CodeType:
+def _code_of_file(make: Callable[..., CodeType], arguments: tuple[Any, ...], file: str) -> CodeType:
     return make(*arguments).replace(co_filename=file)
 
 
@@ -131,13 +140,14 @@ class CaseFailed(Exception):
 
 
 @functools.lru_cache(maxsize=4)
-def _loaded(payload: bytes, paths: tuple[str, ...]) -> Callable:
+def _loaded(payload: bytes, paths: tuple[str, ...]) -> Function:
     """The function; once a worker, so that its module's variables stay from case to case."""
     sys.path += [path for path in paths if path not in sys.path]
-    return pickle.loads(payload)
+    function: Function = pickle.loads(payload)
+    return function
 
 
-def run_case(case: bytes, seed: int, payload: bytes, paths: tuple[str, ...], plain: bool) -> tuple:
+def run_case(case: bytes, seed: int, payload: bytes, paths: tuple[str, ...], plain: bool) -> CaseResult:
     """Runs on a worker. @returns result (its columns if plain), error, duration [s], worker"""
     worker, begin = get_worker().address, time.perf_counter()
     try:
@@ -159,8 +169,8 @@ def run_case(case: bytes, seed: int, payload: bytes, paths: tuple[str, ...], pla
 def in_one_line(error: BaseException) -> str:
     """An exception in one line, with the place that raised it."""
     text = f"{type(error).__name__}: {' '.join(str(error).split())}"
-    frames = [frame for frame in inspect.getinnerframes(error.__traceback__) if frame.filename != __file__]
-    if frames:
+    trace = inspect.getinnerframes(error.__traceback__) if error.__traceback__ else []
+    if frames := [frame for frame in trace if frame.filename != __file__]:
         last = frames[-1]
         text += f" ({Path(last.filename).name}, line {last.lineno}, in {last.function})"
     return text
@@ -169,16 +179,17 @@ def in_one_line(error: BaseException) -> str:
 # ---- running ---------------------------------------------------------------------------------------------
 
 
-def _portable() -> tuple[Callable, Callable]:
+def _portable() -> tuple[Callable[..., Any], Callable[..., Any]]:
     """Functions that Dask sends by value, because they are local: a scheduler needs no pyfranka, and a worker
     that has none reports it. A task that a worker cannot read at all would end the worker."""
 
-    def call(work: bytes, case: bytes, seed: int) -> tuple:
+    def call(work: bytes, case: bytes, seed: int) -> CaseResult:
         import pickle
 
-        return pickle.loads(work)(case, seed)
+        result: CaseResult = pickle.loads(work)(case, seed)
+        return result
 
-    def facts(keys: list, dask_scheduler) -> dict:
+    def facts(keys: list[Any], dask_scheduler: Any) -> dict[Any, tuple[int, int, str]]:
         """By key: the retries left, the deaths of workers, the worker of the failure."""
         found = {key: dask_scheduler.tasks[key] for key in keys if key in dask_scheduler.tasks}
         return {key: (t.retries, t.suspicious, next(iter(t.erred_on or ()), "")) for key, t in found.items()}
@@ -196,15 +207,15 @@ class NoWorkers(TimeoutError):
 class Run:
     """Cases on their way: a bounded number of futures."""
 
-    def __init__(self, client, plan, retries: int, patience: float, plain: bool, local: bool):
+    def __init__(self, client: Client, plan: _Plan, retries: int, patience: float, plain: bool, local: bool):
         self._client, self._plan, self._retries, self._patience = client, plan, retries, patience
         paths = tuple(sys.path) if local else ()  # workers on this machine find modules beside the script
         work = functools.partial(run_case, payload=plan.payload, paths=paths, plain=plain)
         self._call = functools.partial(_CALL, pickle.dumps(work))
         self._name = f"case-{uuid.uuid4().hex[:8]}"
-        self._pending: dict = {}  # future -> number of the case
+        self._pending: dict[Future, int] = {}  # future -> number of the case
 
-    def outcomes(self, left: list[int]) -> Iterator[tuple[dict, dict] | None]:
+    def outcomes(self, left: list[int]) -> Iterator[tuple[Row, Row] | None]:
         """Row and result of each case of `left`, as they finish; None when LOOK has passed without any."""
         waiting, with_workers = iter(left), time.monotonic()
         self._finished = as_completed(loop=self._client.loop)
@@ -212,7 +223,7 @@ class Run:
             self._submit(waiting, self._threads())
             while self._pending:
                 batch = self._next_batch()
-                rows = self._rows(batch) if batch else []
+                rows: list[tuple[Row, Row] | None] = [*self._rows(batch)] if batch else []
                 threads = self._threads()
                 self._submit(waiting, threads)
                 yield from rows or [None]
@@ -253,7 +264,7 @@ class Run:
         self._pending.update(zip(futures, indices))
         self._finished.update(futures)
 
-    def _next_batch(self) -> list:
+    def _next_batch(self) -> list[Future]:
         """Futures that have finished; none after LOOK."""
         woken = self._finished.thread_condition
         with woken:
@@ -267,7 +278,7 @@ class Run:
         self._finished.update(lost)
         return [future for future in batch if future not in lost]
 
-    def _rows(self, batch: list) -> list[tuple[dict, dict]]:
+    def _rows(self, batch: list[Future]) -> list[tuple[Row, Row]]:
         """Rows and results of finished futures, which are then forgotten."""
         facts = self._client.run_on_scheduler(_FACTS, [future.key for future in batch])
         finished = {future: None for future in batch if future.status != "error"}
@@ -287,7 +298,7 @@ class Run:
             rows.append((row, result))
         return rows
 
-    def _failure(self, future) -> tuple[dict, str, float | None, str, int]:
+    def _failure(self, future: Future) -> tuple[Row, str, float | None, str, int]:
         """Result, error, duration, worker of a failed future, and whether its last try is to be counted."""
         error = future.exception()
         if isinstance(error, CaseFailed):

@@ -12,8 +12,15 @@ import sys
 import time
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from pyfranka.command_line import Parser, install_command
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+    from pyfranka.plot.figure import Panel
+    from pyfranka.plot.sources import Live
 
 TOPIC = "/franka_state_controller/franka_states"  # as in sources.py, which takes a while to import
 KINDS = ("panda", "fr3")
@@ -73,7 +80,7 @@ def _parser() -> argparse.ArgumentParser:
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--list", action="store_true", help="list the signals and end")
-    common = argparse.ArgumentParser(add_help=False)
+    common = Parser(add_help=False)
     common.add_argument(
         "-s",
         "--signals",
@@ -104,7 +111,7 @@ def _parser() -> argparse.ArgumentParser:
         help="auto: those that a signal comes near; all: all set the scale (%(default)s)",
     )
     common.add_argument("--title", default="", help="above the plot")
-    live = argparse.ArgumentParser(add_help=False)
+    live = Parser(add_help=False)
     live.add_argument(
         "--seconds",
         type=_seconds,
@@ -213,7 +220,7 @@ def _run(words: argparse.Namespace) -> int:
     return _show(figure, words, recording.name)
 
 
-def _run_live(words: argparse.Namespace, panels, version: int) -> int:
+def _run_live(words: argparse.Namespace, panels: Sequence[Panel], version: int) -> int:
     from pyfranka.plot import sources
     from pyfranka.plot.figure import Plot
     from pyfranka.plot.live import LiveWindow
@@ -226,6 +233,7 @@ def _run_live(words: argparse.Namespace, panels, version: int) -> int:
         raise BadInput(f"{', '.join(commands)}: states have no commands; franka_plot log shows them.")
     fields = fields_of(names)
     most = int(1.1e3 * words.seconds) + 100  # at 1 kHz
+    source: Live
     if words.source == "robot":
         source = sources.FromRobot(words.address, fields, most, version)
     else:
@@ -246,7 +254,7 @@ def _run_live(words: argparse.Namespace, panels, version: int) -> int:
     return 0
 
 
-def _collect(source, seconds: float) -> None:
+def _collect(source: Live, seconds: float) -> None:
     """Waits so long, or until Ctrl-C or the end of the source."""
     end = time.monotonic() + seconds
     stop = []
@@ -267,7 +275,7 @@ def _note_limits(version: int) -> None:
         )
 
 
-def _show(figure, words: argparse.Namespace, name: str) -> int:
+def _show(figure: Figure, words: argparse.Namespace, name: str) -> int:
     from pyfranka.plot.live import Window
 
     if words.output:
@@ -277,7 +285,7 @@ def _show(figure, words: argparse.Namespace, name: str) -> int:
     return 0
 
 
-def _save(figure, files: Sequence[Path]) -> None:
+def _save(figure: Figure, files: Sequence[Path]) -> None:
     from pyfranka.plot.recording import BadInput
 
     for file in files:

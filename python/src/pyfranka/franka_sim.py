@@ -38,6 +38,8 @@ from pyfranka.sim.arguments import no_robot, path
 from pyfranka.sim.setups import FR3, KINDS, Panda
 
 if typing.TYPE_CHECKING:
+    from numpy.typing import ArrayLike
+
     import pyfranka
 
 __all__ = ["FrankaSim", "FrankaSimError", "ServedRobot", "SimRobot"]
@@ -98,7 +100,8 @@ class ServedRobot:
         self.protocol = robot.protocol or robot._protocols[-1]  # the newest version that it speaks
         self.remote = Remote(robot.address)  # its control interface
         if robot.load is not None:
-            self.remote.load(*robot.load[:2])
+            mass, center, _ = typing.cast("tuple[float, ArrayLike, ArrayLike]", robot.load)
+            self.remote.load(mass, center)
 
     def __repr__(self) -> str:
         return f"<{self.kind} '{self.name}' at {self.address}>"
@@ -182,7 +185,7 @@ class FrankaSim:
     def __enter__(self) -> FrankaSim:
         return self
 
-    def __exit__(self, *error) -> None:
+    def __exit__(self, *error: object) -> None:
         self.stop()
 
     def __getitem__(self, name: str) -> ServedRobot:
@@ -347,8 +350,8 @@ def last_lines(text: str) -> str:
 
 
 def _started(
-    command: list[str], log: typing.IO, descriptor: int, variables: dict[str, str]
-) -> subprocess.Popen:
+    command: list[str], log: typing.IO[bytes], descriptor: int, variables: dict[str, str]
+) -> subprocess.Popen[bytes]:
     # The system ends the program when the thread that started it ends: only the main one lasts.
     guard = shutil.which("setpriv")
     if guard and threading.current_thread() is threading.main_thread():
@@ -365,7 +368,7 @@ def _started(
 
 
 # A fork of the process that started it leaves the program alone.
-def _kill(process: subprocess.Popen, owner: int) -> None:
+def _kill(process: subprocess.Popen[bytes], owner: int) -> None:
     if os.getpid() == owner:
         process.kill()
         process.wait()
@@ -377,7 +380,7 @@ def _checked(robot: typing.Any) -> Panda | FR3:
         return described(robot)
     if not isinstance(robot, (Panda, FR3)):
         raise TypeError(f"robots are Panda(...), FR3(...) and their kinds, not {robot!r}.")
-    if robot.load is not None and any(robot.load[2]):
+    if robot.load is not None and any(typing.cast("tuple[float, ...]", robot.load[2])):
         raise ValueError(
             "The inertia of a load cannot be set on the network before a client does: give mass and center."
         )

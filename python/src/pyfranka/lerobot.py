@@ -259,7 +259,7 @@ class Dataset:
         columns = {name: numpy.stack([row[name] for row in self._rows]) for name in self._rows[0]}
         frame = numpy.arange(count)
         moments, episode = (frame / self.fps).astype(numpy.float32), numpy.full(count, self.episodes)
-        own = (moments, frame, episode, frame + self.frames, numpy.full(count, number))
+        own: list[Values] = [moments, frame, episode, frame + self.frames, numpy.full(count, number)]
         columns |= {name: values.reshape(-1, 1) for name, values in zip(OWN, own, strict=True)}
         self._write_table(self.folder / self._path(DATA), columns)
         statistics = {name: _statistics(values) for name, values in columns.items()}

@@ -40,9 +40,9 @@ def _given(argument: typing.Any) -> typing.Any:
     return argument
 
 
-def _gives_plain_values(function: typing.Callable) -> typing.Callable:
+def _gives_plain_values(function: typing.Callable[..., typing.Any]) -> typing.Callable[..., typing.Any]:
     @functools.wraps(function)
-    def call(*args, **kwargs):
+    def call(*args: typing.Any, **kwargs: typing.Any) -> typing.Any:
         given = {name: _given(value) for name, value in kwargs.items()}
         return _plain(function(*map(_given, args), **given))
 
@@ -58,11 +58,12 @@ class _Wrapper:
         self.wrapped = wrapped
 
 
-def _derive(ours: type, base: type | None = None) -> type:
+def _derive(ours: type, base: type | None = None) -> typing.Any:
     """A class like pyfranka's whose attributes and methods give lists; derived from it, or from `base`."""
-    members = {"__doc__": ours.__doc__, "__module__": __name__, "__slots__": ()}
+    members: dict[str, typing.Any] = {"__doc__": ours.__doc__, "__module__": __name__, "__slots__": ()}
     for name, member in vars(ours).items():
         if isinstance(member, property):
+            assert member.fget is not None
             members[name] = property(_gives_plain_values(member.fget), member.fset, doc=member.__doc__)
         elif callable(member) and (not name.startswith("_") or name in ("__copy__", "__enter__", "__exit__")):
             members[name] = _gives_plain_values(member)

@@ -60,7 +60,7 @@ def urdf(robot: str, name: str = "") -> str:
     text, missing = _sim.robot_with_meshes(robot, name or robot)
     if missing:
         raise FileNotFoundError(f"The mesh {missing[0]} is not installed; run pyfranka-meshes.")
-    return text
+    return str(text)
 
 
 def main() -> None:

@@ -18,7 +18,7 @@ from __future__ import annotations
 import os
 import sys
 import typing
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Generator, Iterator, Sequence
 from contextlib import ExitStack
 
 import pytest
@@ -62,7 +62,7 @@ def pytest_runtest_setup(item: pytest.Item) -> None:
 
 
 @pytest.hookimpl(hookwrapper=True)
-def pytest_runtest_makereport(item: pytest.Item):
+def pytest_runtest_makereport(item: pytest.Item) -> Generator[None, typing.Any, None]:
     report = (yield).get_result()
     if not report.failed:
         return
@@ -119,7 +119,9 @@ class Factory:
         )
 
     def _setting(self, name: str) -> str:
-        return self._config.getoption(f"franka_sim_{name}") or self._config.getini(f"franka_sim_{name}")
+        name = f"franka_sim_{name}"
+        value: str = self._config.getoption(name) or self._config.getini(name)
+        return value
 
 
 @pytest.fixture

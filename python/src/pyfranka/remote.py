@@ -21,7 +21,7 @@ import socket
 import threading
 import time
 import typing
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 
@@ -157,7 +157,7 @@ class Remote:
                 raise
         return self
 
-    def __exit__(self, *error) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
     def close(self) -> None:
@@ -449,7 +449,9 @@ class Remote:
             RemoteShape(
                 shape["body"],
                 shape["kind"],
-                *(numpy.array(shape[key], float) for key in ("size", "pose", "color")),
+                numpy.array(shape["size"], float),
+                numpy.array(shape["pose"], float),
+                numpy.array(shape["color"], float),
                 shape["mesh"],
             )
             for shape in answer["shapes"]
@@ -532,7 +534,7 @@ class Remote:
         return f"{self.address}, port {self.port}"
 
     @contextmanager
-    def _locked(self, limit: float):
+    def _locked(self, limit: float) -> Iterator[None]:
         if not self._lock.acquire(timeout=limit):
             raise TimeoutError(f"Another thread has used this Remote for more than {limit:g} s.")
         try:
@@ -678,7 +680,7 @@ def _matrix(values: ArrayLike, rows: int, what: str) -> Array:
     return _numbers(numpy.ravel(values, order="F"), rows * rows, what)
 
 
-def _line(name: str, *numbers: ArrayLike) -> str:
+def _line(name: str, *numbers: Iterable[float]) -> str:
     return " ".join([name, *(_number(number, name) for each in numbers for number in each)])
 
 

@@ -148,7 +148,8 @@ class Report:
 def report_of(text: str) -> Report:
     """Reads the value of an answer to `report`. Raises ValueError with the reason."""
     try:
-        return _object(Report, json.loads(text), "the report")
+        report: Report = _object(Report, json.loads(text), "the report")
+        return report
     except RecursionError:
         raise ValueError("it is nested too deeply") from None
 
@@ -186,7 +187,7 @@ def _plain(kind: type, value: typing.Any, name: str) -> typing.Any:
     return kind(value)
 
 
-_known: dict[type, types.MappingProxyType] = {}
+_known: dict[type, types.MappingProxyType[str, typing.Any]] = {}
 
 
 def _hints(kind: type) -> typing.Mapping[str, typing.Any]:

@@ -176,7 +176,7 @@ class LaunchedRobot:
             "--ready-topic names another one."
         )
 
-    def _listener(self, topic: str) -> subprocess.Popen:
+    def _listener(self, topic: str) -> subprocess.Popen[bytes]:
         return subprocess.Popen(
             ["rostopic", "echo", "-n", "1", topic],
             env={**os.environ, **self.variables},
@@ -190,10 +190,10 @@ class LaunchedRobot:
 def free_port() -> int:
     with socket.socket() as probe:
         probe.bind(("localhost", 0))
-        return probe.getsockname()[1]
+        return int(probe.getsockname()[1])
 
 
-def end_group(process: subprocess.Popen, number: int) -> None:
+def end_group(process: subprocess.Popen[bytes], number: int) -> None:
     """Ends a process and its child processes, and waits for their end."""
     with suppress(ProcessLookupError):
         for each in (number, signal.SIGKILL):
@@ -259,7 +259,7 @@ def print_line(sentence: str) -> None:
 
 def with_robot(options: argparse.Namespace) -> int:
     """Starts the robot, runs the command, ends the robot; returns the exit status."""
-    robot = None
+    robot: ServedRobot | LaunchedRobot | None = None
     status = NO_ROBOT
     try:
         if options.launch:

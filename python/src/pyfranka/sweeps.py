@@ -43,9 +43,13 @@ import numpy
 
 from pyfranka.command_line import Parser, install_command
 
+if typing.TYPE_CHECKING:
+    from pyfranka._sweep_output import Output
+
 __all__ = ["Outcome", "Sweep", "main", "seed_of", "sweep"]
 
-Function = Callable[[object, int], object]
+Function = Callable[[typing.Any, int], object]
+Row = dict[str, typing.Any]
 
 FAILURES_SHOWN = 10  # by the program (chosen here)
 SCRIPT = "pyfranka_sweep_script"  # the name of a script as a module
@@ -59,10 +63,10 @@ class Outcome(typing.NamedTuple):
     last try [s]; None if the worker died. worker: address of the last worker.
     """
 
-    index: int
-    case: object
+    index: int  # type: ignore[assignment]  # hides the method of tuples
+    case: typing.Any
     seed: int
-    result: object
+    result: typing.Any
     error: str | None
     tries: int
     duration: float | None
@@ -74,13 +78,17 @@ class Outcome(typing.NamedTuple):
         return self.error is None
 
 
-class Sweep(Sequence):
+class Sweep(Sequence[Outcome]):
     """The outcomes of all cases, in their order."""
 
     def __init__(self, outcomes: Sequence[Outcome]):
         self._outcomes = list(outcomes)
 
-    def __getitem__(self, index):
+    @typing.overload
+    def __getitem__(self, index: int) -> Outcome: ...
+    @typing.overload
+    def __getitem__(self, index: slice) -> list[Outcome]: ...
+    def __getitem__(self, index: int | slice) -> Outcome | list[Outcome]:
         return self._outcomes[index]
 
     def __len__(self) -> int:
@@ -90,7 +98,7 @@ class Sweep(Sequence):
         return f"<Sweep of {len(self)} cases, {len(self.failed)} failed>"
 
     @property
-    def results(self) -> list:
+    def results(self) -> list[typing.Any]:
         """The results in order; None for failed cases."""
         return [outcome.result for outcome in self]
 
@@ -108,10 +116,10 @@ def seed_of(seed: int, index: int) -> int:
 
 def sweep(
     function: Function,
-    cases: int | Iterable,
+    cases: int | Iterable[object],
     cluster: object = None,
     *,
-    output: str | os.PathLike | None = None,
+    output: str | os.PathLike[str] | None = None,
     seed: int = 1,
     retries: int = 1,
     workers: int | None = None,
@@ -153,10 +161,11 @@ def sweep(
         raise ValueError(f"patience must be a time above 0 s, not {patience!r}.")
     _sweep_run.check_cluster(cluster)
     with ExitStack() as stack:
-        record, done = _Memory(), {}
+        record: _Memory | Output = _Memory()
+        done: dict[int, bool] = {}
         if output is not None:
-            record = stack.enter_context(_open_output(Path(output), plan))
-            done = record.done()
+            record = file = stack.enter_context(_open_output(Path(output), plan))
+            done = file.done()
         left = [i for i in range(len(plan)) if i not in done or (retry_failed and not done[i])]
         if left:
             bar = stack.enter_context(_bar(progress, len(plan), len(plan) - len(left)))
@@ -169,7 +178,7 @@ def sweep(
                     record.flush()
                     continue
                 record.add(*outcome)
-                bar(failed=outcome[0]["error"] is not None)
+                bar(outcome[0]["error"] is not None)
         return Sweep([_outcome(row, plan) for row in record.rows()])
 
 
@@ -200,7 +209,7 @@ def _check_number(name: str, value: object, least: int) -> int:
 class _Plan:
     """Function, cases and seeds of a sweep, and the identity by which its output is recognized."""
 
-    def __init__(self, function: Function, cases: int | Iterable, seed: int):
+    def __init__(self, function: Function, cases: int | Iterable[object], seed: int):
         if not callable(function):
             raise TypeError(f"function is called with a case and a seed; {function!r} cannot be called.")
         try:
@@ -215,7 +224,7 @@ class _Plan:
         self.seed = _check_number("seed", seed, 0)
         self.counted = isinstance(cases, numbers.Integral)
         if self.counted:
-            self.cases: Sequence = range(_check_number("cases", cases, 1))
+            self.cases: Sequence[typing.Any] = range(_check_number("cases", cases, 1))
         elif isinstance(cases, Iterable) and not isinstance(cases, (str, bytes)):
             self.cases = list(cases)
         else:
@@ -305,20 +314,20 @@ def _code_text(code: CodeType) -> str:
 class _Memory:
     """Rows of a sweep without an output; the interface is that of _sweep_output.Output."""
 
-    def __init__(self):
-        self._rows: dict[int, dict] = {}
+    def __init__(self) -> None:
+        self._rows: dict[int, Row] = {}
 
-    def add(self, row: dict, result: dict) -> None:
+    def add(self, row: Row, result: Row) -> None:
         self._rows[row["index"]] = {**row, **result}
 
     def flush(self) -> None:
         pass
 
-    def rows(self) -> list[dict]:
+    def rows(self) -> list[Row]:
         return [self._rows[index] for index in sorted(self._rows)]
 
 
-def _open_output(path: Path, plan: _Plan):
+def _open_output(path: Path, plan: _Plan) -> Output:
     from pyfranka import _sweep_output
 
     _sweep_output.check_path(path)
@@ -326,7 +335,7 @@ def _open_output(path: Path, plan: _Plan):
     return _sweep_output.Output(path, plan.identity, cases)
 
 
-def _outcome(row: dict, plan: _Plan) -> Outcome:
+def _outcome(row: Row, plan: _Plan) -> Outcome:
     if "sweep" in row:
         from pyfranka._sweep_output import result_of
 
@@ -338,7 +347,7 @@ def _outcome(row: dict, plan: _Plan) -> Outcome:
 
 
 @contextmanager
-def _bar(progress: bool | None, cases: int, done: int) -> Iterator[Callable]:
+def _bar(progress: bool | None, cases: int, done: int) -> Iterator[Callable[[bool], None]]:
     """A progress bar on standard error with rate and time left. Yields the function to call after each
     case."""
     from tqdm import tqdm
@@ -412,7 +421,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     return 1 if done.failed else 0
 
 
-def _from_script(path: Path, name: str, number: int | None) -> tuple[Function, int | Iterable]:
+def _from_script(path: Path, name: str, number: int | None) -> tuple[Function, int | Iterable[object]]:
     """The function and the cases of a file; its objects are pickled by value from now on."""
     _require()
     import cloudpickle
@@ -439,6 +448,7 @@ def _imported(path: Path) -> ModuleType:
     spec = importlib.util.spec_from_loader(
         SCRIPT, importlib.machinery.SourceFileLoader(SCRIPT, str(path)), origin=str(path)
     )
+    assert spec is not None and spec.loader is not None
     module = importlib.util.module_from_spec(spec)
     sys.modules[SCRIPT] = module
     sys.path.insert(0, str(path.absolute().parent))

@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """The shortest possible script."""
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 
 class ConstantCommand:
-    def starting(self, state, model):
+    def starting(self, state: Any, model: Any) -> None:
         self.command = np.zeros(7)
 
-    def update(self, state, model, period):
+    def update(self, state: Any, model: Any, period: float) -> NDArray[np.float64]:
         return self.command

@@ -11,6 +11,8 @@ the arms is not controlled (for example after a reflex), the marker follows the 
 when the controller starts again.
 """
 
+from __future__ import annotations
+
 import argparse
 import os
 import sys
@@ -18,7 +20,7 @@ import sys
 import rospy
 import rospy_connections
 from franka_msgs.msg import FrankaState
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import Pose, PoseStamped
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
 
 sys.path.insert(0, os.path.dirname(os.path.abspath(__file__)))
@@ -33,8 +35,8 @@ PUBLISH_PERIOD = 0.1  # [s]
 class CenteringFrameMarker(PoseMarker):
     """The marker of the dual-arm controller; it follows the frame while an arm is not controlled."""
 
-    def __init__(self, frame_id, pose):
-        self._moving = {}  # arm -> whether a controller moves it
+    def __init__(self, frame_id: str, pose: Pose) -> None:
+        self._moving: dict[str, bool] = {}  # arm -> whether a controller moves it
         super().__init__(
             frame_id,
             pose,
@@ -46,28 +48,28 @@ class CenteringFrameMarker(PoseMarker):
         )
         self._frames = rospy.Subscriber(FRAME_TOPIC, PoseStamped, self._frame, queue_size=1)
 
-    def watch(self, arm):
+    def watch(self, arm: str) -> rospy.Subscriber:
         """Subscribes to the state of this arm."""
         topic = f"{arm}_state_controller/franka_states"
         self._moving[arm] = False
         return rospy.Subscriber(topic, FrankaState, self._state, callback_args=arm, queue_size=1)
 
-    def _state(self, state, arm):
+    def _state(self, state: FrankaState, arm: str) -> None:
         self._moving[arm] = state.robot_mode == FrankaState.ROBOT_MODE_MOVE
 
-    def _all_moving(self):
+    def _all_moving(self) -> bool:
         return all(self._moving.values())
 
-    def _frame(self, message):
+    def _frame(self, message: PoseStamped) -> None:
         if not self._all_moving():
             self._set_pose(message.pose)
 
-    def _publish(self, event):
+    def _publish(self, event: rospy.timer.TimerEvent) -> None:
         if self._all_moving():
             super()._publish(event)
 
 
-def wait_for_frame():
+def wait_for_frame() -> PoseStamped | None:
     """The controller's first frame; None if the node exits before it arrives."""
     while not rospy.is_shutdown():
         try:
@@ -79,8 +81,8 @@ def wait_for_frame():
     return None
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+def main() -> int:
+    parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
     parser.add_argument("--left_arm_id", required=True, help="the arm in whose base the frame is given")
     parser.add_argument("--right_arm_id", required=True, help="the other arm")
     options = parser.parse_args(rospy.myargv(sys.argv)[1:])

@@ -8,6 +8,8 @@ marker's pose on equilibrium_pose, every 5 ms of ROS time. The marker's frame is
 link_name, the base of the arm (<arm_id>_link0).
 """
 
+from __future__ import annotations
+
 import math
 import sys
 import threading
@@ -16,7 +18,7 @@ import numpy as np
 import rospy
 import rospy_connections
 from franka_msgs.msg import FrankaState
-from geometry_msgs.msg import Pose, PoseStamped, Quaternion
+from geometry_msgs.msg import Point, Pose, PoseStamped, Quaternion
 from interactive_markers.interactive_marker_server import InteractiveMarkerServer
 from tf.transformations import quaternion_from_matrix, unit_vector
 from visualization_msgs.msg import (
@@ -31,18 +33,18 @@ PUBLISH_PERIOD = 0.005  # [s]
 MARKER_SCALE = 0.3  # [m]
 
 
-def clamp(value, limits):
+def clamp(value: float, limits: tuple[float, float]) -> float:
     """The closest number to value within (lowest, highest)."""
     return min(max(value, limits[0]), limits[1])
 
 
-def clamp_position(position):
+def clamp_position(position: Point) -> None:
     """Moves a geometry_msgs/Point, in place, into the marker's range."""
     for axis, limits in POSITION_LIMITS.items():
         setattr(position, axis, clamp(getattr(position, axis), limits))
 
 
-def pose_from_state(state):
+def pose_from_state(state: FrankaState) -> Pose | None:
     """Measured pose of the end effector in O, from a FrankaState; None if it has none."""
     matrix = state.O_T_EE  # 4x4 column-major
     if not all(math.isfinite(value) for value in matrix) or matrix[15] != 1.0:
@@ -53,7 +55,7 @@ def pose_from_state(state):
     return pose
 
 
-def axis_controls():
+def axis_controls() -> list[InteractiveMarkerControl]:
     """Six handles: rotation about and motion along each axis."""
     half = math.sqrt(0.5)
     axes = {"x": (half, 0.0, 0.0), "y": (0.0, 0.0, half), "z": (0.0, half, 0.0)}
@@ -81,7 +83,17 @@ class PoseMarker:
     A callback of rviz moves the marker, a timer's thread publishes.
     """
 
-    def __init__(self, frame_id, pose, *, name, description, server, publisher, period):
+    def __init__(
+        self,
+        frame_id: str,
+        pose: Pose,
+        *,
+        name: str,
+        description: str,
+        server: InteractiveMarkerServer,
+        publisher: rospy.Publisher,
+        period: float,
+    ):
         self._frame_id = frame_id
         self._pose = pose
         self._name = name
@@ -100,21 +112,21 @@ class PoseMarker:
         # reset: a restarted simulation sets the time back, and publishing must continue.
         self._timer = rospy.Timer(rospy.Duration(period), self._publish, reset=True)
 
-    def _dragged(self, pose):
+    def _dragged(self, pose: Pose) -> None:
         """The user has dragged the marker here."""
         self._set_pose(pose)
 
-    def _set_pose(self, pose):
+    def _set_pose(self, pose: Pose) -> None:
         with self._lock:
             self._pose = pose
         self._server.setPose(self._name, pose)
         self._server.applyChanges()
 
-    def _feedback(self, feedback):
+    def _feedback(self, feedback: InteractiveMarkerFeedback) -> None:
         if feedback.event_type == InteractiveMarkerFeedback.POSE_UPDATE:
             self._dragged(feedback.pose)
 
-    def _publish(self, _event):
+    def _publish(self, _event: rospy.timer.TimerEvent) -> None:
         message = PoseStamped()
         message.header.frame_id = self._frame_id
         message.header.stamp = rospy.Time.now()
@@ -129,7 +141,7 @@ class PoseMarker:
 class EquilibriumPoseMarker(PoseMarker):
     """The marker of the impedance controller, which stays within POSITION_LIMITS."""
 
-    def __init__(self, link_name, pose):
+    def __init__(self, link_name: str, pose: Pose):
         super().__init__(
             link_name,
             pose,
@@ -140,12 +152,12 @@ class EquilibriumPoseMarker(PoseMarker):
             period=PUBLISH_PERIOD,
         )
 
-    def _dragged(self, pose):
+    def _dragged(self, pose: Pose) -> None:
         clamp_position(pose.position)
         self._set_pose(pose)
 
 
-def wait_for_pose():
+def wait_for_pose() -> Pose | None:
     """The arm's pose from the first valid state; None if the node exits before it arrives."""
     topic = "franka_state_controller/franka_states"
     while not rospy.is_shutdown():
@@ -162,8 +174,8 @@ def wait_for_pose():
     return None
 
 
-def main():
-    rospy_connections.answer_help("rosrun franka_example_controllers interactive_marker.py", __doc__)
+def main() -> int:
+    rospy_connections.answer_help("rosrun franka_example_controllers interactive_marker.py", __doc__ or "")
     rospy_connections.init_node("equilibrium_pose_node")
     link_name = rospy.get_param("~link_name", None)
     if not isinstance(link_name, str) or not link_name:

@@ -8,8 +8,12 @@ Parameters: ~joint_pose, which maps the joints' names to positions [rad], and ~m
 move_to_start.launch does.
 """
 
+from __future__ import annotations
+
 import sys
 import threading
+from collections.abc import Mapping
+from typing import Any
 
 import actionlib
 import rospy
@@ -27,12 +31,14 @@ WAIT = 30.0  # [s] for the controller and the joints
 POLL = 0.05  # [s]
 
 
-def fail(text):
+def fail(text: str) -> int:
     rospy.logerr("move_to_start: %s", text)
     return 1
 
 
-def goal_for(pose, present, max_dq):
+def goal_for(
+    pose: Mapping[str, float], present: Mapping[str, float], max_dq: float
+) -> tuple[FollowJointTrajectoryGoal, rospy.Duration]:
     """A goal of one point at rest, no faster than max_dq [rad/s]."""
     farthest = max(abs(pose[name] - present[name]) for name in pose)
     point = JointTrajectoryPoint()
@@ -45,12 +51,12 @@ def goal_for(pose, present, max_dq):
     return goal, point.time_from_start
 
 
-def run(client, goal, timeout):
+def run(client: actionlib.ActionClient, goal: FollowJointTrajectoryGoal, timeout: rospy.Duration) -> Any:
     """Sends a goal and waits for its end. @returns its handle, also after a timeout."""
     # A SimpleActionClient logs errors about goals that a controller accepts at once.
     ended = threading.Event()
 
-    def follow(handle):
+    def follow(handle: Any) -> None:
         if handle.get_comm_state() == actionlib.CommState.DONE:
             ended.set()
 
@@ -61,8 +67,8 @@ def run(client, goal, timeout):
     return handle
 
 
-def main():
-    rospy_connections.answer_help("rosrun franka_example_controllers move_to_start.py", __doc__)
+def main() -> int:
+    rospy_connections.answer_help("rosrun franka_example_controllers move_to_start.py", __doc__ or "")
     rospy_connections.init_node("move_to_start")
     pose = rospy.get_param("~joint_pose", None)
     max_dq = rospy.get_param("~max_dq", 0.5)

@@ -48,7 +48,7 @@ _MODULES = {
 }
 
 
-def __getattr__(name: str):
+def __getattr__(name: str) -> typing.Any:
     """Imports a name when it is used: the program's --help does not need aiohttp."""
     if name == "Robot":
         warn("pyfranka.desk.Robot", "pyfranka.desk.DeskRobot")

@@ -75,8 +75,8 @@ def make_pem(address: str) -> bytes:
 
 def _key_usage() -> x509.KeyUsage:
     names = ("digital_signature", "key_cert_sign")
-    others = ("content_commitment", "key_encipherment", "data_encipherment", "key_agreement")
-    others += ("crl_sign", "encipher_only", "decipher_only")
+    others = ["content_commitment", "key_encipherment", "data_encipherment", "key_agreement"]
+    others += ["crl_sign", "encipher_only", "decipher_only"]
     return x509.KeyUsage(**dict.fromkeys(names, True), **dict.fromkeys(others, False))
 
 
@@ -88,7 +88,7 @@ def _is_valid(path: Path) -> bool:
     except (OSError, ValueError):
         return False
     if hasattr(certificate, "not_valid_after_utc"):  # from cryptography 42 on
-        end = certificate.not_valid_after_utc
+        end: datetime.datetime = certificate.not_valid_after_utc
     else:
         end = certificate.not_valid_after.replace(tzinfo=datetime.UTC)
     return end - datetime.datetime.now(datetime.UTC) > datetime.timedelta(days=LEFT)

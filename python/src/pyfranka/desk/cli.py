@@ -13,12 +13,18 @@ import os
 import secrets
 import signal
 import sys
+import typing
 from collections.abc import Sequence
 
 from pyfranka.command_line import install_command
 from pyfranka.desk.profiles import PROFILES
 from pyfranka.desk.robot import PORT, DeskRobot
 from pyfranka.desk.settings import USER, Options, Settings
+
+if typing.TYPE_CHECKING:
+    from aiohttp import web
+
+    from pyfranka.desk.server import Site
 
 PASSWORD = "FRANKA_DESK_PASSWORD"
 HTTPS, OTHER_HTTPS = 443, 8443
@@ -152,7 +158,7 @@ def _ports(listen: tuple[str, int] | None, robot: DeskRobot, number: int) -> lis
     return [(listen[0], listen[1] + number if listen[1] else 0)]
 
 
-async def _open(app, places: list[tuple[str, int]]):
+async def _open(app: web.Application, places: list[tuple[str, int]]) -> Site:
     from pyfranka.desk.certificate import tls_context
     from pyfranka.desk.server import Site
 

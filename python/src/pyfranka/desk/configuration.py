@@ -129,7 +129,7 @@ def _network(value: typing.Any, present: Json) -> Json:
     for part in value.values():
         if not isinstance(part, dict):
             raise bad_request("The parts of networkConfiguration must be objects.")
-    shop_floor = value.get("shopFloor", present["shopFloor"])
-    if shop_floor.get("type") not in ("Static", "Dhcp"):
+    network = {**present, **value}
+    if network["shopFloor"].get("type") not in ("Static", "Dhcp"):
         raise bad_request("The field shopFloor.type must be Static or Dhcp.")
-    return {**present, **value}
+    return network

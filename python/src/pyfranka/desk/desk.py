@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Iterator
+from typing import Any
 
 from aiohttp import WSCloseCode, web
 
@@ -38,8 +39,8 @@ class Desk:
         self.tokens = Tokens(self.options.force_timeout, self.changed, self._control_lost)
         self._profile = PROFILES.get(settings.profile)
         self._watchers: set[asyncio.Event] = set()
-        self._tasks: set[asyncio.Task] = set()
-        self._switching_off: asyncio.Task | None = None
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._switching_off: asyncio.Task[None] | None = None
         self._last = robot.report
         self._on_report: set[Callable[[Report | None, Report], None]] = set()
         self._sockets: set[web.WebSocketResponse] = set()
@@ -94,7 +95,7 @@ class Desk:
             event.set()
 
     @contextlib.contextmanager
-    def watch(self):
+    def watch(self) -> Iterator[asyncio.Event]:
         """An event that is set at each change; the watcher clears it."""
         event = asyncio.Event()
         self._watchers.add(event)
@@ -104,7 +105,7 @@ class Desk:
             self._watchers.discard(event)
 
     @contextlib.contextmanager
-    def reports(self, listener: Callable[[Report | None, Report], None]):
+    def reports(self, listener: Callable[[Report | None, Report], None]) -> Iterator[None]:
         """Calls the listener with the previous report and the new one."""
         self._on_report.add(listener)
         try:
@@ -113,7 +114,7 @@ class Desk:
             self._on_report.discard(listener)
 
     @contextlib.contextmanager
-    def open_socket(self, socket: web.WebSocketResponse):
+    def open_socket(self, socket: web.WebSocketResponse) -> Iterator[None]:
         """A WebSocket that is closed when the robot goes down."""
         self._sockets.add(socket)
         try:
@@ -146,7 +147,7 @@ class Desk:
 
     # ---- work beside requests ----------------------------------------------------------------------------
 
-    def begin(self, work: Coroutine) -> asyncio.Task:
+    def begin(self, work: Coroutine[Any, Any, object]) -> asyncio.Task[None]:
         """Runs it in parallel to the requests; refusals of the robot are ignored."""
         task = asyncio.get_running_loop().create_task(_quietly(work))
         self._tasks.add(task)
@@ -170,6 +171,6 @@ class Desk:
         self._switching_off = self.begin(self.robot.send("fci off", urgent=True))
 
 
-async def _quietly(work: Coroutine) -> None:
+async def _quietly(work: Coroutine[Any, Any, object]) -> None:
     with contextlib.suppress(Refused, RobotGone):
         await work

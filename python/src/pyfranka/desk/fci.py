@@ -6,7 +6,8 @@ from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections.abc import Callable, Coroutine
+from collections.abc import Callable, Coroutine, Iterator
+from typing import Any
 
 from pyfranka.desk.robot import DeskRobot
 from pyfranka.desk.settings import Options
@@ -19,14 +20,16 @@ class FciActivation:
     """desired: the FCI becomes active as soon as the robot's rules allow it. begin: runs a coroutine in
     parallel to the requests."""
 
-    def __init__(self, robot: DeskRobot, options: Options, begin: Callable[[Coroutine], object]):
+    def __init__(
+        self, robot: DeskRobot, options: Options, begin: Callable[[Coroutine[Any, Any, object]], object]
+    ):
         self.desired = False
         self._robot, self._options, self._begin = robot, options, begin
         self._next_attempt = 0.0
         self._pauses = 0
 
     @contextlib.contextmanager
-    def paused(self):
+    def paused(self) -> Iterator[None]:
         """While it is active, an FCI that is always on is not switched on."""
         self._pauses += 1
         try:

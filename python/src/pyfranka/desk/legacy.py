@@ -12,8 +12,8 @@ from pyfranka.desk import actions, checks
 from pyfranka.desk.access import COOKIE, check_login, check_password, check_token, not_in_control
 from pyfranka.desk.end_effectors import GENERIC, GRIPPER, PUMP, load_of_lists
 from pyfranka.desk.errors import DeskError, bad_request
-from pyfranka.desk.routes import Call, Login, Route, Token, on_fr3, on_panda, with_tokens
-from pyfranka.desk.status import JOINTS, RECOVERABLE, end_effector
+from pyfranka.desk.routes import Call, Handler, Login, Route, Token, on_fr3, on_panda, with_tokens
+from pyfranka.desk.status import JOINTS, RECOVERABLE, Json, end_effector
 
 CONTROL = "/admin/api/control-token"
 PROFILES = "/admin/api/end-effector/profiles"
@@ -27,7 +27,7 @@ PILOT_MODES = {"one": "desk", "desk": "desk", "robot": "robot"}
 # ---- login -----------------------------------------------------------------------------------------------
 
 
-async def login(call: Call):
+async def login(call: Call) -> web.Response:
     """Answers with the bare token. Not as a cookie, because clients create the cookie themselves, and two
     of one name would conflict."""
     body = call.object()
@@ -39,7 +39,7 @@ async def login(call: Call):
     return web.Response(text=desk.open_session(user))
 
 
-async def logout(call: Call):
+async def logout(call: Call) -> None:
     """Ends the session; control does not change."""
     request = call.request
     for token in (request.cookies.get(COOKIE, ""), request.headers.get("Authorization", "")):
@@ -47,14 +47,14 @@ async def logout(call: Call):
             call.desk.sessions.close(token)
 
 
-async def login_page(call: Call):
+async def login_page(call: Call) -> web.Response:
     """Redirects browsers to Desk's page."""
     refresh = '<meta http-equiv="refresh" content="0; url=/">'
     text = f'<!DOCTYPE html><title>Desk</title>{refresh}<p><a href="/">Desk</a></p>'
     return web.Response(text=text, content_type="text/html")
 
 
-async def first_start(call: Call):
+async def first_start(call: Call) -> bool:
     """Whether the robot has never been set up."""
     return False
 
@@ -62,7 +62,7 @@ async def first_start(call: Call):
 # ---- control ---------------------------------------------------------------------------------------------
 
 
-async def request_control(call: Call):
+async def request_control(call: Call) -> Json:
     """Granted at once if no user has control, else pending. With `force`, a press of the circle button at the
     robot grants it."""
     owner = call.object({}).get("requestedBy", call.user.name if call.user else "")
@@ -72,7 +72,7 @@ async def request_control(call: Call):
     return {"id": request.id, "token": request.token}
 
 
-async def cancel_request(call: Call):
+async def cancel_request(call: Call) -> None:
     """Withdraws a request that is still pending."""
     token, pending = _body_token(call), call.desk.tokens.pending
     if pending is None or not call.desk.tokens.is_pending(token) or str(pending.id) != call.words[0]:
@@ -80,7 +80,7 @@ async def cancel_request(call: Call):
     call.desk.tokens.withdraw(pending)
 
 
-async def release_control(call: Call):
+async def release_control(call: Call) -> web.Response:
     """Ends control, or withdraws the pending request of this token. Switches the FCI off."""
     if not call.desk.tokens.release(_body_token(call)):
         raise unknown_token()
@@ -88,19 +88,19 @@ async def release_control(call: Call):
     return web.Response(status=call.desk.options.release_status)
 
 
-async def activate_fci_by_body(call: Call):
+async def activate_fci_by_body(call: Call) -> None:
     """With the token in the body."""
     _check_body_token(call)
     await actions.activate_fci(call.desk)
 
 
-async def deactivate_fci_by_body(call: Call):
+async def deactivate_fci_by_body(call: Call) -> None:
     """With the token in the body."""
     _check_body_token(call)
     await actions.deactivate_fci(call.desk)
 
 
-async def safety(call: Call):
+async def safety(call: Call) -> Json:
     """Time limit for the circle button in a forced take-over [s]."""
     time = call.desk.options.force_timeout
     return {"tokenForceTimeout": int(time) if time.is_integer() else time}
@@ -129,37 +129,37 @@ def _check_body_token(call: Call) -> None:
 # ---- brakes, FCI, modes ----------------------------------------------------------------------------------
 
 
-async def unlock(call: Call):
+async def unlock(call: Call) -> None:
     """Opens the brakes, one joint after the other."""
     await call.desk.robot.send("joints unlock")
 
 
-async def lock(call: Call):
+async def lock(call: Call) -> None:
     """Closes the brakes. It needs no control, because it is safe."""
     await actions.lock(call.desk)
 
 
-async def activate_fci(call: Call):
+async def activate_fci(call: Call) -> None:
     """With the token as header or in the form."""
     await actions.activate_fci(call.desk)
 
 
-async def deactivate_fci(call: Call):
+async def deactivate_fci(call: Call) -> None:
     """With the token as header or in the form."""
     await actions.deactivate_fci(call.desk)
 
 
-async def execution_mode(call: Call):
+async def execution_mode(call: Call) -> None:
     """For tasks and the FCI."""
     await call.desk.robot.send("operating_mode execution")
 
 
-async def programming_mode(call: Call):
+async def programming_mode(call: Call) -> None:
     """For guiding by hand; switches the FCI off."""
     await call.desk.robot.send("operating_mode programming")
 
 
-async def guiding_mode(call: Call):
+async def guiding_mode(call: Call) -> None:
     """Sets the free directions of guiding."""
     mode = _mode(call)
     if mode not in GUIDING_MODES:
@@ -170,7 +170,7 @@ async def guiding_mode(call: Call):
     await call.desk.robot.send(line)
 
 
-async def pilot_mode(call: Call):
+async def pilot_mode(call: Call) -> None:
     """Sets the target of the Pilot's arrow keys."""
     mode = _mode(call)
     if mode not in PILOT_MODES:
@@ -181,43 +181,43 @@ async def pilot_mode(call: Call):
 # ---- the arm ---------------------------------------------------------------------------------------------
 
 
-async def homing(call: Call):
+async def homing(call: Call) -> None:
     """Homes the hand; returns when it has ended."""
     await call.desk.robot.send("hand homing")
 
 
-async def start_task(call: Call):
+async def start_task(call: Call) -> None:
     """The simulated robot has no tasks: each ends at once."""
     call.desk.last_task = checks.text(call.form().get("id"), "id")
 
 
-async def stop_task(call: Call):
+async def stop_task(call: Call) -> None:
     """There is no task to stop."""
 
 
-async def reset_errors(call: Call):
+async def reset_errors(call: Call) -> None:
     """Automatic error recovery."""
     if call.desk.report.errors:
         await call.desk.robot.send("recover")
 
 
-async def fold(call: Call):
+async def fold(call: Call) -> None:
     """Moves to the pose for transport; returns when it has ended."""
     await actions.move_to_pack_pose(call.desk)
 
 
-async def restart(call: Call):
+async def restart(call: Call) -> None:
     """Closes the brakes and starts the software again."""
     await actions.lock(call.desk)
     call.desk.restart()
 
 
-async def position_errors(call: Call):
+async def position_errors(call: Call) -> list[bool]:
     """Joints that have lost their position while the robot was off."""
     return list(call.desk.report.joint_position_error)
 
 
-async def reset_position_error(call: Call):
+async def reset_position_error(call: Call) -> None:
     """Accepts a joint's present position as correct."""
     word = call.words[0]
     if word not in map(str, range(JOINTS)):
@@ -229,17 +229,17 @@ async def reset_position_error(call: Call):
 # ---- the system ------------------------------------------------------------------------------------------
 
 
-async def reboot(call: Call):
+async def reboot(call: Call) -> None:
     """Answers first."""
     call.desk.power.reboot()
 
 
-async def shut_down(call: Call):
+async def shut_down(call: Call) -> None:
     """Answers first."""
     call.desk.power.shut_down()
 
 
-async def system_version(call: Call):
+async def system_version(call: Call) -> str:
     """The version, and two lines that name its source."""
     version = version_of(call)
     return "\n".join([version, *(hashlib.sha1((version + part).encode()).hexdigest() for part in "ab")])
@@ -250,17 +250,17 @@ def version_of(call: Call) -> str:
     return call.desk.options.version or call.desk.profile.version
 
 
-async def nameplate(call: Call):
+async def nameplate(call: Call) -> Json:
     """Identification of the robot."""
     return {"serialNumber": call.desk.options.serial_number, "armId": call.desk.report.arm_id}
 
 
-async def features(call: Call):
+async def features(call: Call) -> Json:
     """The installed features."""
     return {"fci": True}
 
 
-async def acknowledge(call: Call):
+async def acknowledge(call: Call) -> None:
     """Confirms a recoverable error."""
     word = call.request.query.get("error_id", "")
     name = ERROR_IDS.get(word.lower())
@@ -269,7 +269,7 @@ async def acknowledge(call: Call):
     await actions.acknowledge(call.desk, name)
 
 
-async def self_test(call: Call):
+async def self_test(call: Call) -> Json:
     """Starts the test; the states show its end."""
     await actions.self_test(call.desk, wait=False)
     return {"code": "SuccessResponse"}
@@ -278,12 +278,12 @@ async def self_test(call: Call):
 # ---- end effectors ---------------------------------------------------------------------------------------
 
 
-async def selection(call: Call):
+async def selection(call: Call) -> str:
     """A Panda's device."""
     return call.desk.end_effectors.selection
 
 
-async def select(call: Call):
+async def select(call: Call) -> None:
     """A Panda's device."""
     name = call.json()
     if name not in (GENERIC, GRIPPER, PUMP):
@@ -291,49 +291,49 @@ async def select(call: Call):
     call.desk.end_effectors.selection = name
 
 
-async def get_end_effector(call: Call):
+async def get_end_effector(call: Call) -> Json:
     """The end effector that a Panda assumes."""
     return end_effector(call.desk.report)
 
 
-async def set_end_effector(call: Call):
+async def set_end_effector(call: Call) -> None:
     """Sets the end effector that a Panda assumes."""
     await call.desk.end_effectors.set_load(load_of_lists(call.object()))
 
 
-async def profiles(call: Call):
+async def profiles(call: Call) -> list[Json]:
     """All profiles of an FR3."""
     return call.desk.end_effectors.list()
 
 
-async def active_profile(call: Call):
+async def active_profile(call: Call) -> Json:
     """The active profile of an FR3."""
     return call.desk.end_effectors.active()
 
 
-async def add_profile(call: Call):
+async def add_profile(call: Call) -> Json:
     """Adds a profile, which is not active."""
     return {"id": call.desk.end_effectors.add(call.object())}
 
 
-async def change_profile(call: Call):
+async def change_profile(call: Call) -> None:
     """Only the holder can change the active profile."""
     if call.desk.end_effectors.is_active(call.words[0]):
         check_token(call, Token.HEADER_LOCKED)
     await call.desk.end_effectors.change(call.words[0], call.object())
 
 
-async def delete_profile(call: Call):
+async def delete_profile(call: Call) -> None:
     """Deletes a profile that is not active."""
     call.desk.end_effectors.delete(call.words[0])
 
 
-async def activate_profile(call: Call):
+async def activate_profile(call: Call) -> None:
     """The body is its id, as a JSON string."""
     await call.desk.end_effectors.activate(checks.text(call.json(), "The body"))
 
 
-async def _power_without_login(call: Call, action):
+async def _power_without_login(call: Call, action: Handler) -> None:
     if not call.desk.options.power_without_login:
         check_login(call.user, Login.USER)
     await action(call)
@@ -343,7 +343,7 @@ def _mode(call: Call) -> str:
     return call.form().get("mode", "").strip('"')
 
 
-def _power(path: str, action) -> Route:
+def _power(path: str, action: Handler) -> Route:
     return Route("POST", path, lambda call: _power_without_login(call, action), login=Login.NONE)
 
 

@@ -7,7 +7,9 @@ from __future__ import annotations
 import asyncio
 import contextlib
 from collections import Counter, OrderedDict
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
+from typing import Any
 
 from aiohttp import web
 
@@ -75,7 +77,7 @@ class Counted:
         self._of: Counter[str] = Counter()
 
     @contextlib.contextmanager
-    def one(self, address: str):
+    def one(self, address: str) -> Iterator[None]:
         """Holds one. Raises DeskError (429) if there are too many."""
         if not self.add(address):
             raise DeskError(429, "TooManyRequests", f"Too many {self._what} are open. Close some of them.")
@@ -119,7 +121,7 @@ class Gate:
         if delay > 0.0:
             await self.requests.wait(address, delay)
 
-    def factory(self, server: web.Server):
+    def factory(self, server: web.Server) -> Callable[[], asyncio.Protocol]:
         """Connections of that server, each with its limits: for loop.create_server."""
 
         def make() -> asyncio.Protocol:
@@ -149,7 +151,8 @@ class _Guard(asyncio.Protocol):
             self._timer.cancel()
             self._timer = None
 
-    def connection_made(self, transport) -> None:
+    def connection_made(self, transport: asyncio.BaseTransport) -> None:
+        assert isinstance(transport, asyncio.Transport)
         self._address = _host(transport.get_extra_info("peername"))
         self._counted = self._connections.add(self._address)
         self._guards[self._handler] = self
@@ -159,7 +162,7 @@ class _Guard(asyncio.Protocol):
         else:
             transport.abort()
 
-    def connection_lost(self, error) -> None:
+    def connection_lost(self, error: Exception | None) -> None:
         self.has_begun()
         self._guards.pop(self._handler, None)
         if self._counted:
@@ -169,7 +172,7 @@ class _Guard(asyncio.Protocol):
     def data_received(self, data: bytes) -> None:
         self._handler.data_received(data)
 
-    def eof_received(self):
+    def eof_received(self) -> bool | None:
         return self._handler.eof_received()
 
     def pause_writing(self) -> None:
@@ -184,5 +187,5 @@ def address_of(request: web.Request) -> str:
     return _host(request.transport.get_extra_info("peername") if request.transport else None)
 
 
-def _host(peer) -> str:
+def _host(peer: Any) -> str:
     return str(peer[0]) if peer else "unknown"

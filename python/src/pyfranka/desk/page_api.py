@@ -12,6 +12,7 @@ import json
 import os
 import re
 from pathlib import Path
+from typing import Any
 
 from aiohttp import web
 
@@ -134,7 +135,7 @@ class PageApi:
         robots = [self._listed(number, desk) for number, desk in enumerate(self.desk.all)]
         return web.json_response({"user": user.name, "robots": robots, "meshes": self._mesh_names()})
 
-    def _listed(self, number: int, desk: Desk) -> dict:
+    def _listed(self, number: int, desk: Desk) -> dict[str, Any]:
         report = desk.robot.report
         name = report.arm_id if report else f"robot {number + 1}"
         return {
@@ -201,7 +202,7 @@ class PageApi:
         body, desk = await self._checked(request)
         user, token = await self._user(request), token_of(request)
         what = body.get("what")
-        answer: dict = {}
+        answer: dict[str, Any] = {}
         if what in ("take", "force"):
             granted = desk.tokens.request(user.name, what == "force")
             answer = {"id": granted.id, "token": granted.token}
@@ -223,13 +224,13 @@ class PageApi:
             raise DeskError(401, "Unauthorized", "Log in first.")
         return user
 
-    async def _checked(self, request: web.Request) -> tuple[dict, Desk]:
+    async def _checked(self, request: web.Request) -> tuple[dict[str, Any], Desk]:
         access.check_origin(request, True)
         await self._user(request)
         body = await self._body(request)
         return body, self.desk.all[self._number(body.get("robot", 0))]
 
-    async def _body(self, request: web.Request) -> dict:
+    async def _body(self, request: web.Request) -> dict[str, Any]:
         """A JSON object; other types are refused, because forms of other sites could send them."""
         if request.content_type != "application/json":
             raise DeskError(415, "UnsupportedMediaType", "The body must be of the type application/json.")

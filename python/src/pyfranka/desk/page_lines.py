@@ -6,7 +6,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from pyfranka.desk.errors import bad_request
@@ -118,7 +118,7 @@ def _milliseconds(word: str) -> str | None:
     return word if word.isascii() and word.isdigit() and 1 <= int(word[:6]) <= MAX_PUSH_TIME else None
 
 
-KINDS = {
+KINDS: dict[str, Callable[[str], str | None]] = {
     "NUMBER": _number,
     "FORCE": _force,
     "MILLISECONDS": _milliseconds,

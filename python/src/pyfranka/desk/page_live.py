@@ -11,11 +11,13 @@ import json
 import struct
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 from aiohttp import web
 
 from pyfranka.desk.desk import Desk
-from pyfranka.desk.robot import Connection, Refused, RobotGone
+from pyfranka.desk.errors import Refused, RobotGone
+from pyfranka.desk.robot import Connection
 
 PERIOD = 0.05  # [s] between two frames (chosen here: motions look smooth)
 PAUSE = 1.0  # [s] before a scene that was refused is requested again (chosen here)
@@ -216,7 +218,7 @@ def _robot_text(desk: Desk) -> str:
     return f'{{"report":{robot.text},"control":{control}}}'
 
 
-def control_of(desk: Desk) -> dict:
+def control_of(desk: Desk) -> dict[str, Any]:
     """The user who controls a robot, for the page; without secrets."""
     if desk.robot.report is not None and not desk.profile.tokens:
         return {"tokens": False, "owner": None, "id": None, "request": None}
@@ -231,7 +233,8 @@ def control_of(desk: Desk) -> dict:
 
 
 async def _read_mesh(connection: Connection, name: str) -> bytes:
-    parts, offset, size = [], 0, 0
+    parts: list[bytes] = []
+    offset, size = 0, 0
     while offset is not None:
         chunk = json.loads(await connection.exchange(f"mesh {name} {offset}", LINE_LIMIT))
         if not parts:

@@ -39,7 +39,7 @@ class Power:
     def __init__(
         self,
         robot: DeskRobot,
-        begin: Callable[[Coroutine], asyncio.Task],
+        begin: Callable[[Coroutine[typing.Any, typing.Any, object]], asyncio.Task[None]],
         clear: Callable[[], Awaitable[None]],
         boot_time: Callable[[], float],
     ):
@@ -47,7 +47,7 @@ class Power:
         self.site: Site | None = None
         self._robot, self._run, self._clear, self._boot_time = robot, begin, clear, boot_time
         self._has_power = asyncio.Event()
-        self._task: asyncio.Task | None = None
+        self._task: asyncio.Task[None] | None = None
 
     def check(self) -> None:
         """Raises DeskError (503) while the robot is off."""
@@ -62,7 +62,7 @@ class Power:
         """Switches the robot off; the line `power on` of the control interface switches it on."""
         self._begin(self._shut_down())
 
-    def _begin(self, work: Coroutine) -> None:
+    def _begin(self, work: Coroutine[typing.Any, typing.Any, object]) -> None:
         if self._task is None or self._task.done():
             self._task = self._run(work)
         else:

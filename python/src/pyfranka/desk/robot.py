@@ -183,7 +183,7 @@ class Connection:
         await self.open()
         return self
 
-    async def __aexit__(self, *error) -> None:
+    async def __aexit__(self, *error: object) -> None:
         self.close()
 
     async def open(self) -> None:

@@ -126,7 +126,7 @@ class Routes:
     _fixed: dict[str, list[Route]] = field(default_factory=dict)
     _variable: list[tuple[list[str], Route]] = field(default_factory=list)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         for route in self.routes:
             if "<" in route.path:
                 self._variable.append((route.path.split("/"), route))
@@ -135,7 +135,8 @@ class Routes:
 
     def find(self, path: str, profile: Profile) -> list[tuple[Route, tuple[str, ...]]]:
         """The routes of a path on that robot, with the variable parts."""
-        found = [(route, ()) for route in self._fixed.get(path, ()) if route.where(profile)]
+        found: list[tuple[Route, tuple[str, ...]]] = []
+        found += ((route, ()) for route in self._fixed.get(path, ()) if route.where(profile))
         if found:
             return found
         parts = path.split("/")

@@ -9,7 +9,8 @@ import logging
 import re
 import ssl
 import urllib.parse
-from collections.abc import Sequence
+from collections.abc import Awaitable, Callable, Sequence
+from typing import Any
 
 from aiohttp import web
 
@@ -21,6 +22,8 @@ from pyfranka.desk.robot import DeskRobot
 from pyfranka.desk.routes import Call, Route, Routes
 from pyfranka.desk.sessions import Users
 from pyfranka.desk.settings import Settings
+
+Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 
 # Newer versions of aiohttp require a key of their own type.
 DESK = getattr(web, "AppKey", lambda name, kind: name)("desk", Desk)  # of the application's robot
@@ -94,7 +97,7 @@ class Site:
 
 
 @web.middleware
-async def _finish(request: web.Request, handler) -> web.StreamResponse:
+async def _finish(request: web.Request, handler: Handler) -> web.StreamResponse:
     """Applies the limits and converts errors, for every request, also those of pages."""
     newer = _path_of(request).startswith("/api/")
     try:
@@ -182,7 +185,7 @@ async def _run(route: Route, call: Call) -> web.StreamResponse:
 
 
 # Without its client an error has no receiver; reading it keeps asyncio from logging it.
-def _read_error(work: asyncio.Task) -> None:
+def _read_error(work: asyncio.Task[Any]) -> None:
     if not work.cancelled():
         work.exception()
 

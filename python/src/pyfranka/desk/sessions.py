@@ -11,6 +11,7 @@ import json
 import re
 import secrets
 from collections import OrderedDict
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 WHITE_SPACE = re.compile(r"\s+")
@@ -37,7 +38,7 @@ class Users:
     def __init__(self, name: str, password: str):
         self._users = {name: User(name, digest_of(name, password))}
 
-    def __iter__(self):
+    def __iter__(self) -> Iterator[User]:
         return iter(self._users.values())
 
     def get(self, name: str) -> User | None:

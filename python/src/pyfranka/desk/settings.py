@@ -86,7 +86,7 @@ class Settings:
     options: Options = field(default_factory=Options)
     limits: Limits = field(default_factory=Limits)
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         if not self.password:
             raise ValueError("Desk needs a password.")
         if not self.user or len(self.user) > 100 or not self.user.isprintable() or ":" in self.user:
@@ -94,7 +94,7 @@ class Settings:
         self.options.check()
 
 
-def _value(kind: type, name: str, word: str) -> typing.Any:
+def _value(kind: type, name: str, word: str) -> bool | str | int | float:
     if kind is bool:
         switches = {"on": True, "true": True, "yes": True, "1": True}
         switches |= {"off": False, "false": False, "no": False, "0": False}
@@ -104,7 +104,7 @@ def _value(kind: type, name: str, word: str) -> typing.Any:
     if kind is str:
         return word
     try:
-        number = kind(word)
+        number: int | float = kind(word)
     except ValueError:
         number = math.nan
     if not math.isfinite(number):

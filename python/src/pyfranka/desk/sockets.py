@@ -16,7 +16,7 @@ from aiohttp import WSMsgType, web
 from pyfranka.desk import status
 from pyfranka.desk.desk import Desk
 from pyfranka.desk.limits import address_of
-from pyfranka.desk.routes import Call, Login, Route, Where, everywhere, on_fr3, with_tokens, with_v1
+from pyfranka.desk.routes import Call, Handler, Login, Route, Where, everywhere, on_fr3, with_tokens, with_v1
 from pyfranka.robot_report import Report
 
 PING = 30.0  # [s] between two pings, which detect lost clients (chosen here)
@@ -24,6 +24,8 @@ MAX_MESSAGE_LENGTH = 4096  # [bytes] from a client, which need not send anything
 WRITE_LIMIT = 10.0  # [s] for a client to take a message (chosen here)
 UNREAD_EVENTS = 1000  # of a client that does not read (chosen here)
 VOLATILE = {"sequenceNumber", "timeToTd2"}  # members that alone are not a change
+
+Send = Callable[[typing.Any], typing.Awaitable[None]]
 
 
 @dataclass(frozen=True)
@@ -67,8 +69,8 @@ TOPICS = [
 ]
 
 
-def _handler(topic: Topic):
-    async def handle(call: Call):
+def _handler(topic: Topic) -> Handler:
+    async def handle(call: Call) -> typing.Any:
         if not _is_upgrade(call.request):
             return topic.snapshot(call.desk)
         topic.snapshot(call.desk)  # an error is an answer, not an end of the socket
@@ -77,7 +79,7 @@ def _handler(topic: Topic):
     return handle
 
 
-async def navigation_events(call: Call):
+async def navigation_events(call: Call) -> dict[str, bool] | web.WebSocketResponse:
     """The Pilot's buttons: all of them first, then those that change."""
     if not _is_upgrade(call.request):
         return status.pressed_buttons(call.desk.report)
@@ -93,7 +95,7 @@ async def navigation_events(call: Call):
         return await _serve(call, lambda send: _send_queue(first, queue, send))
 
 
-async def server_sent_events(call: Call):
+async def server_sent_events(call: Call) -> web.StreamResponse:
     """The state of the newer interface as an event stream."""
     response = web.StreamResponse(headers={"Content-Type": "text/event-stream", "Cache-Control": "no-store"})
     topic = Topic(
@@ -130,7 +132,7 @@ def _is_upgrade(request: web.Request) -> bool:
     return request.headers.get("Upgrade", "").lower() == "websocket"
 
 
-async def _serve(call: Call, work: Callable[[Callable], typing.Awaitable[None]]) -> web.WebSocketResponse:
+async def _serve(call: Call, work: Callable[[Send], typing.Awaitable[None]]) -> web.WebSocketResponse:
     """Runs the work, which sends, until the client closes."""
     socket = web.WebSocketResponse(heartbeat=PING, max_msg_size=MAX_MESSAGE_LENGTH, compress=False)
     with call.desk.gate.sockets.one(address_of(call.request)):
@@ -151,7 +153,7 @@ async def _serve(call: Call, work: Callable[[Callable], typing.Awaitable[None]])
 
 
 # Reading answers pings and detects the end.
-async def _read(socket: web.WebSocketResponse, sender: asyncio.Task) -> None:
+async def _read(socket: web.WebSocketResponse, sender: asyncio.Task[None]) -> None:
     sender.add_done_callback(lambda _: asyncio.get_running_loop().create_task(socket.close()))
     async for message in socket:
         if message.type is WSMsgType.ERROR:
@@ -164,7 +166,7 @@ async def _until_disconnected(work: typing.Awaitable[None]) -> None:
 
 
 async def _send_snapshots(
-    desk: Desk, topic: Topic, send: Callable, keep_sending: Callable[[], bool] = lambda: True
+    desk: Desk, topic: Topic, send: Send, keep_sending: Callable[[], bool] = lambda: True
 ) -> None:
     loop = asyncio.get_running_loop()
     last, due = None, loop.time()
@@ -189,7 +191,7 @@ async def _next(event: asyncio.Event, topic: Topic, left: float) -> None:
         await asyncio.sleep(max(0.0, left))
 
 
-async def _send_queue(first: dict[str, bool], queue: asyncio.Queue, send: Callable) -> None:
+async def _send_queue(first: dict[str, bool], queue: asyncio.Queue[dict[str, bool]], send: Send) -> None:
     await send(first)
     while True:
         await send(await queue.get())

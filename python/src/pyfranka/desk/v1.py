@@ -10,7 +10,8 @@ import typing
 from pyfranka.desk import actions, checks, status
 from pyfranka.desk.access import not_in_control
 from pyfranka.desk.errors import DeskError, bad_request
-from pyfranka.desk.routes import Call, Login, Route, Token, with_v1
+from pyfranka.desk.routes import Call, Handler, Login, Route, Token, with_v1
+from pyfranka.desk.status import Json
 from pyfranka.desk.tokens import Request
 from pyfranka.robot_report import Report
 
@@ -41,23 +42,23 @@ TYPES = (
 )
 
 
-async def get_system(call: Call):
+async def get_system(call: Call) -> Json:
     return status.system(call.desk)
 
 
-async def reboot(call: Call):
+async def reboot(call: Call) -> None:
     call.desk.power.reboot()
 
 
-async def shut_down(call: Call):
+async def shut_down(call: Call) -> None:
     call.desk.power.shut_down()
 
 
-async def operating_mode(call: Call):
+async def operating_mode(call: Call) -> Json:
     return {"status": status.operating_mode(call.desk.report)}
 
 
-async def change_operating_mode(call: Call):
+async def change_operating_mode(call: Call) -> None:
     desired = call.object().get("desiredOperatingMode")
     if desired != "Execution":
         raise bad_request("The field desiredOperatingMode must be Execution; Programming is set in Desk.")
@@ -67,15 +68,18 @@ async def change_operating_mode(call: Call):
 # ---- control ---------------------------------------------------------------------------------------------
 
 
-async def control_token(call: Call):
+async def control_token(call: Call) -> Json:
     active, pending = call.desk.tokens.active, call.desk.tokens.pending
-    value = {"owner": active and active.owner, "requester": pending and pending.owner}
+    value: Json = {
+        "owner": active and active.owner,
+        "requester": pending and pending.owner,
+    }
     if call.desk.options.token_id:
         value["tokenId"] = active and active.id
     return value
 
 
-async def take_control(call: Call):
+async def take_control(call: Call) -> Json:
     """Waits while another user has control."""
     body = call.object()
     owner = checks.text(body.get("owner"), "owner")
@@ -87,13 +91,13 @@ async def take_control(call: Call):
         await _wait_for_control(call, request, timeout)
     finally:
         call.desk.tokens.withdraw(request)
-    value = {"token": request.token}
+    value: Json = {"token": request.token}
     if call.desk.options.token_id:
         value["tokenId"] = request.id
     return value
 
 
-async def release_control(call: Call):
+async def release_control(call: Call) -> None:
     token = call.request.headers.get("X-Control-Token", "")
     if not call.desk.tokens.is_active(token):
         raise not_in_control()
@@ -126,80 +130,80 @@ async def _wait_for_control(call: Call, request: Request, timeout: float | None)
 # ---- FCI, arm, end effector ------------------------------------------------------------------------------
 
 
-async def fci(call: Call):
+async def fci(call: Call) -> Json:
     return {"status": "Active" if call.desk.report.fci else "Inactive"}
 
 
-async def activate_fci(call: Call):
+async def activate_fci(call: Call) -> None:
     await actions.activate_fci(call.desk)
 
 
-async def deactivate_fci(call: Call):
+async def deactivate_fci(call: Call) -> None:
     await actions.deactivate_fci(call.desk)
 
 
-async def arm(call: Call):
+async def arm(call: Call) -> Json:
     return {"status": "Connected", "armType": call.desk.report.type.upper()}
 
 
-async def joints(call: Call):
+async def joints(call: Call) -> list[Json]:
     return [
         {"joint": number, "brakeStatus": word}
         for number, word in enumerate(status.brakes(call.desk.report), start=1)
     ]
 
 
-async def unlock(call: Call):
+async def unlock(call: Call) -> None:
     await call.desk.robot.send("joints unlock")
 
 
-async def lock(call: Call):
+async def lock(call: Call) -> None:
     await actions.lock(call.desk)
 
 
-async def warnings(call: Call):
+async def warnings(call: Call) -> Json:
     return {"closeToSingularity": status.close_to_singularity(call.desk.report)}
 
 
-async def start_motion(call: Call):
+async def start_motion(call: Call) -> None:
     if call.object().get("type") != PACK_POSE:
         raise bad_request(f"The field type must be {PACK_POSE}.")
     await actions.move_to_pack_pose(call.desk)
 
 
-async def stop_motion(call: Call):
+async def stop_motion(call: Call) -> None:
     await call.desk.robot.send("move stop", urgent=True)
 
 
-async def end_effector_power(call: Call):
+async def end_effector_power(call: Call) -> Json:
     return {"status": status.switch(call.desk.report.end_effector.power)}
 
 
-async def end_effector_on(call: Call):
+async def end_effector_on(call: Call) -> None:
     await call.desk.robot.send("end_effector_power on")
 
 
-async def end_effector_off(call: Call):
+async def end_effector_off(call: Call) -> None:
     await call.desk.robot.send("end_effector_power off")
 
 
 # ---- safety ----------------------------------------------------------------------------------------------
 
 
-async def self_tests(call: Call):
+async def self_tests(call: Call) -> Json:
     report = call.desk.report
     remaining = report.self_test.left if report.self_test.running else report.self_test.due
     return {"status": status.self_test_status(report), "remaining": round(max(0.0, remaining), 3)}
 
 
-async def execute_self_tests(call: Call):
+async def execute_self_tests(call: Call) -> None:
     """Also acknowledges overdue tests: clients of this interface do not."""
     if OVERDUE in call.desk.report.recoverable:
         await actions.acknowledge(call.desk, OVERDUE)
     await actions.self_test(call.desk, wait=True)
 
 
-async def get_recovery(call: Call):
+async def get_recovery(call: Call) -> Json:
     value = recovery(call.desk.report)
     if value is None:
         return {}
@@ -207,7 +211,7 @@ async def get_recovery(call: Call):
     return {**top, "recovery": value}
 
 
-def recovery(report: Report) -> status.Json | None:
+def recovery(report: Report) -> Json | None:
     """The first recovery that is needed; None if there is none."""
     found = report.recoverable
     if errors := [name for name in SAFETY_ERRORS if name in found]:
@@ -225,7 +229,7 @@ def recovery(report: Report) -> status.Json | None:
     return None
 
 
-async def confirm_recovery(call: Call):
+async def confirm_recovery(call: Call) -> None:
     """Acknowledges the errors of a type; without a type, those of the first needed recovery."""
     value, first = call.object({}), recovery(call.desk.report) or {}
     kind = value.get("type", first.get("type", ""))
@@ -259,45 +263,51 @@ def _names(kind: str) -> typing.Sequence[str]:
 # ---- configuration, system software ----------------------------------------------------------------------
 
 
-async def configuration(call: Call):
+async def configuration(call: Call) -> Json:
     return call.desk.configuration.get()
 
 
-async def change_configuration(call: Call):
+async def change_configuration(call: Call) -> None:
     await call.desk.configuration.patch(call.object())
 
 
-async def mounting(call: Call):
+async def mounting(call: Call) -> Json:
     return call.desk.configuration.mounting
 
 
-async def set_mounting(call: Call):
+async def set_mounting(call: Call) -> None:
     call.desk.configuration.set_mounting(call.object())
 
 
-async def initial_configuration(call: Call):
+async def initial_configuration(call: Call) -> None:
     """The robot has been set up already."""
     call.object()
 
 
-async def nothing(call: Call):
+async def nothing(call: Call) -> Json:
     """For parts that the simulated robot does not have."""
     return {}
 
 
-async def software(call: Call):
+async def software(call: Call) -> Json:
     return {"version": call.desk.options.version or call.desk.profile.version, "status": "Current"}
 
 
-async def no_update(call: Call):
+async def no_update(call: Call) -> None:
     raise DeskError(424, "ActionUnavailable", "The simulated robot has no software to update.", ["NoUpdate"])
 
 
-def _get(path: str, handler, login: Login = Login.USER) -> Route:
+def _get(path: str, handler: Handler, login: Login = Login.USER) -> Route:
     return Route("GET", path, handler, login=login, where=with_v1)
 
 
-def _do(path: str, handler, token: Token = Token.HEADER, login: Login = Login.USER, method: str = "POST"):
+def _do(
+    path: str,
+    handler: Handler,
+    token: Token = Token.HEADER,
+    login: Login = Login.USER,
+    method: str = "POST",
+) -> Route:
     return Route(method, path, handler, login=login, token=token, where=with_v1)
 
 

@@ -8,17 +8,17 @@ The actions are applied in C++ (franka_sim/simulation/policy_episode.h).
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-import numpy
 from _pyfranka import _sim
+from numpy.typing import NDArray
 
 __all__ = ["CONTROLS", "Control"]
 
 SPEED, TURN_SPEED = _sim.CARTESIAN_SPEEDS  # of a cartesian_delta of length 1 [m/s], [rad/s]
 
 
-def shortened(vector: numpy.ndarray, longest: float) -> numpy.ndarray:
+def shortened(vector: NDArray[Any], longest: float) -> NDArray[Any]:
     """The vector, or one of the same direction with the largest length allowed."""
     length = math.sqrt(vector @ vector)
     return vector if length <= longest else vector * (longest / length)

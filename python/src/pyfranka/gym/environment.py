@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields
 from importlib.util import find_spec
 from typing import Any
@@ -13,6 +13,7 @@ import gymnasium
 import numpy
 from gymnasium import spaces
 from gymnasium.error import ClosedEnvironmentError, ResetNeeded
+from numpy.typing import NDArray
 
 from pyfranka.sim import KINDS, Simulation
 from pyfranka.sim.arguments import items, numbers, seed_of, text, whole
@@ -24,6 +25,8 @@ from .tasks import TASKS, Task
 from .window import Window
 
 __all__ = ["Environment", "Options"]
+
+Values = NDArray[Any]
 
 MAX_ACTION_TICKS = 50  # ticks; a longer step repeats its action, so that targets move evenly
 MAX_PICTURE_SIDE = 4096  # [pixel]
@@ -71,7 +74,7 @@ class Options:
             )
         return cls(**{"task": task, **arguments})
 
-    def __post_init__(self):
+    def __post_init__(self) -> None:
         chosen("task", self.task, tuple(TASKS))
         chosen("robot", self.robot, tuple(KINDS))
         chosen("control", self.control, tuple(CONTROLS))
@@ -107,7 +110,7 @@ class Options:
         """The ticks for which a step's action is applied, one after the other; one part at 20 Hz or more."""
         count = -(-self.ticks // MAX_ACTION_TICKS)
         edges = numpy.linspace(0, self.ticks, count + 1).round().astype(int)
-        return numpy.diff(edges).tolist()
+        return [int(part) for part in numpy.diff(edges)]
 
     def setting(self) -> Setting:
         return Setting(self.kind, self.robot, self.realism)
@@ -121,7 +124,7 @@ class Options:
 
     def observation_space(self, bounds: Mapping[str, Bounds]) -> spaces.Dict:
         """With these bounds of its vectors."""
-        parts: dict[str, spaces.Space] = {
+        parts: dict[str, spaces.Space[Any]] = {
             name: spaces.Box(low, high, dtype=numpy.float32) for name, (low, high) in bounds.items()
         }
         if self.observation == "state+pictures":
@@ -136,22 +139,22 @@ class Options:
             raise ValueError(f"There is no camera '{self.camera}'; there are: {known}.")
         return Episode(self.kind(), sim, self.control, self.reward == "dense", like)
 
-    def rewards(self, achieved: numpy.ndarray, desired: numpy.ndarray) -> numpy.ndarray:
+    def rewards(self, achieved: Values, desired: Values) -> Values:
         """Of goals, ... x size."""
         if self.reward == "dense":
             return self.kind.dense(achieved, desired)
         return self.kind.success(achieved, desired) - 1.0
 
-    def picture(self, sim: Simulation) -> numpy.ndarray:
+    def picture(self, sim: Simulation) -> NDArray[numpy.uint8]:
         """The camera's picture for an observation, height x width x 3."""
         return sim.render(self.camera, *self.size).rgb
 
-    def rendered(self, sim: Simulation) -> numpy.ndarray:
+    def rendered(self, sim: Simulation) -> NDArray[numpy.uint8]:
         """The camera's picture for people, height x width x 3."""
         return sim.render(self.camera, *self.render_size).rgb
 
 
-def checked_action(action: Any, shape: tuple[int, ...], unit: str) -> numpy.ndarray:
+def checked_action(action: Any, shape: tuple[int, ...], unit: str) -> Values:
     """As numbers of this shape; raises ValueError. Applying them refuses those that are not finite, and clips
     what is beyond [-1, 1], as policies with noise expect."""
     try:
@@ -163,7 +166,7 @@ def checked_action(action: Any, shape: tuple[int, ...], unit: str) -> numpy.ndar
     return values
 
 
-def checked_goals(goals: Any, size: int) -> numpy.ndarray:
+def checked_goals(goals: Any, size: int) -> Values:
     """As numbers, ... x size; raises ValueError."""
     try:
         values = numpy.asarray(goals, dtype=float)
@@ -174,7 +177,7 @@ def checked_goals(goals: Any, size: int) -> numpy.ndarray:
     return values
 
 
-def make_ready(episodes: Sequence[Episode], step) -> None:
+def make_ready(episodes: Sequence[Episode], step: Callable[[int], None]) -> None:
     """Lets the hands of new episodes open. step: steps their simulations."""
     for _ in range(MAX_OPENING_TICKS // OPENING):
         if not any(episode.opening for episode in episodes):
@@ -194,7 +197,7 @@ def new_episode(options: Options, randomization: Randomization, random: numpy.ra
     return episode
 
 
-class Environment(gymnasium.Env):
+class Environment(gymnasium.Env[dict[str, Any], Any]):
     """A task with one robot, or two. docs/gym.md describes spaces, rewards and randomization.
 
     task: Reach, Push, PickAndPlace, HandOver. robot: panda, fr3. control: torque, joint_delta,
@@ -208,9 +211,11 @@ class Environment(gymnasium.Env):
     """
 
     metadata = {"render_modes": list(RENDER_MODES), "render_fps": 20}
+    observation_space: spaces.Dict
+    action_space: spaces.Box
 
-    def __init__(self, task: str, **options: Any):
-        self.options = options = Options.of(task, **options)
+    def __init__(self, task: str, **arguments: Any):
+        self.options = options = Options.of(task, **arguments)
         self.action_space, self.layout = options.action_space(), options.layout()
         self.render_mode = options.render_mode
         # The checker of Gymnasium tries all modes.
@@ -219,13 +224,13 @@ class Environment(gymnasium.Env):
         self._randomization = Randomization.of(options.randomize, options.kind)
         self._unit = CONTROLS[options.control].unit
         self._parts = options.parts()
-        self._episode: Episode | None = None
         self._begun = self._closed = False
         self._window: Window | None = None
         if self.render_mode == "human":
             title = f"pyfranka/{options.task}-v0"
             self._window = Window(title, options.render_size, options.frequency)
-        self._renew(numpy.random.default_rng(0))  # what cannot be simulated is refused now
+        # What cannot be simulated is refused now.
+        self._episode = new_episode(options, self._randomization, numpy.random.default_rng(0))
         self.observation_space = options.observation_space(self._episode.view.bounds)
 
     @property
@@ -241,15 +246,16 @@ class Environment(gymnasium.Env):
 
     def _renew(self, random: numpy.random.Generator) -> None:
         episode = new_episode(self.options, self._randomization, random)
-        if self._episode:
-            self._episode.sim.close()
+        self._episode.sim.close()
         self._episode = episode
 
     def _require_open(self) -> None:
         if self._closed:
             raise ClosedEnvironmentError("The environment is closed; make another one.")
 
-    def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None):
+    def reset(
+        self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
+    ) -> tuple[dict[str, Any], dict[str, Any]]:
         """Begins an episode. options: q (joints of all robots [rad]), object (x, y, z [m] and, optionally,
         w, x, y, z), goal (x, y, z [m]), in place of what is drawn. Raises ValueError, TypeError or
         RuntimeError for a seed or options that cannot be used; nothing has changed then."""
@@ -263,7 +269,7 @@ class Environment(gymnasium.Env):
         observation = self._observe(0.0)
         return observation, self._episode.report(observation)
 
-    def step(self, action: Any):
+    def step(self, action: Any) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
         self._require_open()
         if not self._begun:
             raise ResetNeeded("Call reset() before the first step().")
@@ -278,7 +284,7 @@ class Environment(gymnasium.Env):
         terminated = info["is_success"] or (self.options.on_reflex == "terminate" and episode.stopped)
         return observation, reward, terminated, episode.stuck, info
 
-    def _observe(self, seconds: float) -> dict[str, numpy.ndarray]:
+    def _observe(self, seconds: float) -> dict[str, Values]:
         observation = self._episode.observe(seconds)
         if "picture" in self.observation_space.spaces:
             observation["picture"] = self.options.picture(self._episode.sim)
@@ -286,15 +292,15 @@ class Environment(gymnasium.Env):
             self._window.show(self.options.rendered(self._episode.sim))
         return observation
 
-    def compute_reward(self, achieved_goal: numpy.ndarray, desired_goal: numpy.ndarray, info: Any = None):
+    def compute_reward(self, achieved_goal: Values, desired_goal: Values, info: Any = None) -> float | Values:
         """The reward of goals, ... x size, for replay with other goals (HER). info: not used. Raises
         ValueError."""
-        size = self.observation_space["desired_goal"].shape[0]
+        size = self._episode.view.bounds["desired_goal"].low.size
         achieved, desired = (checked_goals(goals, size) for goals in (achieved_goal, desired_goal))
         rewards = self.options.rewards(achieved, desired)
         return float(rewards) if rewards.ndim == 0 else rewards
 
-    def render(self):
+    def render(self) -> NDArray[numpy.uint8] | None:
         """A picture, height x width x 3, with render_mode="rgb_array". With "human" reset() and step() show
         it."""
         self._require_open()

@@ -9,8 +9,9 @@ from typing import Any, NamedTuple
 
 import numpy
 from _pyfranka import ArmLimits, _sim
+from numpy.typing import NDArray
 
-from pyfranka.sim import SimulatedRobot, Simulation
+from pyfranka.sim import Action, SimulatedRobot, Simulation
 from pyfranka.sim.arguments import mapping, numbers
 from pyfranka.sim.simulation import NO_TURN
 
@@ -18,6 +19,8 @@ from .actions import CONTROLS
 from .tasks import Task
 
 __all__ = ["Bounds", "Episode", "View", "layout_of", "size_of_action"]
+
+Values = NDArray[Any]
 
 OPENING = 100  # ticks between two checks of hands that open (chosen here)
 MAX_OPENING_TICKS = 5000  # ticks; the slowest hand needs 2000
@@ -43,29 +46,30 @@ def layout_of(task: type[Task], robots: list[str]) -> dict[str, slice]:
     """The position of each part in the vector "observation"."""
     fields = [(f"{robot}.{name}", size) for robot in robots for name, size in _arm_fields(task)]
     fields += [(f"{task.body}.{name}", size) for name, size in BODY_FIELDS if task.body]
-    layout, begin = {}, 0
+    layout: dict[str, slice] = {}
+    begin = 0
     for name, size in fields:
         layout[name] = slice(begin, begin + size)
         begin += size
     return layout
 
 
-def _arm_fields(task: type[Task]):
+def _arm_fields(task: type[Task]) -> tuple[tuple[str, int], ...]:
     return (*ARM_FIELDS, ("width", 1)) if task.uses_hand else ARM_FIELDS
 
 
 class Bounds(NamedTuple):
     """Lowest and highest values of a vector, float32. docs/gym.md has the table."""
 
-    low: numpy.ndarray
-    high: numpy.ndarray
+    low: Values
+    high: Values
 
     @classmethod
     def of(cls, *parts: tuple[Any, Any]) -> Bounds:
         """Of a vector that consists of parts, each with its lowest and its highest values."""
         return cls(*(numpy.concatenate(ends, dtype=numpy.float32) for ends in zip(*parts, strict=True)))
 
-    def applied(self, values: numpy.ndarray) -> numpy.ndarray:
+    def applied(self, values: Values) -> Values:
         """The values, ... x size, as float32; what is beyond is clipped."""
         return numpy.clip(values.astype(numpy.float32), self.low, self.high)
 
@@ -106,7 +110,7 @@ class Episode:
         self.view = View(type(task), layout, bounds_of(type(task), self.robots, dense))
         self.row = numpy.zeros(self.native.size)  # of the last observation
         self._start = [robot.state.q.copy() for robot in self.robots]
-        self._openings = []
+        self._openings: list[Action] = []
         if not (like and self._takes_over(like)):
             self._prepare()
 
@@ -134,7 +138,7 @@ class Episode:
         """Keeps the present state, hands open, as the one that each episode begins with."""
         self._beginning = self.sim.snapshot()
 
-    def reset(self, random: numpy.random.Generator, chosen: Mapping[str, numpy.ndarray]) -> None:
+    def reset(self, random: numpy.random.Generator, chosen: Mapping[str, Values]) -> None:
         """Begins an episode. chosen: options that were checked. All that is random is drawn here, always in
         the same order."""
         poses = [q + random.uniform(-START_SPREAD, START_SPREAD, 7) for q in self._start]
@@ -153,10 +157,10 @@ class Episode:
         self.desired = desired
         self.native.restart()
 
-    def checked(self, options: Mapping[str, Any] | None) -> dict[str, numpy.ndarray]:
+    def checked(self, options: Mapping[str, Any] | None) -> dict[str, Values]:
         """The options of an environment's reset() as arrays; raises ValueError or RuntimeError, and nothing
         has changed."""
-        sizes = {"q": (7 * len(self.robots),), "goal": (3,)}
+        sizes: dict[str, tuple[int, ...]] = {"q": (7 * len(self.robots),), "goal": (3,)}
         if self.task.body:
             sizes["object"] = (3, 7)
         chosen = {}
@@ -182,32 +186,32 @@ class Episode:
                 robot._native.check_positions(q)
         return chosen
 
-    def apply(self, action: numpy.ndarray, seconds: float) -> None:
+    def apply(self, action: Values, seconds: float) -> None:
         """An action of finite numbers in [-1, 1], for so long; then the simulation is stepped."""
         self.native.apply(action, seconds)
 
     @property
     def reflexes(self) -> int:
         """Of this episode."""
-        return self.native.reflexes
+        return int(self.native.reflexes)
 
     @property
     def stopped(self) -> bool:
         """Whether a reflex had stopped a robot at the last observation; it is being recovered."""
-        return self.native.stopped
+        return bool(self.native.stopped)
 
     @property
     def stuck(self) -> bool:
         """Whether recovery fails, as for a joint beyond its limits, which a user must guide back by hand."""
-        return self.native.stuck
+        return bool(self.native.stuck)
 
-    def observe(self, seconds: float) -> dict[str, numpy.ndarray]:
+    def observe(self, seconds: float) -> dict[str, Values]:
         """The observation after so long a step; 0 at the start. Starts the recovery of robots that a reflex
         has stopped."""
         self.native.observe(seconds, self.row)
         return {**self.view.observation(self.row), "desired_goal": self.desired.copy()}
 
-    def report(self, observation: Mapping[str, numpy.ndarray]) -> dict[str, Any]:
+    def report(self, observation: Mapping[str, Values]) -> dict[str, Any]:
         """The info of an observation."""
         success = self.task.success(observation["achieved_goal"], self.desired)
         return {
@@ -230,7 +234,7 @@ class View:
             if name.endswith(".position") and part.start != self._place.start
         ]
 
-    def observation(self, rows: numpy.ndarray) -> dict[str, numpy.ndarray]:
+    def observation(self, rows: Values) -> dict[str, Values]:
         """The vectors within their bounds, and the goals that are reached."""
         achieved = self._task.achieved(rows[..., self._place], self.tools(rows), rows[..., self._size :])
         goal = self.bounds["achieved_goal"]
@@ -239,10 +243,10 @@ class View:
         observation = self.bounds["observation"].applied(rows[..., : self._size])
         return {"observation": observation, "achieved_goal": goal.applied(achieved)}
 
-    def reach(self, rows: numpy.ndarray) -> numpy.ndarray:
+    def reach(self, rows: Values) -> Values:
         """Mean distance of the end effectors from the object [m]."""
         return numpy.asarray(self._task.reach(rows[..., self._place], self.tools(rows)))
 
-    def tools(self, rows: numpy.ndarray) -> list[numpy.ndarray]:
+    def tools(self, rows: Values) -> list[Values]:
         """Positions of the end effectors."""
         return [rows[..., part] for part in self._tools]

@@ -21,6 +21,7 @@ from _pyfranka import _sim
 
 from pyfranka.sim import KINDS, Simulation
 from pyfranka.sim.arguments import items, mapping
+from pyfranka.sim.setups import _Setup
 
 from .tasks import Task
 
@@ -48,7 +49,7 @@ class Setting:
         several = len(self.task.bases) > 1
         return [f"{self.robot}_{i + 1}" if several else self.robot for i in range(len(self.task.bases))]
 
-    def robots(self, realism: str | None = None, higher: float = 0.0, load: float = 0.0) -> list:
+    def robots(self, realism: str | None = None, higher: float = 0.0, load: float = 0.0) -> list[_Setup]:
         """For Simulation(robots=...)."""
         return [
             KINDS[self.robot](
@@ -90,7 +91,7 @@ class Randomization:
     def make(self, setting: Setting, random: numpy.random.Generator) -> Simulation:
         """The simulation of one episode."""
         drawn = {name: random.uniform(*self.ranges[name]) for name in RANGES if name in self.ranges}
-        realism = self.realism[random.integers(len(self.realism))] if self.realism else None
+        realism = self.realism[int(random.integers(len(self.realism)))] if self.realism else None
         robots = setting.robots(realism, drawn.get("base_height", 0.0), drawn.get("load", 0.0))
         seed = int(random.integers(2**31)) if self else 1
         mass, friction = drawn.get("mass", 1.0), drawn.get("friction", 1.0)
@@ -125,12 +126,14 @@ def changed_world(world: str, body: str, mass: float, friction: float) -> str:
     path = Path(_sim.world_file(world))
     root = ElementTree.parse(path).getroot()
     for include in root.iter("include"):
-        include.set("file", str(path.parent / include.get("file")))
+        include.set("file", str(path.parent / include.attrib["file"]))
     inertial = root.find(f".//body[@name='{body}']/inertial")
+    if inertial is None:
+        raise ValueError(f"The body '{body}' of {path} has no inertial, whose mass could be changed.")
     for attribute in ("mass", "diaginertia"):
-        inertial.set(attribute, _scaled(inertial.get(attribute), mass))
+        inertial.set(attribute, _scaled(inertial.attrib[attribute], mass))
     for geom in root.iterfind("worldbody//geom[@friction]"):
-        sliding, rest = geom.get("friction").split(maxsplit=1)
+        sliding, rest = geom.attrib["friction"].split(maxsplit=1)
         geom.set("friction", f"{_scaled(sliding, friction)} {rest}")
     return ElementTree.tostring(root, encoding="unicode")
 

@@ -30,7 +30,7 @@ def features(observation: Any) -> dict[str, Any]:
     return named
 
 
-class RecordEpisodes(gymnasium.Wrapper):
+class RecordEpisodes(gymnasium.Wrapper[Any, Any, Any, Any]):
     """Writes each episode that ends into a data set of LeRobot (docs/gym.md): a frame for each step, with the
     observation before it, the action, next.reward, next.done and next.success.
 
@@ -43,7 +43,7 @@ class RecordEpisodes(gymnasium.Wrapper):
 
     def __init__(
         self,
-        env: gymnasium.Env,
+        env: gymnasium.Env[Any, Any],
         folder: str | os.PathLike[str],
         task: str = "",
         only_success: bool = False,

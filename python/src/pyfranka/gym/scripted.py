@@ -14,8 +14,11 @@ while not done:
 from __future__ import annotations
 
 from collections.abc import Callable, Generator, Mapping
+from typing import Any
 
+import gymnasium
 import numpy
+from numpy.typing import NDArray
 from scipy.spatial.transform import Rotation
 
 from .actions import SPEED, TURN_SPEED, shortened
@@ -23,7 +26,7 @@ from .environment import Environment, Options
 
 __all__ = ["scripted_policy"]
 
-Vector = numpy.ndarray
+Vector = NDArray[Any]
 GAIN = 0.3  # share of the remaining way of each target step (chosen here: no overshoot at 20 Hz)
 DOWN = numpy.diag([1.0, -1.0, -1.0])  # the hand points down, its x axis along the world's
 NEAR, AT = 0.015, 0.006  # of a point on the way and of one to grasp or let go at [m] (chosen here)
@@ -101,7 +104,8 @@ class Script:
         self.seconds, self._layout = 1e-3 * options.ticks, options.layout()
         self._robots, self._body = options.setting().names(), options.kind.body
         self._hand = options.kind.uses_hand
-        self._write, self._steps = write, None
+        self._write = write
+        self._steps: Steps | None = None
 
     def part(self, name: str) -> Vector:
         return self._observation["observation"][self._layout[name]].astype(float)
@@ -118,7 +122,8 @@ class Script:
     def turn(self) -> Vector:
         """Orientation of the object, 3x3."""
         w, x, y, z = self.part(f"{self._body}.quaternion")
-        return Rotation.from_quat([x, y, z, w]).as_matrix()
+        turn: Vector = Rotation.from_quat([x, y, z, w]).as_matrix()
+        return turn
 
     def __call__(self, observation: Mapping[str, Vector]) -> Vector:
         """The action, float32; the first call is for the observation of a reset."""
@@ -128,24 +133,28 @@ class Script:
             self._steps = self._write(self)
         next(self._steps, None)
         parts = [[*arm.action(self.seconds), *([arm.grip] if self._hand else [])] for arm in self.arms]
-        return numpy.concatenate(parts).astype(numpy.float32)
+        action: Vector = numpy.concatenate(parts).astype(numpy.float32)
+        return action
 
 
 def above(point: Vector, height: float) -> Vector:
     """A point over another one."""
-    return point + [0.0, 0.0, height]
+    higher: Vector = point + [0.0, 0.0, height]
+    return higher
 
 
 def turned_down(turn: Vector) -> Vector:
     """The hand points down, turned as an object."""
     yaw = numpy.arctan2(turn[1, 0], turn[0, 0])
-    return Rotation.from_rotvec([0.0, 0.0, yaw]).as_matrix() @ DOWN
+    down: Vector = Rotation.from_rotvec([0.0, 0.0, yaw]).as_matrix() @ DOWN
+    return down
 
 
 def tilted(angle: float, towards: float) -> Vector:
     """The hand points down and by an angle forwards. towards: 1 along the world's x axis, -1 against it."""
     facing = Rotation.from_rotvec([0.0, 0.0, 0.0 if towards > 0 else numpy.pi]).as_matrix() @ DOWN
-    return Rotation.from_rotvec([0.0, -towards * angle, 0.0]).as_matrix() @ facing
+    tilt: Vector = Rotation.from_rotvec([0.0, -towards * angle, 0.0]).as_matrix() @ facing
+    return tilt
 
 
 def reach(script: Script) -> Steps:
@@ -162,7 +171,7 @@ def push(script: Script) -> Steps:
         yield from arm.go(behind, near=AT)
         while True:
             ahead, offset = ahead_of(script), arm.position - script.place
-            aside = offset - (offset @ ahead) * ahead
+            aside: Vector = offset - (offset @ ahead) * ahead
             aside[2] = 0.0
             if offset @ ahead > -0.01 or numpy.linalg.norm(aside) > 0.02:
                 break
@@ -216,7 +225,7 @@ def hand_over(script: Script) -> Steps:
 SCRIPTS = {"Reach": reach, "Push": push, "PickAndPlace": pick_and_place, "HandOver": hand_over}
 
 
-def scripted_policy(env) -> Script:
+def scripted_policy(env: gymnasium.Env[Any, Any]) -> Script:
     """A policy for one episode of an environment with control="cartesian_delta": observation -> action.
 
     Make one after each reset. Raises ValueError for another control.

@@ -10,13 +10,14 @@ with an object have one number more, the distance of the end effectors from it (
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import ClassVar
+from typing import Any, ClassVar
 
 import numpy
+from numpy.typing import NDArray
 
 __all__ = ["TASKS", "HandOver", "PickAndPlace", "Push", "Reach", "Task"]
 
-Vector = numpy.ndarray
+Vector = NDArray[Any]
 FLAG_COST = 0.1  # in the dense reward, of a flag that is not as desired [m] (chosen here)
 # Of worlds/stone.xml, push.xml and hand_over.xml [m].
 TABLE = 0.419823
@@ -33,7 +34,8 @@ def turned(axis: Sequence[float], angle: float) -> Vector:
 
 def length_of(vectors: Vector) -> Vector:
     """Of vectors x, y, z, ... x 3."""
-    return numpy.sqrt((vectors * vectors).sum(axis=-1))
+    length: Vector = numpy.sqrt((vectors * vectors).sum(axis=-1))
+    return length
 
 
 class Task:
@@ -74,7 +76,8 @@ class Task:
         away = numpy.subtract(achieved, desired, dtype=float)
         near = length_of(away[..., :3]) < cls.tolerance
         flags = away[..., 3 : 3 + len(cls.flags)]
-        return near & (numpy.abs(flags) < 0.5).all(axis=-1) if cls.flags else near
+        success: Vector = near & (numpy.abs(flags) < 0.5).all(axis=-1) if cls.flags else near
+        return success
 
     @classmethod
     def dense(cls, achieved: Vector, desired: Vector) -> Vector:
@@ -82,7 +85,8 @@ class Task:
         away = numpy.subtract(achieved, desired, dtype=float)
         flags = numpy.abs(away[..., 3 : 3 + len(cls.flags)]).sum(axis=-1)
         reach = numpy.asarray(achieved, dtype=float)[..., 3 + len(cls.flags) :].sum(axis=-1)
-        return -(length_of(away[..., :3]) + FLAG_COST * flags + reach)
+        missing: Vector = length_of(away[..., :3]) + FLAG_COST * flags + reach
+        return -missing
 
 
 class Reach(Task):
@@ -91,15 +95,15 @@ class Reach(Task):
     name, steps = "Reach", 50
     workspace = ((0.2, -0.5, 0.05), (0.75, 0.5, 0.8))
 
-    def draw_goal(self, random, body):
+    def draw_goal(self, random: numpy.random.Generator, body: Vector) -> Vector:
         return random.uniform((0.3, -0.3, 0.15), (0.6, 0.3, 0.6))
 
     @classmethod
-    def achieved(cls, place, tools, touches):
+    def achieved(cls, place: Vector, tools: Sequence[Vector], touches: Vector) -> Vector:
         return tools[0].copy()
 
     @classmethod
-    def reach(cls, place, tools):
+    def reach(cls, place: Vector, tools: Sequence[Vector]) -> Vector | float:
         return numpy.zeros(place.shape[:-1])
 
 
@@ -110,11 +114,11 @@ class Push(Task):
     world, body, bases = "push.xml", "cube", ((-0.5, 0.0, 0.0, 0.0),)
     workspace = ((-0.25, -0.3, TABLE + 0.012), (0.25, 0.3, 0.7))
 
-    def draw_body(self, random):
+    def draw_body(self, random: numpy.random.Generator) -> Vector:
         x, y = random.uniform((-0.05, -0.15), (0.07, 0.15))
         return numpy.array([x, y, TABLE + CUBE_HALF, *turned((0, 0, 1), random.uniform(-0.3, 0.3))])
 
-    def draw_goal(self, random, body):
+    def draw_goal(self, random: numpy.random.Generator, body: Vector) -> Vector:
         while True:  # one try in five is too near
             x, y = random.uniform((-0.05, -0.2), (0.15, 0.2))
             if numpy.hypot(x - body[0], y - body[1]) > 0.1:
@@ -132,16 +136,16 @@ class PickAndPlace(Task):
     uses_hand, flags, tolerance = True, (1.0,), 0.05
     workspace = ((-0.25, -0.35, 0.44), (0.25, 0.35, 0.8))
 
-    def draw_body(self, random):
+    def draw_body(self, random: numpy.random.Generator) -> Vector:
         x, y = random.uniform((-0.05, -0.03), (0.05, 0.03)) + STONE_AT
         return numpy.array([x, y, TRAY_TOP + STONE_HALF[2], *turned((0, 0, 1), random.uniform(-0.4, 0.4))])
 
-    def draw_goal(self, random, body):
+    def draw_goal(self, random: numpy.random.Generator, body: Vector) -> Vector:
         x, y = random.uniform((-0.03, -0.01), (0.03, 0.01)) + TRAY
         return numpy.array([x, y, TRAY_TOP + STONE_HALF[2]])
 
     @classmethod
-    def achieved(cls, place, tools, touches):
+    def achieved(cls, place: Vector, tools: Sequence[Vector], touches: Vector) -> Vector:
         held, lies = touches[..., :1], touches[..., 1:]
         return numpy.concatenate((place, lies * (1.0 - held)), axis=-1)
 
@@ -159,18 +163,18 @@ class HandOver(Task):
     uses_hand, flags, tolerance = True, (0.0, 1.0, 0.0), 0.05
     workspace = ((-0.4, -0.3, 0.44), (0.4, 0.3, 0.9))
 
-    def draw_body(self, random):
+    def draw_body(self, random: numpy.random.Generator) -> Vector:
         x, y = random.uniform((-0.008, -0.004), (0.008, 0.004))
         # It lies on one of its sides, along x.
         w, _, _, z = turned((0, 0, 1), random.uniform(-0.15, 0.15))
         half = numpy.sqrt(0.5)
         return numpy.array([LYING_AT[0] + x, y, LYING_AT[2], *(half * numpy.array([w, -z, w, z]))])
 
-    def draw_goal(self, random, body):
+    def draw_goal(self, random: numpy.random.Generator, body: Vector) -> Vector:
         return random.uniform((0.2, -0.1, 0.55), (0.3, 0.1, 0.7))
 
     @classmethod
-    def achieved(cls, place, tools, touches):
+    def achieved(cls, place: Vector, tools: Sequence[Vector], touches: Vector) -> Vector:
         return numpy.concatenate((place, touches), axis=-1)
 
 

@@ -14,6 +14,7 @@ from gymnasium import spaces
 from gymnasium.error import ClosedEnvironmentError, ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space, concatenate, create_empty_array
+from numpy.typing import NDArray
 
 from pyfranka.sim import SimulationBatch
 from pyfranka.sim.arguments import mapping, seed_of, whole
@@ -25,8 +26,10 @@ from .randomization import Randomization
 
 __all__ = ["VectorEnvironment"]
 
+Values = NDArray[Any]
 
-class VectorEnvironment(VectorEnv):
+
+class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
     """Equals `num_envs` Environments with the same options: world i is seeded by `seed + i`, and gives the
     same numbers on any number of threads.
 
@@ -39,18 +42,21 @@ class VectorEnvironment(VectorEnv):
     Raises ValueError, TypeError or RuntimeError with a sentence. Called by one thread.
     """
 
+    single_observation_space: spaces.Dict
+    single_action_space: spaces.Box
+
     def __init__(
         self,
         num_envs: int = 1,
         max_episode_steps: int | None = None,
         threads: int | None = None,
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
-        **options: Any,
+        **arguments: Any,
     ):
         self.num_envs = whole(num_envs, "num_envs", 1)
         if max_episode_steps is not None:
             max_episode_steps = whole(max_episode_steps, "max_episode_steps", 1)
-        self.options = options = Options.of(**options)
+        self.options = options = Options.of(**arguments)
         if options.render_mode is not None:
             chosen("The render_mode of many environments", options.render_mode, ("rgb_array",))
         modes = {mode.value: mode for mode in AutoresetMode}
@@ -86,10 +92,11 @@ class VectorEnvironment(VectorEnv):
         self._randoms: list[numpy.random.Generator] = []
         self._steps = numpy.zeros(self.num_envs, dtype=int)
         self._ended = numpy.zeros(self.num_envs, dtype=bool)
-        self._shared = create_empty_array(self.single_observation_space, self.num_envs)
+        # Of a dict of arrays.
+        self._shared: Any = create_empty_array(self.single_observation_space, self.num_envs)
 
     def _goal_size(self) -> int:
-        return self.single_observation_space["desired_goal"].shape[0]
+        return int(self._view.bounds["desired_goal"].low.size)
 
     @property
     def episodes(self) -> Sequence[Episode]:
@@ -102,7 +109,7 @@ class VectorEnvironment(VectorEnv):
 
     def reset(
         self, *, seed: int | Sequence[int | None] | None = None, options: Mapping[str, Any] | None = None
-    ):
+    ) -> tuple[dict[str, Values], dict[str, Any]]:
         """Begins an episode in all environments, or in those of options["reset_mask"], an array of bools.
         seed: of the first one, then counted up; or one for each. Other options: as of Environment, the same
         for all."""
@@ -115,20 +122,20 @@ class VectorEnvironment(VectorEnv):
         self._seed(seeds, mask)
         infos: dict[str, Any] = {}
         observations: list[Any] = [None] * self.num_envs
-        for i in numpy.flatnonzero(mask):
+        for i in numpy.flatnonzero(mask).tolist():
             observations[i], info = self._reset_one(i, checked)
             infos = self._add_info(infos, info, i)
-        for i in numpy.flatnonzero(~mask):
+        for i in numpy.flatnonzero(~mask).tolist():
             observations[i] = self._row(i)
         return self._together(observations), infos
 
-    def _checked_mask(self, mask: Any) -> numpy.ndarray:
-        mask = numpy.asarray(mask)
-        if mask.shape != (self.num_envs,) or mask.dtype != bool or not mask.any():
+    def _checked_mask(self, mask: Any) -> Values:
+        checked: Values = numpy.asarray(mask)
+        if checked.shape != (self.num_envs,) or checked.dtype != bool or not checked.any():
             raise ValueError(f"reset_mask needs {self.num_envs} bools, of which one is true.")
-        if not self._randoms and not mask.all():
+        if not self._randoms and not checked.all():
             raise ResetNeeded("The first reset() is that of all environments.")
-        return mask
+        return checked
 
     def _checked_seeds(self, seed: int | Sequence[int | None] | None) -> list[int | None]:
         """One for each environment."""
@@ -142,14 +149,14 @@ class VectorEnvironment(VectorEnv):
             raise ValueError(f"seed is one number, or {self.num_envs} of them, not {len(seeds)}.")
         return seeds
 
-    def _seed(self, seeds: list[int | None], mask: numpy.ndarray) -> None:
+    def _seed(self, seeds: list[int | None], mask: Values) -> None:
         if not self._randoms:
             self._randoms = [numpy.random.default_rng(one) for one in seeds]
         for i in numpy.flatnonzero(mask):
             if seeds[i] is not None:
                 self._randoms[i] = numpy.random.default_rng(seeds[i])
 
-    def _reset_one(self, i: int, checked: Mapping[str, numpy.ndarray]):
+    def _reset_one(self, i: int, checked: Mapping[str, Values]) -> tuple[dict[str, Values], dict[str, Any]]:
         if self._randomization:
             episode = new_episode(self.options, self._randomization, self._randoms[i])
             self._batch.replace(i, episode.sim)
@@ -158,11 +165,11 @@ class VectorEnvironment(VectorEnv):
         self._steps[i], self._ended[i] = 0, False
         return self._observed(i, 0.0)
 
-    def step(self, actions: Any):
+    def step(self, actions: Any) -> tuple[dict[str, Values], Values, Values, Values, dict[str, Any]]:
         self._require_open()
         if not self._randoms:
             raise ResetNeeded("Call reset() before the first step().")
-        values = checked_action(actions, self.action_space.shape, self._unit)
+        values = checked_action(actions, (self.num_envs, *self.single_action_space.shape), self._unit)
         if self.autoreset_mode == AutoresetMode.DISABLED and self._ended.any():
             which = ", ".join(map(str, numpy.flatnonzero(self._ended)))
             raise ResetNeeded(f"The episodes of the environments {which} have ended; reset them first.")
@@ -186,12 +193,14 @@ class VectorEnvironment(VectorEnv):
         self._ended = terminated | truncated
         infos.update({f"_{name}": numpy.ones(self.num_envs, dtype=bool) for name in list(infos)})
         renewed = self._ended if self.autoreset_mode == AutoresetMode.SAME_STEP else resting
-        for i in numpy.flatnonzero(renewed):
+        for i in numpy.flatnonzero(renewed).tolist():
             infos = self._renew(i, seen, infos)
         self._shared = {name: values.copy() for name, values in seen.items()}
         return seen, rewards, terminated, truncated, infos
 
-    def _ends(self, success: numpy.ndarray, natives: Sequence[_sim.Episode], resting: numpy.ndarray):
+    def _ends(
+        self, success: Values, natives: Sequence[_sim.Episode], resting: Values
+    ) -> tuple[Values, Values]:
         """Which episodes are terminated, and which are truncated by this step."""
         terminated = success.copy()
         if self.options.on_reflex == "terminate":
@@ -201,7 +210,7 @@ class VectorEnvironment(VectorEnv):
             truncated |= self._steps >= self._limit
         return terminated & ~resting, truncated & ~resting
 
-    def _renew(self, i: int, seen: dict[str, numpy.ndarray], infos: dict[str, Any]) -> dict[str, Any]:
+    def _renew(self, i: int, seen: dict[str, Values], infos: dict[str, Any]) -> dict[str, Any]:
         """Begins another episode in environment i, and puts its observation and info in their places."""
         if self.autoreset_mode == AutoresetMode.SAME_STEP:
             final = {"final_obs": {name: values[i].copy() for name, values in seen.items()}}
@@ -214,13 +223,13 @@ class VectorEnvironment(VectorEnv):
             seen[name][i] = value
         return self._add_info(infos, info, i)
 
-    def _advance(self, values: numpy.ndarray, resting: numpy.ndarray) -> None:
+    def _advance(self, values: Values, resting: Values) -> None:
         natives = [episode.native for episode in self._episodes]
         for ticks in self._parts:
             _sim.apply_actions(natives, resting, values, 1e-3 * ticks)
             self._batch.step(ticks)
 
-    def _observed(self, i: int, seconds: float):
+    def _observed(self, i: int, seconds: float) -> tuple[dict[str, Values], dict[str, Any]]:
         episode = self._episodes[i]
         observation = episode.observe(seconds)
         self._rows[i], self._desired[i] = episode.row, episode.desired
@@ -228,15 +237,16 @@ class VectorEnvironment(VectorEnv):
             observation["picture"] = self.options.picture(episode.sim)
         return observation, episode.report(observation)
 
-    def _row(self, i: int) -> dict[str, numpy.ndarray]:
+    def _row(self, i: int) -> dict[str, Values]:
         return {name: values[i].copy() for name, values in self._shared.items()}
 
-    def _together(self, observations: Sequence[Mapping[str, numpy.ndarray]]) -> dict[str, numpy.ndarray]:
-        space: spaces.Space = self.single_observation_space
+    def _together(self, observations: Sequence[Mapping[str, Values]]) -> dict[str, Values]:
+        space: spaces.Space[Any] = self.single_observation_space
         self._shared = concatenate(space, observations, self._shared)
-        return deepcopy(self._shared)
+        together: dict[str, Values] = deepcopy(self._shared)
+        return together
 
-    def render(self):
+    def render(self) -> tuple[NDArray[numpy.uint8], ...] | None:
         """A picture of each environment, with render_mode="rgb_array"."""
         self._require_open()
         return tuple(self.options.rendered(sim) for sim in self._batch) if self.render_mode else None

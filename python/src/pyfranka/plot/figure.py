@@ -5,7 +5,7 @@
 from __future__ import annotations
 
 import textwrap
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,7 +15,7 @@ from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
 import pyfranka
-from pyfranka.plot.recording import Abort, BadInput, Recording
+from pyfranka.plot.recording import Abort, Array, BadInput, Recording
 from pyfranka.plot.signals import EVIDENCE, SIGNALS, Excess, worst
 
 # Seven colors that remain distinct with color blindness (Okabe and Ito, 2008; the yellow is darker).
@@ -99,7 +99,7 @@ class Plot:
     def _draw_panel(self, axes: Axes, panel: Panel, recording: Recording, step: int) -> None:
         axes.grid(color="#e4e4e4", linewidth=0.6)
         axes.set_axisbelow(True)
-        drawn = []
+        drawn: list[tuple[str, Array]] = []
         for name, style in zip(panel.names, STYLES):
             values = SIGNALS[name].value(recording)
             if values is None or not np.isfinite(values).any():
@@ -127,7 +127,7 @@ class Plot:
             axes.add_artist(axes.legend(handles=handles, loc="lower left", fontsize=7, framealpha=0.8))
         axes.legend(loc="center left", bbox_to_anchor=(1.005, 0.5), fontsize=8, frameon=False)
 
-    def _draw_limits(self, axes: Axes, name: str, values, recording: Recording, step: int) -> None:
+    def _draw_limits(self, axes: Axes, name: str, values: Array, recording: Recording, step: int) -> None:
         limits = recording.limits
         signal = SIGNALS[name]
         if limits is None or signal.limits is None:
@@ -140,7 +140,7 @@ class Plot:
         span = max(high - low, 1e-9)
         hidden = []
         low, high = low - 0.1 * span, high + 0.1 * span
-        groups: dict[tuple, list[int]] = {}
+        groups: dict[tuple[bytes, bytes], list[int]] = {}
         for i in chosen:
             if np.isfinite(values[:, i]).any():
                 groups.setdefault((lower[:, i].tobytes(), upper[:, i].tobytes()), []).append(i)
@@ -170,7 +170,7 @@ class Plot:
                 bbox={"facecolor": "white", "edgecolor": "none", "alpha": 0.8, "pad": 1},
             )
 
-    def _matters(self, values, lower, upper, is_upper: bool) -> bool:
+    def _matters(self, values: Array, lower: Array, upper: Array, is_upper: bool) -> bool:
         """Whether a limit is to set the scale of the panel."""
         if self._limits == "all":
             return True
@@ -284,7 +284,7 @@ def plot_abort(
 
 def _evidence(recording: Recording, errors: Sequence[str]) -> list[str]:
     """Signals in which these errors show, each once."""
-    names = {}
+    names: dict[str, None] = {}
     for error in errors:
         for name in EVIDENCE.get(error, ()):
             values = SIGNALS[name].value(recording)
@@ -356,7 +356,9 @@ def _beside(recording: Recording, time: float) -> tuple[int, int]:
     return (4, 0) if time < 0.5 * (recording.time[0] + recording.time[-1]) else (-4, 0)
 
 
-def _ranges(groups, lower, upper, parts) -> str:
+def _ranges(
+    groups: Mapping[tuple[bytes, bytes], list[int]], lower: Array, upper: Array, parts: Sequence[str]
+) -> str:
     """ "±2.175 rad/s for joints 1 to 4" and so on, in few words."""
     texts = []
     for members in groups.values():

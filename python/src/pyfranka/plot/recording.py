@@ -8,6 +8,7 @@ import re
 from collections import deque
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,7 +118,7 @@ def kind_of(name: str) -> int:
     return found[0] if len(set(found)) == 1 else 0
 
 
-def errors_of(state) -> tuple[str, ...]:
+def errors_of(state: Any) -> tuple[str, ...]:
     """The names of a state's current errors, of pyfranka or of ROS."""
     errors = state.current_errors
     if hasattr(errors, "__slots__"):
@@ -131,9 +132,9 @@ class Collector:
     def __init__(self, name: str, version: int = 0, most: int = MAX_STATES, fields: Iterable[str] = FIELDS):
         self.name, self.version = name, version
         self._fields = tuple(fields)
-        self._rows: deque[tuple] = deque(maxlen=most)
+        self._rows: deque[tuple[float, int, tuple[str, ...], list[Array]]] = deque(maxlen=most)
 
-    def add(self, state, time: float | None = None) -> None:
+    def add(self, state: Any, time: float | None = None) -> None:
         """Adds a state of pyfranka or a franka_msgs/FrankaState. @param time its own if not given [s]"""
         self._rows.append(
             (

@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
 import numpy as np
@@ -20,6 +20,7 @@ WRENCH = ("F x", "F y", "F z", "M x", "M y", "M z")
 MOTION = ("translation", "rotation")
 
 Range = tuple[Array, Array]  # lower and upper limits, (size,) or (rows, size)
+Limits = Callable[[Recording, pyfranka.ArmLimits], Range]
 
 
 @dataclass(frozen=True)
@@ -30,7 +31,7 @@ class Signal:
     unit: str
     parts: tuple[str, ...]
     value: Callable[[Recording], Array | None]  # None: the recording does not have it
-    limits: Callable[[Recording, pyfranka.ArmLimits], Range] | None = None
+    limits: Limits | None = None
     is_position: bool = False  # limits are a range of positions, not bounds of a derivative
 
 
@@ -125,7 +126,8 @@ def _twist_rate(recording: Recording, twist: Array | None, name: str) -> Array |
     if twist is None:
         return None
     before = recording.values.get(name)
-    return (twist - (before if before is not None else _shifted(twist))) / TICK
+    rate: Array = (twist - (before if before is not None else _shifted(twist))) / TICK
+    return rate
 
 
 def _twist_acceleration(recording: Recording) -> Array | None:
@@ -139,7 +141,9 @@ def _twist_jerk(recording: Recording) -> Array | None:
 def _norms(twist: Array | None) -> Array | None:
     if twist is None:
         return None
-    return np.stack([np.linalg.norm(twist[:, :3], axis=1), np.linalg.norm(twist[:, 3:], axis=1)], axis=1)
+    parts = (twist[:, :3], twist[:, 3:])
+    norms: Array = np.stack([np.linalg.norm(part, axis=1) for part in parts], axis=1)
+    return norms
 
 
 # ---- poses ---------------------------------------------------------------------------------------------
@@ -180,7 +184,7 @@ def _positions(_: Recording, limits: pyfranka.ArmLimits) -> Range:
     return limits.q_min, limits.q_max
 
 
-def _bounds(name: str) -> Callable[[Recording, pyfranka.ArmLimits], Range]:
+def _bounds(name: str) -> Limits:
     return lambda _, limits: (-getattr(limits, name), getattr(limits, name))
 
 
@@ -192,7 +196,7 @@ def _velocities(recording: Recording, limits: pyfranka.ArmLimits) -> Range:
     return limits.velocity_range(q)
 
 
-def _motion(order: int) -> Callable[[Recording, pyfranka.ArmLimits], Range]:
+def _motion(order: int) -> Limits:
     def bounds(_: Recording, limits: pyfranka.ArmLimits) -> Range:
         upper = np.array([limits.translation[order], limits.rotation[order]])
         return -upper, upper
@@ -200,7 +204,14 @@ def _motion(order: int) -> Callable[[Recording, pyfranka.ArmLimits], Range]:
     return bounds
 
 
-def _state(text: str, unit: str, name: str, limits=None, parts=JOINTS, is_position=False) -> Signal:
+def _state(
+    text: str,
+    unit: str,
+    name: str,
+    limits: Limits | None = None,
+    parts: tuple[str, ...] = JOINTS,
+    is_position: bool = False,
+) -> Signal:
     return Signal(text, unit, parts, _field(name), limits, is_position)
 
 
@@ -302,7 +313,7 @@ _NEEDS = {
 }
 
 
-def fields_of(signals) -> tuple[str, ...]:
+def fields_of(signals: Iterable[str]) -> tuple[str, ...]:
     """Fields of the state that these signals need."""
     needed: dict[str, None] = {}
     for name in signals:

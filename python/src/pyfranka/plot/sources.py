@@ -8,8 +8,9 @@ import csv
 import os
 import re
 import threading
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -18,6 +19,7 @@ from pyfranka.plot.recording import (
     COMMANDS,
     FIELDS,
     Abort,
+    Array,
     BadInput,
     Collector,
     Recording,
@@ -66,7 +68,7 @@ def read_log(
     return Recording(file.name, time, values, version=version or kind_of(file.name)), abort
 
 
-def _read_columns(file: Path) -> dict[str, np.ndarray]:
+def _read_columns(file: Path) -> dict[str, Array]:
     try:
         with file.open(newline="") as stream:
             lines = list(csv.reader(stream))
@@ -84,7 +86,7 @@ def _read_columns(file: Path) -> dict[str, np.ndarray]:
     return {name.strip(): column for name, column in zip(names, rows.T)}
 
 
-def _together(columns, name: str, size: int, file: Path) -> np.ndarray:
+def _together(columns: Mapping[str, Array], name: str, size: int, file: Path) -> Array:
     try:
         return np.stack([columns[f"{name}[{i}]"] for i in range(size)], axis=1)
     except KeyError as error:
@@ -127,7 +129,7 @@ def read_bag(file: str | os.PathLike[str], topic: str = "", version: int = 0) ->
     return collector.recording()
 
 
-def _kind_beside(bag, topic: str) -> int:
+def _kind_beside(bag: Any, topic: str) -> int:
     """The states have no name: joint states and wrenches of the same robot have one."""
     node = topic.rsplit("/", 1)[0]
     for name in (f"{node}/joint_states", f"{node}/F_ext", "/joint_states"):
@@ -138,7 +140,7 @@ def _kind_beside(bag, topic: str) -> int:
     return 0
 
 
-def _topic_in(file: Path, topic: str, topics, found: list[str]) -> str:
+def _topic_in(file: Path, topic: str, topics: Mapping[str, Any], found: list[str]) -> str:
     if topic:
         if topic not in topics:
             raise BadInput(f"{file} has no topic {topic}." + _choices(found))
@@ -169,7 +171,7 @@ class Live:
     def __enter__(self) -> Live:
         return self
 
-    def __exit__(self, *_) -> None:
+    def __exit__(self, *_: object) -> None:
         self.close()
 
     def close(self) -> None:
@@ -207,7 +209,7 @@ class FromRobot(Live):
             self.error = f"{self.collector.name}: {error}"
         self.ended.set()
 
-    def _take(self, state) -> bool:
+    def _take(self, state: pyfranka.RobotState) -> bool:
         self.collector.add(state)
         return not self._closing
 
@@ -254,7 +256,7 @@ class FromTopic(Live):
             others = f" There are: {', '.join(found)}." if found else ""
             raise BadInput(f"No node publishes {name}.{others}")
 
-    def _take(self, message) -> None:
+    def _take(self, message: Any) -> None:
         self.collector.add(message)
 
     def close(self) -> None:

@@ -5,6 +5,7 @@
 from __future__ import annotations
 
 import os
+import typing
 from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
@@ -20,7 +21,9 @@ from .simulation import Simulation
 MOST_WORLDS = 100_000  # chosen here: some hundred gigabytes
 
 
-def _worlds(world, robots, seeds: Sequence[int], threads: int) -> list[Simulation]:
+def _worlds(
+    world: str | os.PathLike[str], robots: Sequence[_Setup] | None, seeds: Sequence[int], threads: int
+) -> list[Simulation]:
     """Simulations with these seeds. What cannot be simulated is refused after the first one."""
 
     def made(seed: int) -> Simulation:
@@ -35,7 +38,7 @@ def _worlds(world, robots, seeds: Sequence[int], threads: int) -> list[Simulatio
         return [first, *pool.map(made, seeds[1:])]
 
 
-class SimulationBatch(Sequence):
+class SimulationBatch(Sequence[Simulation]):
     """Worlds of the same robots, stepped together by threads in C++. `batch[i]` is a Simulation.
 
     number: of worlds. world, robots: as of Simulation. seed: of the batch; world i equals, bit for bit,
@@ -66,12 +69,16 @@ class SimulationBatch(Sequence):
         self._worlds = _worlds(world, robots, self.seeds, threads)
         self._worlds[0]._warn_of_overlaps(3)  # all have the same robots at the same places
         self._native = _sim.Batch([one._native for one in self._worlds], threads, observe)
-        self._observations = self._native.observations
+        self._observations: Array = self._native.observations
 
-    def __getitem__(self, index):
+    @typing.overload
+    def __getitem__(self, index: int) -> Simulation: ...
+    @typing.overload
+    def __getitem__(self, index: slice) -> list[Simulation]: ...
+    def __getitem__(self, index: int | slice) -> Simulation | list[Simulation]:
         return self._worlds[index if isinstance(index, slice) else self._checked(index)]
 
-    def _checked(self, number) -> int:
+    def _checked(self, number: int) -> int:
         """The number of a world, from 0 on; negative ones count from the end."""
         try:
             return range(len(self))[whole(number, "The number of a world")]
@@ -87,7 +94,7 @@ class SimulationBatch(Sequence):
     def __enter__(self) -> SimulationBatch:
         return self
 
-    def __exit__(self, *error) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
     def close(self) -> None:
@@ -134,8 +141,8 @@ class SimulationBatch(Sequence):
         Raises as Simulation.reset(), and no world has changed; if no random pose of a world is free, those
         before it have been reset.
         """
-        chosen = range(len(self)) if worlds is None else items(worlds, "worlds", "numbers of worlds")
-        chosen = [self._worlds[self._checked(i)] for i in chosen]
+        which = range(len(self)) if worlds is None else items(worlds, "worlds", "numbers of worlds")
+        chosen = [self._worlds[self._checked(i)] for i in which]
         plans = [one._plan(q, objects) for one in chosen]
         for one, plan in zip(chosen, plans):
             one._carry_out(plan)

@@ -39,12 +39,12 @@ class Action:
     @property
     def done(self) -> bool:
         """Whether it has ended."""
-        return self.outcome != GripperOutcome.Running
+        return bool(self.outcome != GripperOutcome.Running)
 
     @property
     def succeeded(self) -> bool:
         """Whether it has ended with success."""
-        return self.outcome == GripperOutcome.Succeeded
+        return bool(self.outcome == GripperOutcome.Succeeded)
 
 
 class Gripper:
@@ -74,7 +74,12 @@ class Gripper:
         return Action(self._robot, self._robot.hand_move(width, speed), "move")
 
     def grasp(
-        self, width: float, speed: float, force: float, epsilon_inner=0.005, epsilon_outer=0.005
+        self,
+        width: float,
+        speed: float,
+        force: float,
+        epsilon_inner: float = 0.005,
+        epsilon_outer: float = 0.005,
     ) -> Action:
         """Closes [m, m/s] and holds with a force [N]. Succeeds if the held object has the requested width,
         within the epsilons [m]. Raises RequestRefused."""
@@ -88,22 +93,22 @@ class Gripper:
     @property
     def width(self) -> float:
         """Between the fingers [m]."""
-        return self._robot.hand_state()[0]
+        return float(self._robot.hand_state()[0])
 
     @property
     def max_width(self) -> float:
         """[m]"""
-        return self._robot.hand_state()[1]
+        return float(self._robot.hand_state()[1])
 
     @property
     def is_grasped(self) -> bool:
         """Whether an object of the requested width is held."""
-        return self._robot.hand_state()[2]
+        return bool(self._robot.hand_state()[2])
 
     @property
     def temperature(self) -> float:
         """[deg C]"""
-        return self._robot.hand_state()[3]
+        return float(self._robot.hand_state()[3])
 
 
 class SimulatedRobot:
@@ -155,17 +160,18 @@ class SimulatedRobot:
     @property
     def moving(self) -> bool:
         """Whether a motion runs."""
-        return self._native.moving
+        return bool(self._native.moving)
 
     @property
     def brakes_closed(self) -> bool:
         """Whether the brakes are closed."""
-        return self._native.brakes_closed
+        return bool(self._native.brakes_closed)
 
     @property
     def limits(self) -> tuple[Array, Array]:
         """Lowest and highest joint positions, 7 [rad] each."""
-        return self._native.limits
+        limits: tuple[Array, Array] = self._native.limits
+        return limits
 
     def command(
         self,
@@ -310,7 +316,7 @@ class SimulatedRobot:
 
     def state_hash(self) -> int:
         """Hash of all states since the first command; the control interface's `hash` of a served robot."""
-        return self._native.hash()
+        return int(self._native.hash())
 
     @renamed("SimulatedRobot.hash()", "state_hash()")
     def hash(self) -> int:

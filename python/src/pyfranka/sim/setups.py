@@ -156,7 +156,7 @@ def _load(load: typing.Any) -> tuple[float, tuple[float, ...], tuple[float, ...]
 class Panda(_Setup):
     """A Panda to simulate."""
 
-    __doc__ = (__doc__ or "") + _Setup.__doc__.partition("\n")[2]  # none under python -OO
+    __doc__ = (__doc__ or "") + (_Setup.__doc__ or "").partition("\n")[2]  # none under python -OO
     kind: typing.ClassVar[str] = "panda"
     _protocols: typing.ClassVar[range] = range(3, 6)
 
@@ -165,10 +165,10 @@ class Panda(_Setup):
 class FR3(_Setup):
     """An FR3 to simulate."""
 
-    __doc__ = (__doc__ or "") + _Setup.__doc__.partition("\n")[2]  # none under python -OO
+    __doc__ = (__doc__ or "") + (_Setup.__doc__ or "").partition("\n")[2]  # none under python -OO
     kind: typing.ClassVar[str] = "fr3"
     _protocols: typing.ClassVar[range] = range(6, 11)
 
 
 # The kinds of robots by their names.
-KINDS: dict[str, type[_Setup]] = {kind.kind: kind for kind in (Panda, FR3)}
+KINDS: dict[str, type[Panda] | type[FR3]] = {Panda.kind: Panda, FR3.kind: FR3}

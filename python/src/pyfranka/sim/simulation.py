@@ -57,7 +57,7 @@ class Picture(typing.NamedTuple):
     depth: NDArray[numpy.float32] | None
 
 
-def _attend(simulation: weakref.ref) -> None:
+def _attend(simulation: weakref.ref[Simulation]) -> None:
     """Serves clients until the simulation is closed or forgotten."""
     attended = True
     while attended and (served := simulation()) is not None:
@@ -87,7 +87,8 @@ class Simulation:
 
     def _make(self, world: str | os.PathLike[str], robots: Sequence[_Setup] | None, seed: int) -> None:
         """Any thread may call it."""
-        world, seed, taken = path(world, "world"), seed_of(seed), set()
+        world, seed = path(world, "world"), seed_of(seed)
+        taken: set[str] = set()
         robots = [Panda()] if robots is None else items(robots, "robots", "Panda(...) and FR3(...)")
         for robot in robots:
             if not isinstance(robot, (Panda, FR3)):
@@ -145,7 +146,7 @@ class Simulation:
         self._native.require_open()
         return self
 
-    def __exit__(self, *error) -> None:
+    def __exit__(self, *error: object) -> None:
         self.close()
 
     def close(self) -> None:
@@ -190,7 +191,7 @@ class Simulation:
     @property
     def ticks(self) -> int:
         """Milliseconds since the start or the last reset."""
-        return self._native.ticks()
+        return int(self._native.ticks())
 
     @property
     def time(self) -> float:
@@ -223,7 +224,12 @@ class Simulation:
         """
         self._carry_out(self._plan(q, objects, seed))
 
-    def _plan(self, q, objects, seed: int | None = None) -> _Reset:
+    def _plan(
+        self,
+        q: ArrayLike | str | Mapping[str, ArrayLike | str] | None,
+        objects: Mapping[str, ArrayLike] | None,
+        seed: int | None = None,
+    ) -> _Reset:
         """The arguments of reset(), checked."""
         places = {
             body: self._checked_place(body, pose)
@@ -305,7 +311,7 @@ class Simulation:
 
     def state_hash(self) -> int:
         """Hash of the world's state: bodies, joints and what acts on them."""
-        return self._native.hash()
+        return int(self._native.hash())
 
     @renamed("Simulation.hash()", "state_hash()")
     def hash(self) -> int:
@@ -313,11 +319,12 @@ class Simulation:
 
     def bodies(self) -> list[str]:
         """Names of all bodies, links included."""
-        return self._native.bodies()
+        return list(self._native.bodies())
 
     def body_pose(self, body: str) -> tuple[Array, Array]:
         """Position [m] and quaternion w, x, y, z of a body in the world."""
-        return self._native.body_pose(body)
+        pose: tuple[Array, Array] = self._native.body_pose(body)
+        return pose
 
     def place_body(self, body: str, position: ArrayLike, orientation: ArrayLike = NO_TURN) -> None:
         """Puts a free body to a position [m] and a quaternion w, x, y, z, at rest."""
@@ -333,7 +340,7 @@ class Simulation:
 
     def cameras(self) -> list[str]:
         """Names of the world's cameras."""
-        return self._native.cameras()
+        return list(self._native.cameras())
 
     def render(self, camera: str = "", width: int = 640, height: int = 480) -> Picture:
         """A picture of a camera; without a name, of a view of the whole world. Needs no display."""

@@ -2,11 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """The node franka_gripper_node: actions and joint states of a Franka Hand."""
 
+from __future__ import annotations
+
 import logging
 import math
 import os
 import threading
 import time
+from collections.abc import Callable
+from types import ModuleType
+from typing import TYPE_CHECKING, Any
 from xml.etree import ElementTree
 
 import actionlib
@@ -26,6 +31,12 @@ from franka_gripper.msg import (
     StopAction,
     StopResult,
 )
+
+if TYPE_CHECKING:
+    import pyfranka
+
+# Carries out a goal: goal, its result, whether it was cancelled.
+CarryOut = Callable[[Any, Any, Callable[[], bool]], None]
 
 NO_EFFORT = 1e-4  # [N] smaller efforts of gripper_action mean: move, do not grasp
 ARRIVED = 1e-4  # [m] closer targets of gripper_action count as reached
@@ -48,7 +59,7 @@ class Fault(Exception):
     """An invalid parameter or goal; the message names it and the reason."""
 
 
-def number(name, default, least):
+def number(name: str, default: float, least: float) -> float:
     value = rospy.get_param("~" + name, default)
     given = isinstance(value, (int, float)) and not isinstance(value, bool)
     if not given or not math.isfinite(value) or value < least:
@@ -56,7 +67,7 @@ def number(name, default, least):
     return float(value)
 
 
-def tolerance(name):
+def tolerance(name: str) -> float:
     """One of the tolerances of gripper_action; a missing one is zero, as in the original."""
     epsilons = rospy.get_param("~default_grasp_epsilon", None)
     if epsilons is not None and not isinstance(epsilons, dict):
@@ -65,7 +76,7 @@ def tolerance(name):
     return number("default_grasp_epsilon/" + name, EPSILON if epsilons is None else 0.0, 0.0)
 
 
-def required(name):
+def required(name: str) -> Any:
     if not rospy.has_param("~" + name):
         raise Fault(f"The parameter {rospy.resolve_name('~' + name)} is missing.")
     return rospy.get_param("~" + name)
@@ -74,9 +85,9 @@ def required(name):
 class Parameters:
     """Parameters from the parameter server, checked."""
 
-    def __init__(self):
-        self.robot_ip = required("robot_ip")
-        self.joint_names = required("joint_names")
+    def __init__(self) -> None:
+        self.robot_ip: str = required("robot_ip")
+        self.joint_names: list[str] = required("joint_names")
         if not isinstance(self.joint_names, list) or len(self.joint_names) != 2:
             raise Fault(f"The parameter {rospy.resolve_name('~joint_names')} must hold two names.")
         self.default_speed = number("default_speed", 0.1, 0.0)
@@ -87,7 +98,7 @@ class Parameters:
         self.epsilon_outer = tolerance("outer")
 
 
-def check(condition, text):
+def check(condition: bool, text: str) -> None:
     if not condition:
         raise Fault(text)
 
@@ -100,7 +111,7 @@ class GripperNode:
     the action stop ended it, and PREEMPTED if a cancel or another goal ended it.
     """
 
-    def __init__(self, parameters, hand):
+    def __init__(self, parameters: Parameters, hand: Hand):
         self._parameters = parameters
         self._hand = hand
         self._publisher = rospy.Publisher("~joint_states", JointState, queue_size=1)
@@ -117,7 +128,7 @@ class GripperNode:
         self._publishing = threading.Thread(target=self._publish_states, daemon=True)
         self._publishing.start()
 
-    def shutdown(self):
+    def shutdown(self) -> None:
         self._ended.set()
         if self._parameters.stop_at_shutdown:
             try:
@@ -127,14 +138,14 @@ class GripperNode:
         self._hand.close()
 
     @property
-    def busy(self):
+    def busy(self) -> bool:
         """Whether the hand executes a command."""
         return self._hand.busy
 
     # --- actions ------------------------------------------------------------------------------------
 
-    def _serve(self, name, action, result_type, carry_out):
-        def execute(goal):
+    def _serve(self, name: str, action: Any, result_type: Any, carry_out: CarryOut | None) -> Any:
+        def execute(goal: Any) -> None:
             result = result_type()
             try:
                 if carry_out is None:
@@ -158,28 +169,28 @@ class GripperNode:
         return server
 
     @staticmethod
-    def _explain(result, text):
+    def _explain(result: Any, text: str) -> None:
         if hasattr(result, "error"):
             result.error = text
 
-    def _abort(self, server, name, result, text):
+    def _abort(self, server: Any, name: str, result: Any, text: str) -> None:
         rospy.logerr("franka_gripper, %s: %s", name, text)
         self._explain(result, text)
         server.set_aborted(result, text)
 
-    def _check_width(self, width):
+    def _check_width(self, width: float) -> None:
         most = self._hand.state.max_width
         check(
             math.isfinite(width) and 0.0 <= width <= most,
             f"The width {width:g} m is not possible: it must lie between 0 and {most:g} m.",
         )
 
-    def _homing(self, _goal, result, cancelled):
+    def _homing(self, _goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
         result.success = self._hand.run(lambda gripper: gripper.homing(), cancelled)
         if not result.success:
             result.error = "Homing did not reach the fingers' ends: something is in their way."
 
-    def _move(self, goal, result, cancelled):
+    def _move(self, goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
         self._check_width(goal.width)
         check(math.isfinite(goal.speed) and goal.speed > 0.0, "Only positive speeds allowed")
         result.success = self._hand.run(lambda gripper: gripper.move(goal.width, goal.speed), cancelled)
@@ -189,7 +200,7 @@ class GripperNode:
                 f"{1e3 * goal.width:.1f} mm: something is in their way."
             )
 
-    def _grasp(self, goal, result, cancelled):
+    def _grasp(self, goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
         self._check_width(goal.width)
         check(math.isfinite(goal.speed) and goal.speed > 0.0, "Only positive speeds allowed")
         check(math.isfinite(goal.force) and goal.force >= 0.0, "The force must be a number not below zero.")
@@ -208,7 +219,7 @@ class GripperNode:
                 "no object between them, or another one than expected."
             )
 
-    def _command(self, goal, result, cancelled):
+    def _command(self, goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
         """control_msgs/GripperCommand: the position is one finger's, the result's the whole width."""
         parameters, state = self._parameters, self._hand.state
         width, effort = 2.0 * goal.command.position, goal.command.max_effort
@@ -220,11 +231,11 @@ class GripperNode:
         if self._hand.busy or abs(width - state.width) >= ARRIVED:
             if abs(effort) < NO_EFFORT or width >= state.width:
 
-                def command(gripper):
+                def command(gripper: pyfranka.Gripper) -> bool:
                     return gripper.move(width, parameters.default_speed)
             else:
 
-                def command(gripper):
+                def command(gripper: pyfranka.Gripper) -> bool:
                     return gripper.grasp(
                         width,
                         parameters.default_speed,
@@ -250,7 +261,7 @@ class GripperNode:
 
     # --- joint states -------------------------------------------------------------------------------
 
-    def _publish_states(self):
+    def _publish_states(self) -> None:
         message = JointState(
             name=self._parameters.joint_names, position=[0.0] * 2, velocity=[0.0] * 2, effort=[0.0] * 2
         )
@@ -267,7 +278,7 @@ class GripperNode:
                 return  # the node exits
 
 
-def connect(parameters, pyfranka):
+def connect(parameters: Parameters, pyfranka: ModuleType) -> Hand:
     """Connects to the hand; retries until the timeout."""
     deadline = time.monotonic() + parameters.connect_timeout
     while True:
@@ -279,7 +290,7 @@ def connect(parameters, pyfranka):
             time.sleep(RETRY)
 
 
-def warn_of_unknown_joints(parameters):
+def warn_of_unknown_joints(parameters: Parameters) -> None:
     """Warns about fingers that robot_description, if there is one, lacks."""
     name = rospy.search_param("robot_description")
     try:
@@ -298,7 +309,7 @@ def warn_of_unknown_joints(parameters):
         )
 
 
-def main():
+def main() -> int:
     rospy_connections.answer_help("rosrun franka_gripper franka_gripper_node", USAGE)
     rospy_connections.init_node("franka_gripper_node")
     # Only here, after init_node: pyfranka exists only if libfranka was built.

@@ -2,8 +2,24 @@
 # SPDX-License-Identifier: Apache-2.0
 """One hand, used by several threads: its state stream, and one command at a time. No ROS."""
 
+from __future__ import annotations
+
 import threading
 import time
+import typing
+from collections.abc import Callable
+
+if typing.TYPE_CHECKING:
+    import pyfranka
+
+    Command = Callable[[pyfranka.Gripper], bool]
+
+
+class Outcome(typing.TypedDict, total=False):
+    """How a command ended."""
+
+    result: bool
+    error: Exception
 
 
 class Interrupted(Exception):
@@ -28,7 +44,7 @@ class Hand:
     WORD = 0.5  # [s] longest wait for a new state, of which the hand sends thirty a second
     RETRY = 1.0  # [s] between attempts to connect
 
-    def __init__(self, connect, report=print):
+    def __init__(self, connect: Callable[[], pyfranka.Gripper], report: Callable[[str], object] = print):
         self._connect = connect
         self._report = report
         self._gripper = connect()
@@ -43,34 +59,34 @@ class Hand:
         self._reader = threading.Thread(target=self._follow, daemon=True)
         self._reader.start()
 
-    def close(self):
+    def close(self) -> None:
         """Ends the thread that reads states. Takes as long as one state, at most a second."""
         self._ended.set()
         self._reader.join(2.0)
 
     @property
-    def state(self):
+    def state(self) -> pyfranka.GripperState:
         """The newest state."""
         return self._state
 
     @property
-    def age(self):
+    def age(self) -> float:
         """Time since the newest state arrived [s]."""
         return time.monotonic() - self._fresh
 
     @property
-    def busy(self):
+    def busy(self) -> bool:
         """Whether a command runs."""
         return self._busy
 
-    def next_state(self):
+    def next_state(self) -> pyfranka.GripperState:
         """A state that arrived after this call; the newest one if the hand is silent."""
         asked = time.monotonic()
         with self._arrived:
             self._arrived.wait_for(lambda: self._fresh > asked, self.WORD)
             return self._state
 
-    def _follow(self):
+    def _follow(self) -> None:
         lost = False
         while not self._ended.is_set():
             try:
@@ -86,7 +102,7 @@ class Hand:
                 self._ended.wait(self.RETRY)
                 self._reconnect()
 
-    def _reconnect(self):
+    def _reconnect(self) -> None:
         if self._ended.is_set():
             return
         try:
@@ -94,14 +110,14 @@ class Hand:
         except Exception:
             return  # tried again after the next state that does not arrive
 
-    def stop(self):
+    def stop(self) -> bool:
         """Ends the running command and the force of a grasp. Returns whether the hand did."""
         with self._idle:
             self._asked += 1
             self._stopped = self._asked
         return self._gripper.stop()
 
-    def run(self, command, cancelled=lambda: False):
+    def run(self, command: Command, cancelled: Callable[[], bool] = lambda: False) -> bool:
         """Executes command(gripper) and returns its result.
 
         Ends another running command first. Raises Interrupted or Stopped if this one was ended before it
@@ -112,7 +128,7 @@ class Hand:
             self._asked += 1
             ticket = self._asked
 
-            def end():
+            def end() -> bool:
                 return self._asked != ticket or cancelled()
 
             while self._busy and not end():
@@ -120,7 +136,7 @@ class Hand:
             if end():
                 raise self._reason(ticket)
             self._busy = True
-        outcome = {}
+        outcome: Outcome = {}
         done = threading.Event()
         threading.Thread(target=self._work, args=(command, outcome, done), daemon=True).start()
         stopped = self._await(done, end)
@@ -130,11 +146,11 @@ class Hand:
             raise outcome["error"]
         return outcome["result"]
 
-    def _reason(self, ticket):
+    def _reason(self, ticket: int) -> Exception:
         """The reason why the command with this ticket must end."""
         return Stopped() if self._stopped > ticket else Interrupted()
 
-    def _work(self, command, outcome, done):
+    def _work(self, command: Command, outcome: Outcome, done: threading.Event) -> None:
         try:
             outcome["result"] = command(self._gripper)
         except Exception as error:
@@ -144,7 +160,7 @@ class Hand:
             self._idle.notify_all()
         done.set()
 
-    def _await(self, done, end):
+    def _await(self, done: threading.Event, end: Callable[[], bool]) -> bool:
         """Waits for the end of a command; returns whether it was requested.
 
         A stop may reach the hand before the command, or be lost with the connection: it is repeated.

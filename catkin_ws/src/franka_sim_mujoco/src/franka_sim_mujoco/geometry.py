@@ -6,23 +6,26 @@ import math
 
 import numpy as np
 from geometry_msgs.msg import Point, Pose, Quaternion
+from numpy.typing import NDArray
 from tf.transformations import quaternion_about_axis, quaternion_from_matrix, quaternion_matrix
 
+Array = NDArray[np.float64]
 
-def matrix_of(pose: Pose) -> np.ndarray:
+
+def matrix_of(pose: Pose) -> Array:
     """The 4x4 transform of a pose message."""
     q, p = pose.orientation, pose.position
-    transform = quaternion_matrix([q.x, q.y, q.z, q.w])
+    transform: Array = quaternion_matrix([q.x, q.y, q.z, q.w])
     transform[:3, 3] = [p.x, p.y, p.z]
     return transform
 
 
-def pose_of(transform: np.ndarray) -> Pose:
+def pose_of(transform: Array) -> Pose:
     """The pose message of a 4x4 transform."""
     return Pose(Point(*transform[:3, 3]), Quaternion(*quaternion_from_matrix(transform)))
 
 
-def downwards(x: float, y: float, z: float, yaw: float = 0.0) -> np.ndarray:
+def downwards(x: float, y: float, z: float, yaw: float = 0.0) -> Array:
     """A gripper that points down at (x, y, z) [m], rotated by yaw about the vertical [rad]."""
     c, s = math.cos(yaw), math.sin(yaw)
     transform = np.eye(4)
@@ -31,12 +34,12 @@ def downwards(x: float, y: float, z: float, yaw: float = 0.0) -> np.ndarray:
     return transform
 
 
-def yaw_of(transform: np.ndarray) -> float:
+def yaw_of(transform: Array) -> float:
     """Rotation of the x axis about the vertical [rad]."""
     return math.atan2(transform[1, 0], transform[0, 0])
 
 
-def rotation_vector(rotation: np.ndarray) -> np.ndarray:
+def rotation_vector(rotation: Array) -> Array:
     """Axis times angle [rad] of a 3x3 rotation by less than half a turn."""
     whole = np.eye(4)
     whole[:3, :3] = rotation
@@ -46,13 +49,14 @@ def rotation_vector(rotation: np.ndarray) -> np.ndarray:
     return np.array(axis) * math.copysign(angle / sine if sine > 0.0 else 2.0, w)
 
 
-def rotation_of(vector: np.ndarray) -> np.ndarray:
+def rotation_of(vector: Array) -> Array:
     """The 3x3 rotation of an axis times an angle [rad]."""
     angle = float(np.linalg.norm(vector))
-    return quaternion_matrix(quaternion_about_axis(angle, vector))[:3, :3]
+    rotation: Array = quaternion_matrix(quaternion_about_axis(angle, vector))[:3, :3]
+    return rotation
 
 
-def shortened(vector: np.ndarray, longest: float) -> np.ndarray:
+def shortened(vector: Array, longest: float) -> Array:
     """The vector, or one of the same direction with the largest length allowed."""
     length = float(np.linalg.norm(vector))
     return vector if length <= longest else vector * (longest / length)

@@ -11,6 +11,8 @@ import math
 import time
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
+from typing import Any
 
 import actionlib
 import numpy as np
@@ -36,6 +38,7 @@ from geometry_msgs.msg import Point, Pose, PoseStamped
 from sensor_msgs.msg import Image
 
 from franka_sim_mujoco.geometry import (
+    Array,
     downwards,
     matrix_of,
     minimum_jerk,
@@ -99,7 +102,7 @@ class Arm:
         self.fingers = [f"{arm_id}_{side}finger" for side in ("left", "right")]
         self._namespace = namespace
         self._state: FrankaState | None = None
-        self._target: np.ndarray | None = None
+        self._target: Array | None = None
         self._arrival: float | None = None  # time since which the arm is at its target
         self._corrected = 0.0  # time of the last correction
         # Friction stops an arm before its equilibrium pose: [m] and, as a rotation vector, [rad] by which
@@ -132,12 +135,15 @@ class Arm:
 
     @property
     def state(self) -> FrankaState:
+        """The newest one. Raises TaskError before the first one has come."""
+        if self._state is None:
+            raise TaskError("The robot has sent no state yet; call wait_ready() first.")
         return self._state
 
     @property
-    def pose(self) -> np.ndarray:
+    def pose(self) -> Array:
         """O_T_EE, 4x4."""
-        return np.array(self._state.O_T_EE).reshape(4, 4, order="F")
+        return np.array(self.state.O_T_EE).reshape(4, 4, order="F")
 
     def configure(self, **parameters: float) -> None:
         """Sets stiffnesses by dynamic_reconfigure."""
@@ -150,7 +156,7 @@ class Arm:
         if not answer.success:
             raise TaskError(f"set_load was refused: {answer.error}")
 
-    def carry(self, box: np.ndarray, size: tuple[float, float, float], mass: float) -> None:
+    def carry(self, box: Array, size: tuple[float, float, float], mass: float) -> None:
         """Sets a held box as the robot's load: its pose in O (4x4), sides [m] and mass [kg]."""
         a, b, c = size
         principal = mass / 12.0 * np.array([b * b + c * c, a * a + c * c, a * a + b * b])
@@ -164,7 +170,7 @@ class Arm:
 
     def move(
         self,
-        target: np.ndarray,
+        target: Array,
         speed: float = 0.15,
         turn_speed: float = 0.8,
         tolerance: float = 0.01,
@@ -175,6 +181,8 @@ class Arm:
         @param speed [m/s], turn_speed [rad/s]: mean speeds; tolerance of the position [m].
         """
         start = self._target
+        if start is None:
+            raise TaskError(f"{what} begins where the arm is; call wait_ready() first.")
         turn = wrap(yaw_of(target) - yaw_of(start), 2 * math.pi)
         distance = float(np.linalg.norm(target[:3, 3] - start[:3, 3]))
         duration = max(distance / speed, abs(turn) / turn_speed, 0.3)
@@ -189,8 +197,8 @@ class Arm:
             fraction = min(fraction + min(now - last, self.MAX_TIME_STEP) / duration, 1.0)
             last = now
             s = minimum_jerk(fraction)
-            position = start[:3, 3] + s * (target[:3, 3] - start[:3, 3])
-            self._lead(downwards(*position, yaw_of(start) + s * turn))
+            x, y, z = start[:3, 3] + s * (target[:3, 3] - start[:3, 3])
+            self._lead(downwards(x, y, z, yaw_of(start) + s * turn))
             time.sleep(0.004)
         self._target = target
         self._arrival = None
@@ -199,14 +207,14 @@ class Arm:
             wait_until(lambda: self._arrived(target, tolerance), what)
         except TaskError as error:
             away = (self.pose[:3, 3] - target[:3, 3]) * 1e3
-            turn = rotation_vector(self.pose[:3, :3] @ target[:3, :3].T)
+            turned = rotation_vector(self.pose[:3, :3] @ target[:3, :3].T)
             raise TaskError(
                 f"{error} The end effector stands {away[0]:.1f}, {away[1]:.1f}, {away[2]:.1f} mm and "
-                f"{turn[0]:.3f}, {turn[1]:.3f}, {turn[2]:.3f} rad off its target, the fastest joint "
+                f"{turned[0]:.3f}, {turned[1]:.3f}, {turned[2]:.3f} rad off its target, the fastest joint "
                 f"moves at {max(abs(v) for v in self.state.dq):.3f} rad/s."
             ) from error
 
-    def _lead(self, target: np.ndarray) -> None:
+    def _lead(self, target: Array) -> None:
         led = np.eye(4)
         led[:3, 3] = target[:3, 3] + self._lead_position
         led[:3, :3] = rotation_of(self._lead_turn) @ target[:3, :3]
@@ -215,7 +223,7 @@ class Arm:
         message.header.frame_id = f"{self.arm_id}_link0"
         self._publisher.publish(message)
 
-    def _arrived(self, target: np.ndarray, tolerance: float) -> bool:
+    def _arrived(self, target: Array, tolerance: float) -> bool:
         if self.state.robot_mode != FrankaState.ROBOT_MODE_MOVE:
             raise TaskError(f"The robot left Move (mode {self.state.robot_mode}); was the user stop pressed?")
         self._lead(target)
@@ -233,9 +241,9 @@ class Arm:
             self._arrival = None
             return False
         self._arrival = self._arrival if self._arrival is not None else measured
-        return measured - self._arrival > self.SETTLED
+        return bool(measured - self._arrival > self.SETTLED)
 
-    def _correct(self, away: np.ndarray, turned: np.ndarray, measured: float) -> None:
+    def _correct(self, away: Array, turned: Array, measured: float) -> None:
         """Moves the equilibrium pose further to correct the error at rest.
 
         Not by a state that the arm had before the last correction: when this script is late, the same
@@ -266,12 +274,12 @@ class Gripper:
     def wait_ready(self) -> None:
         for name, client in self._clients.items():
             wait_until(
-                lambda c=client: c.wait_for_server(rospy.Duration(0.05)),
+                partial(client.wait_for_server, rospy.Duration(0.05)),
                 f"the gripper's {name} action",
                 simulated=math.inf,
             )
 
-    def _run(self, name: str, goal, simulated: float = 20.0) -> None:
+    def _run(self, name: str, goal: Any, simulated: float = 20.0) -> None:
         handle = self._clients[name].send_goal(goal)
         wait_until(
             lambda: handle.get_comm_state() == CommState.DONE,
@@ -315,7 +323,7 @@ class Scene:
         self._contacts = self._service("get_contacts", GetContacts)
         self._render = self._service("render_picture", RenderPicture)
 
-    def _service(self, name: str, kind) -> rospy.ServiceProxy:
+    def _service(self, name: str, kind: Any) -> rospy.ServiceProxy:
         full = f"{self._node}/{name}"
         try:
             rospy.wait_for_service(full, timeout=60)
@@ -324,16 +332,16 @@ class Scene:
         return rospy.ServiceProxy(full, kind)
 
     @staticmethod
-    def _checked(answer, what: str):
+    def _checked(answer: Any, what: str) -> Any:
         if not answer.success:
             raise TaskError(f"{what}: {answer.error}")
         return answer
 
-    def pose(self, body: str) -> np.ndarray:
+    def pose(self, body: str) -> Array:
         """World pose of a body, 4x4."""
         return matrix_of(self._checked(self._pose(body), f"pose of {body}").pose)
 
-    def pose_in(self, frame: str, body: str) -> np.ndarray:
+    def pose_in(self, frame: str, body: str) -> Array:
         """Pose of a body in the frame of another one, 4x4; both are read in the same tick."""
         answer = self._link_state(body, frame)
         if not answer.success:
@@ -465,11 +473,11 @@ class PickAndPlace:
         )
         return Placement(tuple(stone[:3, 3].tolist()), math.hypot(offset[0, 3], offset[1, 3]), inside)
 
-    def _in_base(self, world: np.ndarray) -> np.ndarray:
+    def _in_base(self, world: Array) -> Array:
         return self._base_inverse @ world
 
     @staticmethod
-    def _grasp_of(stone: np.ndarray) -> tuple[float, float]:
+    def _grasp_of(stone: Array) -> tuple[float, float]:
         """Gripper yaw and width for the pair of the stone's sides that needs the smaller rotation."""
         yaw = yaw_of(stone)
         along_y = wrap(yaw, math.pi)  # the fingers close along the stone's y

@@ -44,7 +44,7 @@ class Session:
         # Debian 13's rospy does not flush: what a Python node prints would come when the node ends.
         self.environment.setdefault("PYTHONUNBUFFERED", "1")
         self._command = ["roslaunch", "-p", str(self.port), *launch]
-        self._process: subprocess.Popen | None = None
+        self._process: subprocess.Popen[bytes] | None = None
 
     def __enter__(self) -> "Session":
         self.log.parent.mkdir(parents=True, exist_ok=True)
@@ -59,7 +59,7 @@ class Session:
             )
         return self
 
-    def __exit__(self, *_) -> None:
+    def __exit__(self, *_: object) -> None:
         self.stop()
 
     def running(self) -> bool:
@@ -79,7 +79,9 @@ class Session:
         """The last lines of the log."""
         return "\n".join(self.log.read_text(errors="replace").splitlines()[-lines:])
 
-    def run(self, *command: str, timeout: float = 30.0, check: bool = True) -> subprocess.CompletedProcess:
+    def run(
+        self, *command: str, timeout: float = 30.0, check: bool = True
+    ) -> subprocess.CompletedProcess[str]:
         """Runs a command on this master and returns it with its output as text."""
         return subprocess.run(
             command,

@@ -2,10 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Spawns robots (URDF) and objects (SDF, MJCF) in the running simulation, with spawn_model's arguments."""
 
+import argparse
 import math
 import re
 import sys
 import time
+from collections.abc import Iterable, Sequence
+from typing import Any
 
 import rospy
 from controller_manager.command_line import Parser
@@ -28,7 +31,7 @@ class SpawnError(Exception):
     """An error message for the user."""
 
 
-def parse(name, arguments):
+def parse(name: str, arguments: Sequence[str]) -> argparse.Namespace:
     """The options of a command line (without the program's name)."""
     parser = Parser(prog=name, description=__doc__, allow_abbrev=False)
     source = parser.add_mutually_exclusive_group(required=True)
@@ -67,7 +70,7 @@ def parse(name, arguments):
     return parser.parse_args(arguments)
 
 
-def read_description(options):
+def read_description(options: argparse.Namespace) -> str:
     if options.stdin:
         return sys.stdin.read()
     if options.file:
@@ -82,7 +85,7 @@ def read_description(options):
     return text
 
 
-def kind_of(options, text):
+def kind_of(options: argparse.Namespace, text: str) -> str:
     """ "urdf", "sdf" or "mjcf": from the options, else from the root element."""
     for kind in ("urdf", "sdf", "mjcf"):
         if getattr(options, kind):
@@ -90,14 +93,14 @@ def kind_of(options, text):
     bare = re.sub(r"<!--.*?-->|<\?.*?\?>", "", text, flags=re.DOTALL)
     root = re.search(r"<\s*([\w:]+)", bare)
     kinds = {"robot": "urdf", "sdf": "sdf", "gazebo": "sdf", "model": "sdf", "mujoco": "mjcf", "body": "mjcf"}
-    kind = kinds.get(root.group(1)) if root else None
-    if kind is None:
+    found_kind = kinds.get(root.group(1)) if root else None
+    if found_kind is None:
         found = f"its root element is <{root.group(1)}>" if root else "it is not XML"
         raise SpawnError(f"'{options.model}' is neither URDF, SDF nor MJCF: {found}.")
-    return kind
+    return found_kind
 
 
-def read_joints(pairs):
+def read_joints(pairs: Iterable[tuple[str, str]]) -> tuple[list[str], list[float]]:
     names, positions = [], []
     for name, text in pairs:
         try:
@@ -108,7 +111,7 @@ def read_joints(pairs):
     return names, positions
 
 
-def orientation_of(roll, pitch, yaw):
+def orientation_of(roll: float, pitch: float, yaw: float) -> Quaternion:
     """Quaternion of rotations about the fixed axes x, y, z, in this order, as in a URDF."""
     (cr, sr), (cp, sp), (cy, sy) = [(math.cos(a / 2), math.sin(a / 2)) for a in (roll, pitch, yaw)]
     return Quaternion(
@@ -119,7 +122,7 @@ def orientation_of(roll, pitch, yaw):
     )
 
 
-def multiply(a, b):
+def multiply(a: Quaternion, b: Quaternion) -> Quaternion:
     """The rotation b, then the rotation a."""
     return Quaternion(
         w=a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
@@ -129,7 +132,7 @@ def multiply(a, b):
     )
 
 
-def compose(base, pose):
+def compose(base: Pose, pose: Pose) -> Pose:
     """Transforms a pose from the frame `base` into the frame of base's own pose."""
     q, p = base.orientation, pose.position
     turned = multiply(multiply(q, Quaternion(x=p.x, y=p.y, z=p.z, w=0)), Quaternion(-q.x, -q.y, -q.z, q.w))
@@ -140,7 +143,7 @@ def compose(base, pose):
     return result
 
 
-def call(options, name, kind, *arguments):
+def call(options: argparse.Namespace, name: str, kind: Any, *arguments: Any) -> Any:
     name = options.gazebo_namespace + "/" + name
     try:
         # Wall time: the simulation may be paused.
@@ -154,7 +157,7 @@ def call(options, name, kind, *arguments):
         raise SpawnError(f"{name} failed: {error}") from error
 
 
-def pose_of(options):
+def pose_of(options: argparse.Namespace) -> Pose:
     pose = Pose(orientation=orientation_of(options.R, options.P, options.Y))
     pose.position = Vector3(options.x, options.y, options.z)
     if options.reference_frame in ("", "world"):
@@ -165,7 +168,7 @@ def pose_of(options):
     return compose(base.pose, pose)
 
 
-def wait_for_body(options):
+def wait_for_body(options: argparse.Namespace) -> None:
     end = time.monotonic() + options.timeout
     while options.wait not in call(options, "get_world", GetWorld).bodies:
         if time.monotonic() > end:
@@ -173,21 +176,21 @@ def wait_for_body(options):
         time.sleep(0.2)
 
 
-def spawn_robot(options, text):
+def spawn_robot(options: argparse.Namespace, text: str) -> Any:
     order = SpawnRobotRequest(name=options.model, urdf=text, pose=pose_of(options))
     order.robot_namespace = options.robot_namespace or rospy.get_namespace()
     order.joint_names, order.joint_positions = read_joints(options.J)
     return call(options, "spawn_robot", SpawnRobot, order)
 
 
-def spawn_object(options, text):
+def spawn_object(options: argparse.Namespace, text: str) -> Any:
     if options.J:
         raise SpawnError("Initial joint positions (-J) are for robots (URDF) only.")
     order = SpawnObjectRequest(name=options.model, xml=text, pose=pose_of(options))
     return call(options, "spawn_object", SpawnObject, order)
 
 
-def spawn(options):
+def spawn(options: argparse.Namespace) -> None:
     text = read_description(options)
     is_robot = kind_of(options, text) == "urdf"
     if options.wait:
@@ -204,10 +207,10 @@ def spawn(options):
         stay(options, is_robot)
 
 
-def stay(options, is_robot):
+def stay(options: argparse.Namespace, is_robot: bool) -> None:
     """Waits until the node exits; then deletes the model."""
 
-    def remove():
+    def remove() -> None:
         name, kind = ("delete_robot", DeleteRobot) if is_robot else ("delete_object", DeleteObject)
         try:
             rospy.ServiceProxy(options.gazebo_namespace + "/" + name, kind)(options.model)
@@ -218,7 +221,7 @@ def stay(options, is_robot):
     rospy.spin()
 
 
-def run(name, arguments):
+def run(name: str, arguments: Sequence[str]) -> int:
     """A program's main: @returns its exit status."""
     options = parse(name, rospy.myargv(arguments)[1:])
     # Without ROS time: waits use wall time, because the simulation may be paused.

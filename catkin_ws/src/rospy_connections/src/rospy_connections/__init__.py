@@ -17,6 +17,7 @@ is added.
 """
 
 import sys
+from typing import Any
 
 import rospy
 from rospy.impl.registration import RegManager, get_topic_manager
@@ -25,7 +26,7 @@ from rospy.impl.tcpros_pubsub import TCPROSHandler
 MAX_WAIT = 1.0  # [s] for a publisher that is blocked by another subscriber, which must not hold up all others
 
 
-def _publisher_update(self, resolved_name, uris):
+def _publisher_update(self: Any, resolved_name: str, uris: list[str]) -> None:
     """RegManager.publisher_update that keeps the publishers of an earlier, unread update."""
     with self.cond:
         waiting = [uri for name, queued in self.updates if name == resolved_name for uri in queued]
@@ -36,7 +37,7 @@ def _publisher_update(self, resolved_name, uris):
 _rospys_handler = TCPROSHandler.topic_connection_handler
 
 
-def _topic_connection_handler(self, sock, client_addr, header):
+def _topic_connection_handler(self: Any, sock: Any, client_addr: Any, header: dict[str, str]) -> Any:
     """TCPROSHandler.topic_connection_handler, during which nothing is published on the topic."""
     topic = get_topic_manager().get_publisher_impl(header.get("topic"))
     lock = topic and topic.publock
@@ -58,7 +59,7 @@ def answer_help(command: str, text: str) -> None:
         sys.exit(0)
 
 
-def init_node(*arguments, **options) -> None:
+def init_node(*arguments: Any, **options: Any) -> None:
     """rospy.init_node(), after which subscribers find their publishers in any order of start, and miss no
     message after that."""
     RegManager.publisher_update = _publisher_update

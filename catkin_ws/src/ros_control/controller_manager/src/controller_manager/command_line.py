@@ -4,9 +4,10 @@
 
 import argparse
 import re
+from typing import Any
 
 
 class Parser(argparse.ArgumentParser):
-    def __init__(self, *arguments, **options):
+    def __init__(self, *arguments: Any, **options: Any) -> None:
         super().__init__(*arguments, **options)
         self._negative_number_matcher = re.compile(r"-(\d.*|\.\d.*|inf|infinity|nan)$", re.IGNORECASE)

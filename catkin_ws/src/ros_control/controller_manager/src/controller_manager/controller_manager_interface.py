@@ -5,6 +5,9 @@
 All functions return whether they succeeded, and raise rospy.ROSException without a manager.
 """
 
+from collections.abc import Iterable
+from typing import Any
+
 import rospy
 from controller_manager_msgs.srv import (
     ListControllers,
@@ -19,24 +22,24 @@ from controller_manager_msgs.srv import (
 MAX_WAIT = 10.0  # [s] for the manager to appear
 
 
-def _call(name, kind, *arguments, **fields):
+def _call(name: str, kind: Any, *arguments: Any, **fields: Any) -> Any:
     name = "controller_manager/" + name
     rospy.wait_for_service(name, MAX_WAIT)
     return rospy.ServiceProxy(name, kind)(*arguments, **fields)
 
 
-def list_controller_types():
+def list_controller_types() -> bool:
     """Prints the types that could be loaded."""
     for name in _call("list_controller_types", ListControllerTypes).types:
         print(name)
     return True
 
 
-def _controllers():
+def _controllers() -> Any:
     return _call("list_controllers", ListControllers).controller
 
 
-def reload_libraries(force_kill, restore=False):
+def reload_libraries(force_kill: bool, restore: bool = False) -> bool:
     """Reloads the plugin libraries; with `restore`, then also the present controllers."""
     print(f"Restore: {restore}")
     before = _controllers() if restore else []
@@ -54,7 +57,7 @@ def reload_libraries(force_kill, restore=False):
     return True
 
 
-def list_controllers():
+def list_controllers() -> bool:
     """Prints the loaded controllers."""
     controllers = _controllers()
     if not controllers:
@@ -65,7 +68,7 @@ def list_controllers():
     return True
 
 
-def load_controller(name):
+def load_controller(name: str) -> bool:
     if _call("load_controller", LoadController, name).ok:
         print(f"Loaded '{name}'")
         return True
@@ -73,7 +76,7 @@ def load_controller(name):
     return False
 
 
-def unload_controller(name):
+def unload_controller(name: str) -> bool:
     if _call("unload_controller", UnloadController, name).ok:
         print(f"Unloaded '{name}' successfully")
         return True
@@ -81,23 +84,25 @@ def unload_controller(name):
     return False
 
 
-def start_controller(name):
+def start_controller(name: str) -> bool:
     return start_controllers([name])
 
 
-def start_controllers(names):
+def start_controllers(names: Iterable[str]) -> bool:
     return start_stop_controllers(start_controllers=names)
 
 
-def stop_controller(name):
+def stop_controller(name: str) -> bool:
     return stop_controllers([name])
 
 
-def stop_controllers(names):
+def stop_controllers(names: Iterable[str]) -> bool:
     return start_stop_controllers(stop_controllers=names)
 
 
-def start_stop_controllers(start_controllers=(), stop_controllers=()):
+def start_stop_controllers(
+    start_controllers: Iterable[str] = (), stop_controllers: Iterable[str] = ()
+) -> bool:
     """Starts and stops in one cycle; does nothing if part of it is impossible."""
     start = list(start_controllers)
     stop = list(stop_controllers)

@@ -4,6 +4,8 @@
 
 import signal
 import threading
+from collections.abc import Callable
+from typing import Any
 
 import rospy
 
@@ -23,35 +25,35 @@ class Ending:
     of the interrupted code. rospy's shutdown waits for finish(), so that services can be called until then.
     """
 
-    def __init__(self):
+    def __init__(self) -> None:
         self._requested = threading.Event()
         self._done = threading.Event()
         for number in (signal.SIGINT, signal.SIGTERM):
             signal.signal(number, lambda *_: self._requested.set())
         rospy.on_shutdown(self._wait_for_end)
 
-    def _wait_for_end(self):
+    def _wait_for_end(self) -> None:
         self._requested.set()
         self._done.wait(MAX_END_TIME)
 
-    def is_requested(self):
+    def is_requested(self) -> bool:
         return self._requested.is_set()
 
-    def sleep(self, duration):
+    def sleep(self, duration: float) -> None:
         """Raises Ended if a request to exit interrupts the sleep."""
         if self._requested.wait(duration):
             raise Ended
 
-    def finish(self):
+    def finish(self) -> None:
         """The clean-up is done: the node may exit."""
         self._done.set()
         rospy.signal_shutdown("the program has ended")
 
-    def call(self, service, request):
+    def call(self, service: Callable[[Any], Any], request: Any) -> Any:
         """The answer of a service that may never come. Raises Ended on a request to exit."""
-        outcome = {}
+        outcome: dict[str, Any] = {}
 
-        def work():
+        def work() -> None:
             try:
                 outcome["answer"] = service(request)
             except Exception as error:  # raised again in the main thread

@@ -2,10 +2,16 @@
 # SPDX-License-Identifier: Apache-2.0
 """Loads controllers, starts them, and unloads them when the spawner exits."""
 
+from __future__ import annotations
+
+import argparse
 import contextlib
 import os
 import socket
 import time
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
+from typing import Any
 
 import rosgraph
 import rosparam
@@ -42,7 +48,7 @@ class SpawnerError(Exception):
     """An error that ends the spawner; the message is for the user."""
 
 
-def parse_arguments(arguments):
+def parse_arguments(arguments: Sequence[str]) -> argparse.Namespace:
     parser = Parser(
         prog="spawner",
         description="Loads and starts controllers, and stops and unloads them when it is ended.",
@@ -90,11 +96,11 @@ class SimulatedClock:
     and every robot has its spawners, which run as long as the robot.
     """
 
-    def __init__(self):
-        self._listener = None
+    def __init__(self) -> None:
+        self._listener: Listener | None = None
         self._begun = not rospy.get_param("/use_sim_time", False)
 
-    def has_begun(self):
+    def has_begun(self) -> bool:
         if not self._begun:
             if self._listener is None:
                 self._listener = Listener("/clock", Clock, lambda message: not message.clock.is_zero())
@@ -103,7 +109,7 @@ class SimulatedClock:
                 self.close()
         return self._begun
 
-    def close(self):
+    def close(self) -> None:
         if self._listener is not None:
             self._listener.close()
             self._listener = None
@@ -112,13 +118,13 @@ class SimulatedClock:
 class Deadline:
     """Wall time left for waiting. It stands still before a simulated clock starts."""
 
-    def __init__(self, timeout, clock):
+    def __init__(self, timeout: float, clock: SimulatedClock):
         self._clock = clock
         self._timeout = timeout
         self._end = time.monotonic() + timeout
         self._said = False
 
-    def is_over(self):
+    def is_over(self) -> bool:
         if self._timeout <= 0:
             return False
         if not self._clock.has_begun():
@@ -130,7 +136,7 @@ class Deadline:
         return time.monotonic() > self._end
 
 
-def wait_until(condition, deadline, ending):
+def wait_until(condition: Callable[[], bool], deadline: Deadline, ending: Ending) -> bool:
     """True if the condition holds, False after the time."""
     while not condition():
         if deadline.is_over():
@@ -139,7 +145,7 @@ def wait_until(condition, deadline, ending):
     return True
 
 
-def is_offered(service):
+def is_offered(service: str) -> bool:
     """Whether a process accepts connections at the service's address; sends nothing.
 
     rospy.wait_for_service() would warn about a service whose node has died or is just exiting.
@@ -159,7 +165,9 @@ class Listener:
     master's update overtakes the master's answer.
     """
 
-    def __init__(self, topic, kind=Bool, counts=lambda message: message.data):
+    def __init__(
+        self, topic: str, kind: Any = Bool, counts: Callable[[Any], bool] = lambda message: message.data
+    ):
         self._topic = topic
         self._kind = kind
         self._counts = counts
@@ -167,22 +175,22 @@ class Listener:
         self._has_news = False
         self._subscribe()
 
-    def _subscribe(self):
+    def _subscribe(self) -> None:
         self._subscriber = rospy.Subscriber(self._topic, self._kind, self._take)
         self._doubt = time.monotonic() + RESUBSCRIBE_TIME
 
-    def _take(self, message):
+    def _take(self, message: Any) -> None:
         self._has_news = True
         self._has_message = self._has_message or self._counts(message)
 
-    def has_message(self):
+    def has_message(self) -> bool:
         """Whether such a message has arrived."""
         if self._subscriber.get_num_connections() == 0 and time.monotonic() > self._doubt:
             self.close()
             self._subscribe()
         return self._has_message
 
-    def account(self):
+    def account(self) -> str:
         """Describes what has arrived instead of such a message, as the end of a sentence."""
         if self._has_news:
             return "has only sent false so far (a simulation sends true once it is no longer paused)"
@@ -190,11 +198,11 @@ class Listener:
             return "has a publisher, which has sent nothing so far"
         return "has no publisher"
 
-    def close(self):
+    def close(self) -> None:
         self._subscriber.unregister()
 
 
-def wait_for_true(topic, ending):
+def wait_for_true(topic: str, ending: Ending) -> None:
     """Waits without limit. Raises Ended on a request to exit."""
     name = rospy.resolve_name(topic)
     rospy.loginfo("Controller Spawner: Waiting for %s to be true", name)
@@ -213,7 +221,7 @@ def wait_for_true(topic, ending):
             ending.sleep(POLL_PERIOD)
 
 
-def upload(path):
+def upload(path: str) -> list[str]:
     """Loads a YAML file on the parameter server. Returns the controllers it describes."""
     not_controllers = f"'{path}' does not hold names of controllers with their parameters"
     names = []
@@ -233,7 +241,7 @@ def upload(path):
     return names
 
 
-def controller_names(arguments):
+def controller_names(arguments: Iterable[str]) -> list[str]:
     """Names as given, files replaced by their controllers, without duplicates."""
     names = []
     for argument in arguments:
@@ -249,62 +257,61 @@ def controller_names(arguments):
 class Spawner:
     """The controllers this program has loaded into one controller manager."""
 
-    def __init__(self, namespace, ending):
+    def __init__(self, namespace: str, ending: Ending):
         self._prefix = f"{namespace.rstrip('/')}/" if namespace else ""
         self._prefix += "controller_manager/"
         self._ending = ending
-        self.loaded = []
+        self.loaded: list[str] = []
 
-    def _service(self, name, kind):
+    def _service(self, name: str, kind: Any) -> Any:
         return rospy.ServiceProxy(self._prefix + name, kind)
 
-    def wait_for_manager(self, timeout, clock):
+    def wait_for_manager(self, timeout: float, clock: SimulatedClock) -> bool:
         for name in ("load_controller", "switch_controller", "unload_controller"):
             service = self._prefix + name
             rospy.loginfo("Controller Spawner: Waiting for service %s", service)
-            offered = wait_until(
-                lambda service=service: is_offered(service), Deadline(timeout, clock), self._ending
-            )
+            offered = wait_until(partial(is_offered, service), Deadline(timeout, clock), self._ending)
             if not offered:
                 return False
         return True
 
-    def _controllers(self):
+    def _controllers(self) -> dict[str, str]:
         """States of the manager's controllers, by their names."""
         listing = self._service("list_controllers", ListControllers)().controller
         return {controller.name: controller.state for controller in listing}
 
-    def _ask(self, name, kind, request, is_done):
+    def _is_loaded(self, name: str) -> bool:
+        return name in self._controllers()
+
+    def _ask(self, name: str, kind: Any, request: Any, is_done: Callable[[], bool]) -> bool:
         """Calls a service of the manager, and once more if the connection breaks while the manager goes on.
         Returns whether it was done, by either request."""
         service = self._service(name, kind)
         try:
-            return self._ending.call(service, request).ok
+            return bool(self._ending.call(service, request).ok)
         except rospy.ServiceException as error:
             if not is_offered(self._prefix + name):
                 raise
             rospy.logwarn("Controller Spawner: %s is asked again: %s", self._prefix + name, error)
-        return self._ending.call(service, request).ok or is_done()
+        return bool(self._ending.call(service, request).ok) or is_done()
 
-    def load(self, names):
+    def load(self, names: Iterable[str]) -> None:
         for name in names:
             rospy.loginfo("Loading controller: %s", name)
             # Added before the answer, so that it is unloaded even after an exit in between.
             self.loaded.append(name)
             request = LoadControllerRequest(name)
-            if not self._ask(
-                "load_controller", LoadController, request, lambda name=name: name in self._controllers()
-            ):
+            if not self._ask("load_controller", LoadController, request, partial(self._is_loaded, name)):
                 self.loaded.remove(name)
                 self._ending.sleep(PAUSE_AFTER_FAILED_LOAD)
                 rospy.logerr("Failed to load %s", name)
 
-    def start(self):
+    def start(self) -> None:
         request = SwitchControllerRequest(
             start_controllers=self.loaded, strictness=SwitchControllerRequest.STRICT
         )
 
-        def all_run():
+        def all_run() -> bool:
             states = self._controllers()
             return all(states.get(name) == "running" for name in self.loaded)
 
@@ -315,7 +322,7 @@ class Spawner:
         else:
             rospy.logerr("Failed to start controllers: %s", names)
 
-    def take_away(self):
+    def take_away(self) -> None:
         """Stops and unloads the rest of the controllers; others may have done so already."""
         if not self.loaded:
             return
@@ -333,7 +340,7 @@ class Spawner:
             else:
                 rospy.logwarn("Controllers could not be taken away: %s", error)
 
-    def _manager_ends(self):
+    def _manager_ends(self) -> bool:
         end = time.monotonic() + END_OF_MANAGER
         while is_offered(self._prefix + "list_controllers"):
             if time.monotonic() > end:
@@ -341,7 +348,7 @@ class Spawner:
             time.sleep(POLL_PERIOD)
         return True
 
-    def _stop(self, names):
+    def _stop(self, names: list[str]) -> None:
         if not names:
             return
         response = self._service("switch_controller", SwitchController)(
@@ -356,7 +363,7 @@ class Spawner:
         else:
             rospy.logwarn("Failed to stop controllers: %s", ", ".join(names))
 
-    def _unload(self, names):
+    def _unload(self, names: Iterable[str]) -> None:
         unload_controller = self._service("unload_controller", UnloadController)
         for name in names:
             if unload_controller(name).ok:
@@ -365,7 +372,7 @@ class Spawner:
                 rospy.logwarn("Failed to unload controller: %s", name)
 
 
-def spawn(options, spawner, ending):
+def spawn(options: argparse.Namespace, spawner: Spawner, ending: Ending) -> None:
     """Loads and starts. Raises Ended or SpawnerError."""
     with contextlib.closing(SimulatedClock()) as clock:
         if not spawner.wait_for_manager(options.timeout, clock):
@@ -385,7 +392,7 @@ def spawn(options, spawner, ending):
         ending.sleep(POLL_PERIOD)
 
 
-def main():
+def main() -> int:
     """Runs until a request to exit. Returns the exit status."""
     options = parse_arguments(rospy.myargv()[1:])
     # Without ROS time: nothing here uses it. See SimulatedClock.
