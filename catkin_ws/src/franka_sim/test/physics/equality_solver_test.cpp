@@ -1,7 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Equalities that are solved directly, against MuJoCo's own solver.
+// Which solver a step uses: equalities are solved directly, piles by conjugate gradients,
+// everything else by MuJoCo's Newton method.
+#include <algorithm>
 #include <cmath>
+#include <string>
 #include <vector>
 
 #include "physics/step_preparation.h"
@@ -82,6 +85,69 @@ TEST_P(EqualitySolverTest, ClosedBrakesAreAsWithMuJoCo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, EqualitySolverTest, ::testing::Values("panda"));
+
+/// Cubes that touch each other in layers, in their first step.
+class PileSolverTest : public ::testing::Test {
+ protected:
+  PileSolverTest() : world_(test::world("empty")) {}
+
+  void addCube(double x, double y, double z) {
+    world_.addObject(
+        "cube" + std::to_string(cubes_++),
+        "<body><freejoint/><geom type='box' size='0.02 0.02 0.02' mass='0.05'/></body>",
+        at(x, y, z));
+  }
+  /// @param side cubes at each side of the lowest layer; each layer has one less than that below
+  void addPile(int side) {
+    constexpr double kPitch = 0.0399;  // [m] a little less than a cube's side
+    for (int layer = 0; layer < side; ++layer) {
+      const int length = side - layer;
+      for (int i = 0; i < length * length; ++i) {
+        addCube(kPitch * (i % length + 0.5 * layer), kPitch * (i / length + 0.5 * layer),
+                0.0199 + kPitch * layer);
+      }
+    }
+  }
+  /// Velocities after a step from the initial state with a model that names a solver.
+  std::vector<double> velocitiesWith(mjtSolver solver) {
+    World::Impl& impl = implOf(world_);
+    world_.reset();
+    impl.model->opt.solver = solver;
+    world_.step();
+    return {impl.data->qvel, impl.data->qvel + impl.model->nv};
+  }
+  std::size_t contactsBetweenCubes() {
+    const auto found = contacts(world_);
+    return std::count_if(found.begin(), found.end(), [](const Contact& contact) {
+      return contact.body1.find("cube") == 0 && contact.body2.find("cube") == 0;
+    });
+  }
+
+  World world_;
+  int cubes_{0};
+};
+
+TEST_F(PileSolverTest, ManyContactsBetweenMovingBodiesAreSolvedByConjugateGradients) {
+  addPile(4);
+  ASSERT_EQ(mjSOL_NEWTON, implOf(world_).model->opt.solver);
+  const std::vector<double> velocities = velocitiesWith(mjSOL_NEWTON);
+  EXPECT_GT(contactsBetweenCubes(), 200u);
+  EXPECT_EQ(velocitiesWith(mjSOL_CG), velocities);
+  EXPECT_NE(velocitiesWith(mjSOL_PGS), velocities) << "a model that names another solver keeps it";
+}
+
+TEST_F(PileSolverTest, ContactsWithTheGroundDoNotCount) {
+  addPile(2);
+  std::string feet;
+  for (int i = 0; i < 60; ++i) {
+    feet += "<geom type='box' size='0.02 0.02 0.02' pos='" + std::to_string(0.1 * i) + " 0 0'/>";
+  }
+  world_.addObject("table", "<body><freejoint/>" + feet + "</body>", at(-3, 1, 0.0199));
+  const std::vector<double> velocities = velocitiesWith(mjSOL_NEWTON);
+  EXPECT_GT(contacts(world_).size(), 200u);
+  EXPECT_LT(contactsBetweenCubes(), 200u);
+  EXPECT_NE(velocitiesWith(mjSOL_CG), velocities);
+}
 
 }  // namespace
 }  // namespace franka_sim::test
