@@ -140,7 +140,8 @@ TEST_F(PileSolverTest, ContactsWithTheGroundDoNotCount) {
   addPile(2);
   std::string feet;
   for (int i = 0; i < 60; ++i) {
-    feet += "<geom type='box' size='0.02 0.02 0.02' pos='" + std::to_string(0.1 * i) + " 0 0'/>";
+    feet += "<geom type='box' size='0.02 0.02 0.02' pos='" + franka_core::numberText(0.1 * i) +
+            " 0 0'/>";
   }
   world_.addObject("table", "<body><freejoint/>" + feet + "</body>", at(-3, 1, 0.0199));
   const std::vector<double> velocities = velocitiesWith(mjSOL_NEWTON);
