@@ -18,6 +18,7 @@ from code_blocks import SHELL, TYPED, Block, all_blocks, blocks_in, script_of
 from docsite.packages import packages
 from docsite.paths import TOP
 from page_commands import MAKES_A_PACKAGE
+from page_output import examples_in
 
 BLOCKS = all_blocks()
 PLAIN = {"text", "ini", "toml", "cmake", "diff", "dockerfile", "markdown", "css", "csv"}
@@ -62,6 +63,33 @@ def made_on(page: str) -> set[str]:
 @pytest.mark.parametrize("block", of("python"), ids=named)
 def test_python_can_be_read(block):
     ast.parse(textwrap.dedent(block.text))
+
+
+def prints_without_output(text: str, page: str) -> list[str]:
+    """Programs in Python that print, and are not files of the reader, before a block without their output."""
+    lines = text.splitlines()
+    return [
+        f"{page}:{each.line}"
+        for each in examples_in(text, page)
+        if "print(" in each.code and not each.output and not lines[each.line - 2].startswith("<!-- file: ")
+    ]
+
+
+def test_programs_in_python_show_what_they_print():
+    pages = sorted({block.page for block in of("python")})
+    assert not [place for page in pages for place in prints_without_output((TOP / page).read_text(), page)]
+
+
+def test_a_program_without_its_output_is_found():
+    program, output = "```python\nprint(1, [2.5])\n```\n", "```text\n1 [2.5 ]\n```\n"
+    assert prints_without_output(f"# A page\n\n{program}\nText.\n\n{output}", "page.md") == ["page.md:3"]
+    assert prints_without_output(f"<!-- file: ~/a.py -->\n{program}", "page.md") == []
+    (example,) = examples_in(f"# A page\n\n{program}\n{output}", "page.md")
+    example.check("1 [2.5]\n")
+    example.check("1 [2.4]\n", tolerance=0.2)
+    for other in ("1 [2.4]", "1", "1 2.5 3", "one [2.5]"):
+        with pytest.raises(AssertionError, match="page.md:3 shows"):
+            example.check(other)
 
 
 @pytest.mark.parametrize("block", of("yaml", "json", "xml"), ids=named)

@@ -319,7 +319,11 @@ def test_its_own_commands_are_completed(line, expected):
     ("words", "expected"),
     [
         ("franka_plot ", {"robot", "topic", "bag", "log", "--list", "--help"}),
+        ("franka_plot ro", {"robot"}),
         ("franka_plot log --lim", {"--limits"}),
+        ("franka_plot log ", set()),
+        ("franka_info ", {"record", "--help"}),
+        ("franka_info re", {"record"}),
         ("franka_sim --vi", {"--viewer"}),
         ("franka_info record --mo", {"--move"}),
         ("new_controller --int", {"--interfaces"}),

@@ -6,6 +6,7 @@ import math
 import re
 import shutil
 import subprocess
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -99,9 +100,11 @@ def test_franka_sim_takes_every_number_after_an_option():
 def test_every_command_and_program_is_in_the_table():
     names = set(rows())
     scripts = [*SOURCE.glob("franka_*/scripts/*"), *DEVEL.glob("bin/*")]
+    scripts += SOURCE.glob("ros_control/controller_manager/scripts/*")
     programs = {path.name for path in scripts if path.is_file()} - OTHERS - OF_BUILDS - {"cmake.lock"}
     programs = {name for name in programs if not NODES.search(name)}
-    assert {"fit_robot", "new_controller", "franka_sim", "pyfranka-run"} <= programs
+    programs |= set(tomllib.loads((TOP / "pyproject.toml").read_text())["project"]["scripts"])
+    assert {"fit_robot", "new_controller", "franka_sim", "pyfranka-run", "pyfranka-examples"} <= programs
     assert not (programs | set(COMMANDS)) - names
 
 

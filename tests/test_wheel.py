@@ -19,6 +19,7 @@ import pytest
 from bare_debian import BareDebian, bare_debian, possible
 from fci_session import simulated
 from genuine_clients import LOCKS, client_python, files, locked, pip
+from page_output import Example, examples
 
 TOP = Path(__file__).resolve().parent.parent
 SUPPORT = TOP / "tests" / "support"
@@ -56,16 +57,9 @@ def wheel() -> Path:
 
 
 @pytest.fixture(scope="session")
-def quick_start() -> str:
+def quick_start() -> Example:
     """The first program of the page."""
-    page = (TOP / "docs" / "python.md").read_text(encoding="utf-8")
-    return re.search(r"```python\n(.*?)```", page, re.DOTALL).group(1)
-
-
-def check_quick_start(output: str):
-    outcome, error, time = output.split()
-    assert outcome == "GripperOutcome.Succeeded"
-    assert abs(float(error)) < 0.005 and float(time) > 4
+    return examples("python.md")[0]
 
 
 @pytest.fixture(scope="session")
@@ -225,7 +219,7 @@ def test_licences_of_bundled_libraries_are_included(archive):
 
 
 def test_the_quick_start_of_the_page_runs(environment, quick_start):
-    check_quick_start(environment.python(quick_start))
+    quick_start.check(environment.python(quick_start.code))
 
 
 @pytest.fixture(scope="session")
@@ -460,8 +454,8 @@ def install_on(bare: BareDebian, wheel: Path):
     bare.must("/env/bin/pip", "install", "--quiet", "--no-index", f"/root/{wheel.name}")
 
 
-def check_simulation_on(bare: BareDebian, quick_start: str):
-    check_quick_start(bare.must("/env/bin/python", "-c", quick_start))
+def check_simulation_on(bare: BareDebian, quick_start: Example):
+    quick_start.check(bare.must("/env/bin/python", "-c", quick_start.code))
     seen = json.loads(bare.must("/env/bin/python", f"/root/{PICK_AND_PLACE.name}"))
     check_pick_and_place(seen)
     # Pictures need drivers, which are not here.
@@ -590,7 +584,7 @@ def test_pip_builds_it_from_its_sources(quick_start, tmp_path):
     )
     assert built.returncode == 0, built.stdout[-3000:] + built.stderr[-3000:]
     (wheel,) = tmp_path.glob("pyfranka-*.whl")
-    check_quick_start(Environment(tmp_path, wheel).python(quick_start))
+    quick_start.check(Environment(tmp_path, wheel).python(quick_start.code))
 
 
 @with_extras

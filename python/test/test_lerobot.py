@@ -6,16 +6,15 @@ import errno
 import json
 import os
 import sys
-from pathlib import Path
 
 import gymnasium
 import numpy as np
+import page_output
 import pyarrow.parquet
 import pyfranka.gym
 import pytest
 from pyfranka.lerobot import Dataset, main
 
-TOP = Path(__file__).resolve().parents[2]
 # A stand-in for ffmpeg: keeps what it is given, and its arguments beside it.
 FFMPEG = """#!{python}
 import sys
@@ -124,10 +123,11 @@ def test_episodes_of_an_environment_are_read_back(folder, ffmpeg):
     assert names == {"episode_000000.mp4", "episode_000001.mp4"}, "none of the episode that did not end"
 
 
-def test_the_example_of_the_documentation_runs(folder, monkeypatch):
-    code = (TOP / "docs" / "gym.md").read_text().rpartition("```python\n")[2].partition("```")[0]
+def test_the_examples_of_the_documentation_run(folder, monkeypatch, capsys):
     monkeypatch.chdir(folder.parent)
-    exec(compile(code, "docs/gym.md", "exec"), {})
+    for example in page_output.examples("gym.md"):
+        example.run()
+        example.check(capsys.readouterr().out)
     assert info_of(folder.parent / "demonstrations")["total_episodes"] == 2
 
 

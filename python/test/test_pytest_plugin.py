@@ -14,6 +14,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy as np
+import page_output
 import pyfranka
 import pytest
 from pyfranka.franka_sim import FrankaSim, FrankaSimError, find_program
@@ -255,13 +256,13 @@ def test_paths_may_be_like_paths(tmp_path):
             FrankaSim(wrong)
 
 
-def test_the_examples_of_the_documentation_work(project):
-    page = (Path(__file__).resolve().parents[2] / "docs" / "python.md").read_text()
-    section = page.partition("## Tests of your own project")[2]
-    tests, alone = (part.partition("```")[0] for part in section.split("```python\n")[1:3])
-    result = run(project, tests)
+def test_the_examples_of_the_documentation_work(project, capsys):
+    tests, alone = page_output.examples("python.md", "## Tests of your own project")
+    result = run(project, tests.code)
     result.assert_outcomes(passed=2)
-    exec(alone, {})
+    capsys.readouterr()
+    alone.run()
+    alone.check(capsys.readouterr().out)
 
 
 # ---- several sessions, and ends of sessions --------------------------------------------------------------

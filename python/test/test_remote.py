@@ -12,6 +12,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import numpy
+import page_output
 import pyfranka
 import pyfranka.sim
 import pytest
@@ -95,12 +96,10 @@ def test_each_line_of_the_program_is_a_method_and_each_method_a_line(server):
     assert names(re.findall(r"^\| `([^`]+)`", table, re.MULTILINE)) == lines
 
 
-def test_the_example_of_the_documentation_works(server, capsys):
-    page = (TOP / "docs" / "python.md").read_text().partition("## Control interface")[2]
-    example = page.partition("```python\n")[2].partition("```")[0]
-    assert '"127.0.0.1"' in example
-    exec(example.replace("127.0.0.1", server["panda"].address), {})
-    assert capsys.readouterr().out.startswith("User stopped\n")
+def test_the_example_of_the_documentation_works(franka_panda, capsys):
+    (example,) = page_output.examples("python.md", "## Control interface")
+    example.run(address=franka_panda.address)
+    example.check(capsys.readouterr().out, tolerance=1e-3)
 
 
 # ---- what lines do ---------------------------------------------------------------------------------------

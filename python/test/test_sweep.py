@@ -19,6 +19,7 @@ from types import SimpleNamespace
 import cloudpickle
 import distributed
 import numpy
+import page_output
 import pyarrow.parquet
 import pyfranka
 import pyfranka.sim
@@ -617,15 +618,11 @@ def test_a_robot_moves_on_a_worker_as_in_this_process(cluster, monkeypatch):
 
 
 def test_the_example_of_the_documentation_runs(cluster, tmp_path, monkeypatch, capsys):
-    page = TOP / "docs" / "python.md"
-    code = page.read_text().partition("## Sweeps")[2].partition("```python\n")[2].partition("```")[0]
+    (example,) = page_output.examples("python.md", "## Sweeps")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setattr(pyfranka, "sweep", functools.partial(sweeps.sweep, cluster=cluster), raising=False)
-    exec(compile(code, "<example>", "exec"), {"__name__": "__main__"})
-    lines = [tuple(map(float, line.split())) for line in capsys.readouterr().out.splitlines()]
-    assert [stiffness for stiffness, _ in lines] == [50.0, 200.0, 800.0]
-    errors = [error for _, error in lines]
-    assert errors == sorted(errors, reverse=True) and errors[-1] < 0.05, "friction holds a soft arm"
+    example.run()
+    example.check(capsys.readouterr().out, tolerance=2e-3)
     assert len(pyarrow.parquet.read_table("swing.parquet")["result.q"][0]) == 7
 
 
