@@ -10,6 +10,7 @@
 
 namespace pyfranka {
 
+void bindCalls(py::module_& module);
 void bindExceptions(py::module_& module);
 void bindNumbers(py::module_& module);
 void bindState(py::module_& module);
