@@ -70,7 +70,11 @@ void bindAsync(py::module_& module) {
   py::class_<Handler, std::shared_ptr<Handler>> handler(
       module, "AsyncPositionControlHandler", py::module_local(),
       "Joint targets to which the robot plans its own motion (FR3, protocol 10); a new one may be "
-      "set at any time. Failures are returned, not raised. Use from one thread.");
+      "set at any time. Failures are returned, not raised. Use from one thread.\n\n>>> Handler = "
+      "pyfranka.AsyncPositionControlHandler\n>>> handler = Handler.configure(fr3, "
+      "Handler.Configuration([1.0] * 7)).handler\n>>> "
+      "handler.set_joint_position_target(Handler.JointPositionTarget(fr3_q)).was_"
+      "successful\nTrue\n>>> handler.stop_control()");
   bindValues(handler);
   handler
       .def_static(
@@ -82,15 +86,26 @@ void bindAsync(py::module_& module) {
           },
           py::call_guard<release>(), py::arg("robot"), py::arg("configuration"),
           "Starts the motion; the robot is busy until the handler is stopped or collected. Returns "
-          "a ConfigurationResult.")
+          "a ConfigurationResult.\n\n>>> Handler = pyfranka.AsyncPositionControlHandler\n>>> "
+          "handler = Handler.configure(fr3, Handler.Configuration([1.0] * 7)).handler\n>>> "
+          "handler.stop_control()")
       .def("set_joint_position_target", &Handler::setJointPositionTarget, py::call_guard<release>(),
            py::arg("target"),
-           "Sends a target in answer to the next state. Returns a CommandResult.")
+           "Sends a target in answer to the next state. Returns a CommandResult.\n\n>>> Handler = "
+           "pyfranka.AsyncPositionControlHandler\n>>> handler = Handler.configure(fr3, "
+           "Handler.Configuration([1.0] * 7)).handler\n>>> "
+           "handler.set_joint_position_target(Handler.JointPositionTarget(fr3_q)).was_"
+           "successful\nTrue\n>>> handler.stop_control()")
       .def("get_target_feedback", &Handler::getTargetFeedback, py::call_guard<release>(),
            py::arg("robot_state") = py::none(),
-           "Returns a TargetFeedback from the newest state; without one the next is awaited.")
+           "Returns a TargetFeedback from the newest state; without one the next is "
+           "awaited.\n\n>>> Handler = pyfranka.AsyncPositionControlHandler\n>>> handler = "
+           "Handler.configure(fr3, Handler.Configuration([1.0] * 7)).handler\n>>> "
+           "handler.get_target_feedback().error_message\n>>> handler.stop_control()")
       .def("stop_control", &Handler::stopControl, py::call_guard<release>(),
-           "Stops the robot and ends the motion.");
+           "Stops the robot and ends the motion.\n\n>>> Handler = "
+           "pyfranka.AsyncPositionControlHandler\n>>> handler = Handler.configure(fr3, "
+           "Handler.Configuration([1.0] * 7)).handler\n>>> handler.stop_control()");
 }
 
 }  // namespace pyfranka

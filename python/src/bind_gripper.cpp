@@ -44,7 +44,8 @@ void bindConnection(py::class_<Type>& type) {
 
 void bindHand(py::module_& module) {
   using namespace franka;
-  py::class_<GripperState>(module, "GripperState", py::module_local(), "State of the Franka Hand.")
+  py::class_<GripperState>(module, "GripperState", py::module_local(),
+                           "State of the Franka Hand.\n\n>>> hand.read_once().is_grasped\nFalse")
       .def_readwrite("width", &GripperState::width, "Between the fingers [m].")
       .def_readwrite("max_width", &GripperState::max_width, "As found by homing [m].")
       .def_readwrite("is_grasped", &GripperState::is_grasped,
@@ -64,11 +65,13 @@ void bindHand(py::module_& module) {
   py::class_<Gripper> hand(
       module, "Gripper", py::module_local(),
       "The Franka Hand. Commands wait for their end; stop() from another thread interrupts them, "
-      "which raises CommandException in the one that waits.");
+      "which raises CommandException in the one that waits.\n\n>>> hand = "
+      "pyfranka.Gripper(\"172.16.0.2\")\n>>> hand.move(width=0.04, speed=0.1)\nTrue");
   bindConnection(hand);
   hand.def("homing", &Gripper::homing, py::call_guard<release>(),
            "Finds out how far the fingers open. Returns whether it succeeded.\n\nRaises "
-           "CommandException when it is refused or ended by another command, NetworkException.")
+           "CommandException when it is refused or ended by another command, "
+           "NetworkException.\n\n>>> hand.homing()\nTrue")
       .def(
           "grasp",
           [](const Gripper& self, const py::object& width, const py::object& speed,
@@ -85,7 +88,8 @@ void bindHand(py::module_& module) {
           py::arg("epsilon_outer") = 0.005,
           "Closes [m, m/s] and holds with a force [N]. Returns whether what is held is as wide as "
           "asked, within the epsilons [m].\n\nRaises CommandException when it is refused or ended "
-          "by another command, NetworkException.")
+          "by another command, NetworkException.\n\n>>> hand.grasp(width=0.03, speed=0.1, "
+          "force=10.0)  # there is nothing to hold\nFalse")
       .def(
           "move",
           [](const Gripper& self, const py::object& width, const py::object& speed) {
@@ -97,11 +101,14 @@ void bindHand(py::module_& module) {
           py::arg("width"), py::arg("speed"),
           "Moves the fingers [m, m/s]. Returns whether they arrived.\n\nRaises CommandException "
           "when "
-          "it is refused or ended by another command, NetworkException.")
+          "it is refused or ended by another command, NetworkException.\n\n>>> "
+          "hand.move(width=0.05, speed=0.1)\nTrue")
       .def("stop", &Gripper::stop, py::call_guard<release>(),
-           "Ends what the hand is doing and the force of a grasp. Returns whether it did.")
+           "Ends what the hand is doing and the force of a grasp. Returns whether it did.\n\n>>> "
+           "hand.stop()\nTrue")
       .def("read_once", &Gripper::readOnce, py::call_guard<release>(),
-           "Waits for the next GripperState. Raises NetworkException when none comes.");
+           "Waits for the next GripperState. Raises NetworkException when none comes.\n\n>>> state "
+           "= hand.read_once()\n>>> 0.0 <= state.width <= state.max_width\nTrue");
 }
 
 void bindVacuum(py::module_& module) {
@@ -112,8 +119,9 @@ void bindVacuum(py::module_& module) {
                    .value("Yellow", VacuumGripperDeviceStatus::kYellow)
                    .value("Orange", VacuumGripperDeviceStatus::kOrange)
                    .value("Red", VacuumGripperDeviceStatus::kRed));
-  py::class_<VacuumGripperState>(module, "VacuumGripperState", py::module_local(),
-                                 "State of the vacuum gripper.")
+  py::class_<VacuumGripperState>(
+      module, "VacuumGripperState", py::module_local(),
+      "State of the vacuum gripper.\n\n>>> gripper.read_once().part_present\nFalse")
       .def_readonly("in_control_range", &VacuumGripperState::in_control_range,
                     "Whether the vacuum is within its bounds.")
       .def_readonly("part_detached", &VacuumGripperState::part_detached,
@@ -127,8 +135,10 @@ void bindVacuum(py::module_& module) {
           "time", [](const VacuumGripperState& state) { return seconds(state.time); },
           "Since the gripper started [s].");
 
-  py::class_<VacuumGripper> gripper(module, "VacuumGripper", py::module_local(),
-                                    "The vacuum gripper.");
+  py::class_<VacuumGripper> gripper(
+      module, "VacuumGripper", py::module_local(),
+      "The vacuum gripper.\n\n>>> gripper = pyfranka.VacuumGripper(\"172.16.0.3\")\n>>> "
+      "gripper.read_once().device_status == pyfranka.VacuumGripperDeviceStatus.Green\nTrue");
   aliasAsInCpp(py::enum_<VacuumGripper::ProductionSetupProfile>(
                    gripper, "ProductionSetupProfile", py::module_local(),
                    "One of four sets of bounds of the gripper.")
@@ -142,14 +152,17 @@ void bindVacuum(py::module_& module) {
       .def("vacuum", &VacuumGripper::vacuum, py::call_guard<release>(), py::arg("vacuum"),
            py::arg("timeout"), py::arg("profile") = VacuumGripper::ProductionSetupProfile::kP0,
            "Vacuums an object [10 mbar] within a time (timedelta). Returns whether it is held.\n\n"
-           "Raises CommandException, NetworkException.")
+           "Raises CommandException, NetworkException.\n\n>>> gripper.vacuum(5, "
+           "datetime.timedelta(seconds=1))  # there is nothing to hold\nFalse")
       .def("drop_off", &VacuumGripper::dropOff, py::call_guard<release>(), py::arg("timeout"),
            "Drops the part within a time (timedelta). Returns whether it did.\n\nRaises "
-           "CommandException, NetworkException.")
+           "CommandException, NetworkException.\n\n>>> "
+           "gripper.drop_off(datetime.timedelta(seconds=1))\nTrue")
       .def("stop", &VacuumGripper::stop, py::call_guard<release>(),
-           "Ends what the gripper is doing. Returns whether it did.")
+           "Ends what the gripper is doing. Returns whether it did.\n\n>>> gripper.stop()\nTrue")
       .def("read_once", &VacuumGripper::readOnce, py::call_guard<release>(),
-           "Waits for the next VacuumGripperState. Raises NetworkException when none comes.");
+           "Waits for the next VacuumGripperState. Raises NetworkException when none comes.\n\n>>> "
+           "gripper.read_once().vacuum >= 0\nTrue");
 }
 
 }  // namespace

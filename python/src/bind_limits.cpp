@@ -62,7 +62,9 @@ void vector(py::class_<MotionLimits>& type, const char* name, Type franka_core::
 void bindLimits(py::module_& module) {
   using franka_core::ArmLimits;
   py::class_<MotionLimits> type(module, "ArmLimits", py::module_local(),
-                                "The limits of an arm's motions.");
+                                "The limits of an arm's motions.\n\n>>> "
+                                "pyfranka.ArmLimits(robot.server_version).tau.tolist()\n[87.0, "
+                                "87.0, 87.0, 87.0, 12.0, 12.0, 12.0]");
   type.def(py::init(&limitsOf), py::arg("version"),
            "Of robots with this protocol version, Robot.server_version: 3 to 5 a Panda, then an "
            "FR3, 10 one with system 5.9 or later. Raises ValueError for another version.");
@@ -85,7 +87,8 @@ void bindLimits(py::module_& module) {
           "The same of its rotation [rad/s and so on].")
       .def("velocity_range", &velocityRanges, py::arg("q"),
            "Lowest and highest joint velocities [rad/s] at joint positions, 7 or rows of 7 [rad]: "
-           "those of an FR3 shrink towards the ends of its joints.");
+           "those of an FR3 shrink towards the ends of its joints.\n\n>>> lowest, highest = "
+           "pyfranka.ArmLimits(10).velocity_range(fr3.read_once().q)\n>>> lowest.shape\n(7,)");
 }
 
 }  // namespace pyfranka

@@ -42,7 +42,9 @@ void bindKinematics(py::class_<Model>& type) {
       [](const Model& self, Frame frame, const State& state) {
         return copy(self.pose(frame, state), Shape::kMatrix4);
       },
-      py::arg("frame"), py::arg("state"), "Pose of a frame in O, 4x4.");
+      py::arg("frame"), py::arg("state"),
+      "Pose of a frame in O, 4x4.\n\n>>> model.pose(pyfranka.Frame.EndEffector, state).shape\n(4, "
+      "4)");
   type.def(
       "pose",
       [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
@@ -57,7 +59,9 @@ void bindKinematics(py::class_<Model>& type) {
       [](const Model& self, Frame frame, const State& state) {
         return copy(self.zeroJacobian(frame, state), Shape::kJacobian);
       },
-      py::arg("frame"), py::arg("state"), "Jacobian of a frame in O, 6x7, linear rows first.");
+      py::arg("frame"), py::arg("state"),
+      "Jacobian of a frame in O, 6x7, linear rows first.\n\n>>> "
+      "model.zero_jacobian(pyfranka.Frame.EndEffector, state).shape\n(6, 7)");
   defNamed(
       type, "zero_jacobian", kOfState,
       [](const Model& self, const State& state) {
@@ -78,7 +82,9 @@ void bindKinematics(py::class_<Model>& type) {
       [](const Model& self, Frame frame, const State& state) {
         return copy(self.bodyJacobian(frame, state), Shape::kJacobian);
       },
-      py::arg("frame"), py::arg("state"), "Jacobian of a frame in its own axes, 6x7.");
+      py::arg("frame"), py::arg("state"),
+      "Jacobian of a frame in its own axes, 6x7.\n\n>>> "
+      "model.body_jacobian(pyfranka.Frame.EndEffector, state).shape\n(6, 7)");
   type.def(
       "body_jacobian",
       [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
@@ -95,7 +101,7 @@ void bindDynamics(py::class_<Model>& type) {
   defNamed(
       type, "mass", kOfState,
       [](const Model& self, const State& state) { return copy(self.mass(state), Shape::kMass); },
-      py::arg("state"), "Mass matrix, 7x7 [kg m^2].");
+      py::arg("state"), "Mass matrix, 7x7 [kg m^2].\n\n>>> model.mass(state).shape\n(7, 7)");
   type.def(
       "mass",
       [](const Model& self, const py::object& q, const py::object& I_total, double m_total,
@@ -110,7 +116,8 @@ void bindDynamics(py::class_<Model>& type) {
       [](const Model& self, const State& state) {
         return copy(self.coriolis(state), Shape::kVector);
       },
-      py::arg("state"), "Coriolis torques C(q, dq) dq, 7 [Nm].");
+      py::arg("state"),
+      "Coriolis torques C(q, dq) dq, 7 [Nm].\n\n>>> model.coriolis(state).shape\n(7,)");
   type.def(
       "coriolis",
       [](const Model& self, const py::object& q, const py::object& dq, const py::object& I_total,
@@ -128,7 +135,7 @@ void bindDynamics(py::class_<Model>& type) {
       [](const Model& self, const State& state) {
         return copy(self.gravity(state), Shape::kVector);
       },
-      py::arg("state"), "Gravity torques, 7 [Nm].");
+      py::arg("state"), "Gravity torques, 7 [Nm].\n\n>>> model.gravity(state).shape\n(7,)");
   defNamed(
       type, "gravity", kOfState,
       [](const Model& self, const State& state, const py::object& gravity_earth) {
@@ -165,8 +172,10 @@ std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const py::object& description
 }
 
 void bindModelKdl(py::module_& module) {
-  py::class_<franka_hw::ModelKDL> kdl(module, "ModelKDL", py::module_local(),
-                                      "The arm's model on KDL, from a URDF; no robot needed.");
+  py::class_<franka_hw::ModelKDL> kdl(
+      module, "ModelKDL", py::module_local(),
+      "The arm's model on KDL, from a URDF; no robot needed.\n\n>>> kdl = pyfranka.ModelKDL(urdf, "
+      "\"panda_link0\", \"panda_link8\")\n>>> kdl.gravity(pyfranka.RobotState()).shape\n(7,)");
   kdl.def(py::init(&modelFromUrdf), py::arg("urdf"), py::arg("root"), py::arg("tip"),
           "Chain from link `root` to link `tip` of a URDF text. Raises ValueError for a text that "
           "is not a URDF, RuntimeError for a chain that is not an arm.");
@@ -188,7 +197,9 @@ struct ModelKDL {
 
 void bindModelKdl(py::module_& module) {
   py::class_<ModelKDL>(module, "ModelKDL", py::module_local(),
-                       "The arm's model on KDL: only in builds with ROS; raises RuntimeError.")
+                       "The arm's model on KDL: only in builds with ROS; raises "
+                       "RuntimeError.\n\n>>> kdl = pyfranka.ModelKDL(urdf, \"panda_link0\", "
+                       "\"panda_link8\")\nTraceback (most recent call last):\nRuntimeError: ...")
       .def(py::init<const py::args&, const py::kwargs&>(), "Raises RuntimeError.");
 }
 
@@ -210,8 +221,11 @@ void bindModel(py::module_& module) {
                    .value("EndEffector", Frame::kEndEffector)
                    .value("Stiffness", Frame::kStiffness));
 
-  py::class_<franka::Model> model(module, "Model", py::module_local(),
-                                  "The model that the robot provides.");
+  py::class_<franka::Model> model(
+      module, "Model", py::module_local(),
+      "The model that the robot provides.\n\n>>> model, state = robot.load_model(), "
+      "robot.read_once()\n>>> numpy.allclose(model.pose(pyfranka.Frame.EndEffector, state), "
+      "state.O_T_EE, atol=1e-3)\nTrue");
   bindKinematics<RobotState>(model);
   bindDynamics<RobotState>(model);
 
@@ -219,8 +233,10 @@ void bindModel(py::module_& module) {
 }
 
 void bindSimModel(py::module_& module) {
-  py::class_<SimModel> model(module, "ArmModel", py::module_local(),
-                             "The model of a simulated robot's own control.");
+  py::class_<SimModel> model(
+      module, "ArmModel", py::module_local(),
+      "The model of a simulated robot's own control.\n\n>>> arm = sim[\"panda\"]\n>>> "
+      "arm.command(torque=arm.model.coriolis(arm.state))");
   model.def("__repr__", [](const SimModel&) {
     return "<ArmModel of a simulated robot: pose, Jacobians, mass, coriolis, gravity>";
   });

@@ -30,10 +30,12 @@ Command cartesian(const py::object& values, const py::object& elbow, const char*
 }
 
 /// @param other_name what panda-python calls the constructor's argument
+/// @param example in Python
 template <typename Command, typename Member>
 void bindCommand(py::module_& module, const char* name, const char* field, const char* other_name,
-                 Member member, Shape shape, const char* doc) {
-  auto type = py::class_<Command>(module, name, py::module_local(), doc);
+                 Member member, Shape shape, const char* doc, const char* example) {
+  const std::string with_example = std::string(doc) + "\n\n" + example;
+  auto type = py::class_<Command>(module, name, py::module_local(), with_example.c_str());
   constexpr std::size_t kSize =
       std::tuple_size<std::remove_reference_t<decltype(std::declval<Command>().*member)>>::value;
   type.def_property(
@@ -113,20 +115,26 @@ void bindTools(py::module_& module) {
       },
       py::arg("max_derivatives"), py::arg("commanded_values"), py::arg("last_commanded_values"),
       "The 7 commanded values, at most as far from the last ones as max_derivatives allow in a "
-      "millisecond: torques with MAX_TORQUE_RATE [Nm/s]. Raises ValueError if one is not finite.");
+      "millisecond: torques with MAX_TORQUE_RATE [Nm/s]. Raises ValueError if one is not "
+      "finite.\n\n>>> pyfranka.limit_rate(pyfranka.MAX_TORQUE_RATE, [5.0] * 7, [0.0] * "
+      "7).round(3).tolist()\n[1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]");
   module.def(
       "is_valid_elbow",
       [](const py::object& elbow) { return franka::isValidElbow(arrayOf<2>(elbow, "elbow")); },
-      py::arg("elbow"), "Whether the sign of joint 4, the second number, is exactly +1 or -1.");
+      py::arg("elbow"),
+      "Whether the sign of joint 4, the second number, is exactly +1 or -1.\n\n>>> "
+      "pyfranka.is_valid_elbow([0.3, -1.0])\nTrue");
   module.def(
       "is_homogeneous_transformation",
       [](const py::object& transform) {
         return franka::isHomogeneousTransformation(arrayOf<16>(transform, "transform"));
       },
       py::arg("transform"),
-      "Whether a 4x4 matrix is one: last row (0, 0, 0, 1); rows, columns of length 1 within 1e-5.");
+      "Whether a 4x4 matrix is one: last row (0, 0, 0, 1); rows, columns of length 1 within "
+      "1e-5.\n\n>>> pyfranka.is_homogeneous_transformation(numpy.eye(4))\nTrue");
   module.def("has_realtime_kernel", &franka::hasRealtimeKernel,
-             "Whether the kernel is one for real time (PREEMPT_RT).");
+             "Whether the kernel is one for real time (PREEMPT_RT).\n\n>>> if not "
+             "pyfranka.has_realtime_kernel():\n...     config = pyfranka.RealtimeConfig.Ignore");
   module.def(
       "set_current_thread_to_highest_scheduler_priority",
       [](const std::string& /* error_message */) {
@@ -146,19 +154,26 @@ void bindMotion(py::module_& module) {
                    .value("JointImpedance", ControllerMode::kJointImpedance)
                    .value("CartesianImpedance", ControllerMode::kCartesianImpedance));
   bindCommand<Torques>(module, "Torques", "tau_J", "torques", &Torques::tau_J, Shape::kVector,
-                       "Torques without gravity, 7 [Nm].");
+                       "Torques without gravity, 7 [Nm].",
+                       ">>> pyfranka.Torques([0.0] * 7).tau_J.shape\n(7,)");
   bindCommand<JointPositions>(module, "JointPositions", "q", "joint_positions", &JointPositions::q,
-                              Shape::kVector, "Joint positions, 7 [rad].");
+                              Shape::kVector, "Joint positions, 7 [rad].",
+                              ">>> pyfranka.JointPositions(robot.read_once().q_d).q.shape\n(7,)");
   bindCommand<JointVelocities>(module, "JointVelocities", "dq", "joint_velocities",
-                               &JointVelocities::dq, Shape::kVector,
-                               "Joint velocities, 7 [rad/s].");
+                               &JointVelocities::dq, Shape::kVector, "Joint velocities, 7 [rad/s].",
+                               ">>> pyfranka.JointVelocities([0.1] * 7)\n"
+                               "JointVelocities([0.1, 0.1, 0.1, 0.1, 0.1, 0.1, 0.1])");
   bindCommand<CartesianPose>(module, "CartesianPose", "O_T_EE", "cartesian_pose",
                              &CartesianPose::O_T_EE, Shape::kMatrix4,
                              "Pose of EE in O: 4x4, or 16 numbers column by column; with an elbow "
-                             "(joint 3 [rad], sign of joint 4) if given.");
+                             "(joint 3 [rad], sign of joint 4) if given.",
+                             ">>> pyfranka.CartesianPose(numpy.eye(4), elbow=[0.0, -1.0])"
+                             ".O_T_EE.shape\n(4, 4)");
   bindCommand<CartesianVelocities>(module, "CartesianVelocities", "O_dP_EE", "cartesian_velocities",
                                    &CartesianVelocities::O_dP_EE, Shape::kVector,
-                                   "Twist of EE in O, 6 [m/s, rad/s]; with an elbow if given.");
+                                   "Twist of EE in O, 6 [m/s, rad/s]; with an elbow if given.",
+                                   ">>> pyfranka.CartesianVelocities([0.0] * 6).O_dP_EE.shape\n"
+                                   "(6,)");
 
   module.def(
       "motion_finished",
@@ -171,12 +186,17 @@ void bindMotion(py::module_& module) {
         copied.attr("motion_finished") = true;
         return copied;
       },
-      py::arg("command"), "The same command, marked as the last one of its motion.");
+      py::arg("command"),
+      "The same command, marked as the last one of its motion.\n\n>>> "
+      "pyfranka.motion_finished(pyfranka.Torques([0.0] * 7))\nTorques([0, 0, 0, 0, 0, 0, 0]), the "
+      "last one of its motion");
 
   py::class_<Motion> motion(
       module, "ActiveControl", py::module_local(),
       "A motion that the program drives itself: read_once, then write_once, once a millisecond. "
-      "It ends when it is closed, leaves its `with` block or is collected.");
+      "It ends when it is closed, leaves its `with` block or is collected.\n\n>>> with "
+      "robot.start_joint_position_control() as motion:\n...     state, period = "
+      "motion.read_once()\n...     motion.write_once(pyfranka.JointPositions(state.q_d))");
   motion
       .def(
           "read_once",
@@ -190,9 +210,11 @@ void bindMotion(py::module_& module) {
           },
           "Waits for the next state. Returns it and the time since the one before, a Duration "
           "[s].\n\n"
-          "Raises ControlException when the motion was aborted.")
+          "Raises ControlException when the motion was aborted.\n\n>>> with "
+          "robot.start_torque_control() as motion:\n...     state, period = motion.read_once()")
       .def("close", &Motion::close, py::call_guard<py::gil_scoped_release>(),
-           "Ends the motion; the robot brakes if it still moves. Never raises.")
+           "Ends the motion; the robot brakes if it still moves. Never raises.\n\n>>> motion = "
+           "robot.start_torque_control()\n>>> motion.close()")
       .def(
           "__enter__", [](const py::object& self) { return self; }, "The motion itself.")
       .def(
@@ -205,7 +227,9 @@ void bindMotion(py::module_& module) {
   motion.def(
       "write_once", [](Motion& self, const Torques& torques) { self.get().writeOnce(torques); },
       py::call_guard<py::gil_scoped_release>(), py::arg("command"),
-      "Answers the last state. Raises ControlException after an abort.");
+      "Answers the last state. Raises ControlException after an abort.\n\n>>> with "
+      "robot.start_torque_control() as motion:\n...     state, period = motion.read_once()\n...    "
+      " motion.write_once(pyfranka.Torques([0.0] * 7))");
   bindWrite<JointPositions>(motion);
   bindWrite<JointVelocities>(motion);
   bindWrite<CartesianPose>(motion);

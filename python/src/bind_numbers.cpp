@@ -96,7 +96,8 @@ py::object version(std::uint16_t number) {
 
 void bindNumbers(py::module_& module) {
   duration_type = derive(module, "Duration", PyFloat_Type,
-                         "A time of the robot: a float [s], always whole milliseconds.");
+                         "A time of the robot: a float [s], always whole milliseconds.\n\n>>> "
+                         "pyfranka.Duration(1500) + 0.5\n2.0");
   const py::object duration = py::reinterpret_borrow<py::object>(duration_type);
   duration.attr("__new__") = py::staticmethod(py::cpp_function(
       &newDuration, py::name("__new__"), py::scope(duration), py::arg("type"),
@@ -104,8 +105,9 @@ void bindNumbers(py::module_& module) {
       "Of whole milliseconds or of a datetime.timedelta. Raises ValueError if it is negative."));
   addMethod(
       duration_type, "to_sec", [](const py::object& self) { return PyFloat_AS_DOUBLE(self.ptr()); },
-      "The time [s].");
-  addMethod(duration_type, "to_msec", &toMilliseconds, "The time [ms], an int.");
+      "The time [s].\n\n>>> pyfranka.Duration(1500).to_sec()\n1.5");
+  addMethod(duration_type, "to_msec", &toMilliseconds,
+            "The time [ms], an int.\n\n>>> pyfranka.Duration(1500).to_msec()\n1500");
   addMethod(
       duration_type, "__getnewargs__",
       [](const py::object& self) { return py::make_tuple(toMilliseconds(self)); },

@@ -68,9 +68,22 @@ void runMotionWithTorques(Robot& robot, const py::function& torque_callback,
 }
 
 /// @param other_name what panda-python calls the kind of motion, which has other arguments there
+/// @param command in Python, for examples: a command that holds the arm where it is
 template <typename Command>
 void bindGenerator(py::class_<Robot>& robot, const std::string& name, const std::string& other_name,
-                   const char* doc) {
+                   const std::string& type, const std::string& command) {
+  const std::string motion =
+      ">>> hold = lambda state, period: pyfranka.motion_finished(" + command + ")\n";
+  const std::string doc = "callback(state, period) -> " + type +
+                          " once a millisecond, until it returns motion_finished(" + type +
+                          "). With a torque_callback its torques take the place of the robot's "
+                          "controller; cutoff_frequency [Hz].\n\nRaises ControlException when the "
+                          "motion is aborted.\n\n" +
+                          motion + ">>> robot.control_" + name + "(hold)";
+  const std::string with_torques =
+      "The same with torques of the first callback in place of the robot's controller.\n\n" +
+      motion + ">>> torques = lambda state, period: pyfranka.Torques([0.0] * 7)\n" +
+      ">>> robot.control_torque_" + other_name + "(torques, hold)";
   const auto limit_rate = py::arg("limit_rate") = true;
   const auto cutoff_frequency = py::arg("cutoff_frequency") = kDefaultCutoffFrequency;
   const auto controller_mode = py::arg("controller_mode") = ControllerMode::kJointImpedance;
@@ -86,15 +99,14 @@ void bindGenerator(py::class_<Robot>& robot, const std::string& name, const std:
         }
       },
       py::arg("callback"), py::arg("torque_callback") = py::none(), controller_mode, limit_rate,
-      cutoff_frequency, doc);
+      cutoff_frequency, doc.c_str());
   robot.def(("control_" + name).c_str(), &runMotion<Command>, py::arg("motion_generator_callback"),
             controller_mode, limit_rate, cutoff_frequency,
             "The same with the arguments of panda-python.");
   robot.attr(("control_" + other_name).c_str()) = robot.attr(("control_" + name).c_str());
   robot.def(("control_torque_" + other_name).c_str(), &runMotionWithTorques<Command>,
             py::arg("control_callback"), py::arg("motion_generator_callback"), limit_rate,
-            cutoff_frequency,
-            "The same with torques of the first callback in place of the robot's controller.");
+            cutoff_frequency, with_torques.c_str());
 }
 
 MoveMode moveMode(ControllerMode mode) {
@@ -103,11 +115,15 @@ MoveMode moveMode(ControllerMode mode) {
 }
 
 template <std::unique_ptr<ActiveControlBase> (Robot::*start)(const MoveMode&)>
-void bindStart(py::class_<Robot>& robot, const char* name) {
+void bindStart(py::class_<Robot>& robot, const char* name, const std::string& command) {
+  const std::string doc = std::string("Starts a motion; returns an ActiveControl.\n\n") +
+                          ">>> with robot." + name + "() as motion:\n" +
+                          "...     state, period = motion.read_once()\n" +
+                          "...     motion.write_once(" + command + ")";
   robot.def(
       name, [](Robot& self, ControllerMode mode) { return Motion((self.*start)(moveMode(mode))); },
       py::arg("controller_mode") = ControllerMode::kJointImpedance,
-      py::call_guard<py::gil_scoped_release>(), "Starts a motion; returns an ActiveControl.");
+      py::call_guard<py::gil_scoped_release>(), doc.c_str());
 }
 
 void bindControl(py::class_<Robot>& robot) {
@@ -121,25 +137,34 @@ void bindControl(py::class_<Robot>& robot) {
       py::arg("callback"), py::arg("limit_rate") = true,
       py::arg("cutoff_frequency") = kDefaultCutoffFrequency,
       "Controls the torques: callback(state, period) -> Torques once a millisecond, until it "
-      "returns motion_finished(Torques).\n\nRaises ControlException when the motion is aborted.");
-  bindGenerator<JointPositions>(robot, "joint_positions", "joint_position",
-                                "callback(state, period) -> JointPositions once a millisecond.");
-  bindGenerator<JointVelocities>(robot, "joint_velocities", "joint_velocity",
-                                 "callback(state, period) -> JointVelocities once a millisecond.");
-  bindGenerator<CartesianPose>(robot, "cartesian_pose", "cartesian_pose",
-                               "callback(state, period) -> CartesianPose once a millisecond.");
-  bindGenerator<CartesianVelocities>(
-      robot, "cartesian_velocities", "cartesian_velocity",
-      "callback(state, period) -> CartesianVelocities once a millisecond.");
+      "returns motion_finished(Torques).\n\nRaises ControlException when the motion is "
+      "aborted.\n\n>>> finished = pyfranka.motion_finished(pyfranka.Torques([0.0] * 7))\n>>> "
+      "robot.control_torques(lambda state, period: finished)");
+  bindGenerator<JointPositions>(robot, "joint_positions", "joint_position", "JointPositions",
+                                "pyfranka.JointPositions(state.q_d)");
+  bindGenerator<JointVelocities>(robot, "joint_velocities", "joint_velocity", "JointVelocities",
+                                 "pyfranka.JointVelocities([0.0] * 7)");
+  bindGenerator<CartesianPose>(robot, "cartesian_pose", "cartesian_pose", "CartesianPose",
+                               "pyfranka.CartesianPose(state.O_T_EE_c)");
+  bindGenerator<CartesianVelocities>(robot, "cartesian_velocities", "cartesian_velocity",
+                                     "CartesianVelocities",
+                                     "pyfranka.CartesianVelocities([0.0] * 6)");
   alias(robot, {{"control_torques", "control"}});
 
   robot.def(
       "start_torque_control", [](Robot& self) { return Motion(self.startTorqueControl()); },
-      py::call_guard<py::gil_scoped_release>(), "Starts torque control; returns an ActiveControl.");
-  bindStart<&Robot::startJointPositionControl>(robot, "start_joint_position_control");
-  bindStart<&Robot::startJointVelocityControl>(robot, "start_joint_velocity_control");
-  bindStart<&Robot::startCartesianPoseControl>(robot, "start_cartesian_pose_control");
-  bindStart<&Robot::startCartesianVelocityControl>(robot, "start_cartesian_velocity_control");
+      py::call_guard<py::gil_scoped_release>(),
+      "Starts torque control; returns an ActiveControl.\n\n>>> with robot.start_torque_control() "
+      "as motion:\n...     state, period = motion.read_once()\n...     "
+      "motion.write_once(pyfranka.Torques([0.0] * 7))");
+  bindStart<&Robot::startJointPositionControl>(robot, "start_joint_position_control",
+                                               "pyfranka.JointPositions(state.q_d)");
+  bindStart<&Robot::startJointVelocityControl>(robot, "start_joint_velocity_control",
+                                               "pyfranka.JointVelocities([0.0] * 7)");
+  bindStart<&Robot::startCartesianPoseControl>(robot, "start_cartesian_pose_control",
+                                               "pyfranka.CartesianPose(state.O_T_EE_c)");
+  bindStart<&Robot::startCartesianVelocityControl>(robot, "start_cartesian_velocity_control",
+                                                   "pyfranka.CartesianVelocities([0.0] * 6)");
   robot.def(
       "start_async_joint_position_control",
       [](Robot& self, const std::vector<double>& maximum_velocities, ControllerMode mode) {
@@ -149,7 +174,9 @@ void bindControl(py::class_<Robot>& robot) {
       py::call_guard<py::gil_scoped_release>(),
       "Starts a motion whose way to each commanded position the robot plans itself (FR3, protocol "
       "10), no joint faster than allowed, 7 [rad/s]; returns an ActiveControl. Commands need not "
-      "come every millisecond.\n\nRaises CommandException where the robot has no such motion.");
+      "come every millisecond.\n\nRaises CommandException where the robot has no such "
+      "motion.\n\n>>> motion = fr3.start_async_joint_position_control([1.0] * 7)\n>>> "
+      "motion.close()");
 }
 
 /// The thresholds of contact and collision; in pylibfranka and panda-python "threshold" is a part
@@ -182,7 +209,8 @@ void bindSetters(py::class_<Robot>& robot) {
       },
       py::arg("lower_torque"), py::arg("upper_torque"), py::arg("lower_force"),
       py::arg("upper_force"),
-      "Thresholds of contact (lower) and collision (upper): 7 [Nm] and 6 [N, Nm].");
+      "Thresholds of contact (lower) and collision (upper): 7 [Nm] and 6 [N, Nm].\n\n>>> "
+      "robot.set_collision_behavior([20.0] * 7, [40.0] * 7, [20.0] * 6, [40.0] * 6)");
   defNamed(
       robot, "set_collision_behavior", {kThresholds},
       [](Robot& self, const py::object& lower_torque_acceleration,
@@ -214,7 +242,9 @@ void bindSetters(py::class_<Robot>& robot) {
             const release free;
             self.setJointImpedance(stiffness);
           },
-          py::arg("K_theta"), "Stiffness of the robot's joint controller, 7 [Nm/rad].")
+          py::arg("K_theta"),
+          "Stiffness of the robot's joint controller, 7 [Nm/rad].\n\n>>> "
+          "robot.set_joint_impedance([3000.0] * 4 + [2500.0, 2000.0, 2000.0])")
       .def(
           "set_cartesian_impedance",
           [](Robot& self, const py::object& K_x) {
@@ -222,7 +252,9 @@ void bindSetters(py::class_<Robot>& robot) {
             const release free;
             self.setCartesianImpedance(stiffness);
           },
-          py::arg("K_x"), "Stiffness of the robot's Cartesian controller, 6 [N/m, Nm/rad].")
+          py::arg("K_x"),
+          "Stiffness of the robot's Cartesian controller, 6 [N/m, Nm/rad].\n\n>>> "
+          "robot.set_cartesian_impedance([3000.0] * 3 + [300.0] * 3)")
       .def(
           "set_guiding_mode",
           [](Robot& self, const py::object& guiding_mode, const py::object& elbow) {
@@ -232,7 +264,8 @@ void bindSetters(py::class_<Robot>& robot) {
             self.setGuidingMode(axes, free_elbow);
           },
           py::arg("guiding_mode"), py::arg("elbow"),
-          "Which directions (6) and whether the elbow can be guided by hand.")
+          "Which directions (6) and whether the elbow can be guided by hand.\n\n>>> "
+          "robot.set_guiding_mode([True, True, True, False, False, False], False)")
       .def(
           "set_K",
           [](Robot& self, const py::object& EE_T_K) {
@@ -240,7 +273,8 @@ void bindSetters(py::class_<Robot>& robot) {
             const release free;
             self.setK(pose);
           },
-          py::arg("EE_T_K"), "Pose of the stiffness frame in EE, 4x4.")
+          py::arg("EE_T_K"),
+          "Pose of the stiffness frame in EE, 4x4.\n\n>>> robot.set_K(numpy.eye(4))")
       .def(
           "set_EE",
           [](Robot& self, const py::object& NE_T_EE) {
@@ -248,7 +282,8 @@ void bindSetters(py::class_<Robot>& robot) {
             const release free;
             self.setEE(pose);
           },
-          py::arg("NE_T_EE"), "Pose of the end effector in NE, 4x4.");
+          py::arg("NE_T_EE"),
+          "Pose of the end effector in NE, 4x4.\n\n>>> robot.set_EE(numpy.eye(4))");
   defNamed(
       robot, "set_load", {{{"mass", "load_mass"}}},
       [](Robot& self, const py::object& load_mass, const py::object& F_x_Cload,
@@ -260,13 +295,14 @@ void bindSetters(py::class_<Robot>& robot) {
         self.setLoad(mass, com, load_inertia);
       },
       py::arg("mass"), py::arg("F_x_Cload"), py::arg("load_inertia"),
-      "Mass [kg], center of mass in F, 3 [m], and inertia, 3x3 [kg m^2], of the load.");
+      "Mass [kg], center of mass in F, 3 [m], and inertia, 3x3 [kg m^2], of the load.\n\n>>> "
+      "robot.set_load(0.5, [0.0, 0.0, 0.05], 0.001 * numpy.eye(3))");
   robot.def("set_filters", &Robot::setFilters, py::call_guard<release>(),
             py::arg("joint_position_filter_frequency"), py::arg("joint_velocity_filter_frequency"),
             py::arg("cartesian_position_filter_frequency"),
             py::arg("cartesian_velocity_filter_frequency"), py::arg("controller_filter_frequency"),
             "The robot's own filters of commands, each 1 to 1000 [Hz], where 1000 means none "
-            "(Panda only).");
+            "(Panda only).\n\n>>> robot.set_filters(100.0, 100.0, 100.0, 100.0, 100.0)");
   alias(robot, {{"set_EE", "set_ee"}, {"set_K", "set_k"}});
 }
 
@@ -289,12 +325,15 @@ void bindControlOptions(py::module_& module, py::class_<Robot>& robot) {
       py::arg("callback_order") = CallbackOrder::kMotionFirst,
       py::arg("first_cycle_reference") = FirstCycleReference::kRobotState,
       "Chooses the behavior of another version of libfranka for the motions started from now "
-      "on; without arguments that of 0.9.");
+      "on; without arguments that of 0.9.\n\n>>> "
+      "robot.set_control_options(pyfranka.CallbackOrder.ControlFirst)\n>>> "
+      "robot.set_control_options()");
 }
 
 void bindReading(py::module_& module, py::class_<Robot>& robot) {
   py::class_<VirtualWallCuboid>(module, "VirtualWallCuboid", py::module_local(),
-                                "A box that the end effector must not leave.")
+                                "A box that the end effector must not leave.\n\n>>> "
+                                "robot.get_virtual_wall(0).p_frame.shape\n(4, 4)")
       .def_readonly("id", &VirtualWallCuboid::id, "Number of the wall.")
       .def_property_readonly(
           "object_world_size",
@@ -312,19 +351,25 @@ void bindReading(py::module_& module, py::class_<Robot>& robot) {
       .def_readonly("active", &VirtualWallCuboid::active, "Whether the robot enforces it.");
   robot
       .def("get_virtual_wall", &Robot::getVirtualWall, py::call_guard<py::gil_scoped_release>(),
-           py::arg("id"), "A virtual wall by its number (Panda only).")
+           py::arg("id"),
+           "A virtual wall by its number (Panda only).\n\n>>> "
+           "robot.get_virtual_wall(0).active\nFalse")
       .def(
           "get_upper_joint_velocity_limits",
           [](const Robot& self, const py::object& q) {
             return copy(self.getUpperJointVelocityLimits(arrayOf<7>(q, "q")), Shape::kVector);
           },
-          py::arg("q"), "Highest velocities that the rate limiter allows at q [rad], 7 [rad/s].")
+          py::arg("q"),
+          "Highest velocities that the rate limiter allows at q [rad], 7 [rad/s].\n\n>>> "
+          "robot.get_upper_joint_velocity_limits(robot.read_once().q).shape\n(7,)")
       .def(
           "get_lower_joint_velocity_limits",
           [](const Robot& self, const py::object& q) {
             return copy(self.getLowerJointVelocityLimits(arrayOf<7>(q, "q")), Shape::kVector);
           },
-          py::arg("q"), "Lowest velocities, likewise.");
+          py::arg("q"),
+          "Lowest velocities, likewise.\n\n>>> "
+          "robot.get_lower_joint_velocity_limits(robot.read_once().q).shape\n(7,)");
 }
 
 }  // namespace
@@ -339,7 +384,9 @@ void bindRobot(py::module_& module) {
 
   py::class_<Robot> robot(module, "Robot", py::module_local(),
                           "A connection to a robot. Waiting calls let other Python threads run; "
-                          "one operation at a time, but stop() from any thread.");
+                          "one operation at a time, but stop() from any thread.\n\n>>> robot = "
+                          "pyfranka.Robot(\"172.16.0.2\", pyfranka.RealtimeConfig.Ignore)\n>>> "
+                          "robot.read_once().q.shape\n(7,)");
   withNames(
       {{{"address", "franka_address"}}, {{"address", "robot_ip_address"}}},
       [&](const auto&... extra) {
@@ -370,7 +417,8 @@ void bindRobot(py::module_& module) {
                     std::to_string(self.serverVersion()) + ">";
            })
       .def("read_once", &Robot::readOnce, py::call_guard<release>(),
-           "Waits for the next RobotState.")
+           "Waits for the next RobotState.\n\n>>> robot.read_once().robot_mode == "
+           "pyfranka.RobotMode.Idle\nTrue")
       .def(
           "read",
           [](Robot& self, py::function function) {
@@ -380,13 +428,20 @@ void bindRobot(py::module_& module) {
               return py::bool_(function(state)).cast<bool>();
             });
           },
-          py::arg("callback"), "Calls callback(state) with every state until it returns False.")
+          py::arg("callback"),
+          "Calls callback(state) with every state until it returns False.\n\n>>> times = []\n>>> "
+          "robot.read(lambda state: times.append(state.time) or len(times) < 3)")
       .def("automatic_error_recovery", &Robot::automaticErrorRecovery, py::call_guard<release>(),
-           "Recovers from a reflex. Raises CommandException when the user has to act.")
-      .def("stop", &Robot::stop, py::call_guard<release>(), "Ends the motion under way.")
-      .def("load_model", &Robot::loadModel, py::call_guard<release>(), "The robot's Model.")
+           "Recovers from a reflex. Raises CommandException when the user has to act.\n\n>>> if "
+           "robot.read_once().robot_mode == pyfranka.RobotMode.Reflex:\n...     "
+           "robot.automatic_error_recovery()")
+      .def("stop", &Robot::stop, py::call_guard<release>(),
+           "Ends the motion under way.\n\n>>> robot.stop()")
+      .def("load_model", &Robot::loadModel, py::call_guard<release>(),
+           "The robot's Model.\n\n>>> robot.load_model().mass(robot.read_once()).shape\n(7, 7)")
       .def("get_robot_model", &Robot::getRobotModel, py::call_guard<release>(),
-           "The robot's URDF (FR3 from system 5.7 on).");
+           "The robot's URDF (FR3 from system 5.7 on).\n\n>>> \"<robot\" in "
+           "fr3.get_robot_model()\nTrue");
   bindReading(module, robot);
   bindSetters(robot);
   bindControlOptions(module, robot);

@@ -92,7 +92,17 @@ void bindSimulation(py::module_& module) {
       "The robot or its hand cannot do what was requested: its mode does not allow it, or no such "
       "value exists for it.";
   py::class_<Snapshot>(module, "Snapshot", py::module_local(),
-                       "The state of a world and its robots at a tick.")
+                       "The state of a world and its robots at a tick.\n\n"
+                       ">>> snapshot = sim.snapshot()\n>>> sim.restore(snapshot)")
+      .def(
+          "__reduce__",
+          [](const Snapshot&) -> py::object {
+            throw py::type_error(
+                "A Snapshot cannot be pickled: restore it in the process that has taken it. "
+                "Elsewhere make a Simulation with the same world, robots and seed, and repeat what "
+                "has been commanded.");
+          },
+          "Raises TypeError.")
       .def("__repr__", [](const Snapshot& self) {
         return "<Snapshot at " + franka_core::numberText(1e-3 * double(self.ticks), 9) + " s>";
       });

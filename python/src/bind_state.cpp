@@ -62,8 +62,9 @@ std::string flagOf(const std::string& error) {
 }
 
 void bindErrors(py::module_& module) {
-  py::class_<franka::Errors> errors(module, "Errors", py::module_local(),
-                                    "Errors of the robot; true if there is one.");
+  py::class_<franka::Errors> errors(
+      module, "Errors", py::module_local(),
+      "Errors of the robot; true if there is one.\n\n>>> bool(pyfranka.Errors())\nFalse");
   errors.def(py::init<>(), "No error.")
       .def("__bool__", [](const franka::Errors& self) { return static_cast<bool>(self); })
       .def("__str__", [](const franka::Errors& self) { return static_cast<std::string>(self); })
@@ -182,7 +183,8 @@ void bindState(py::module_& module) {
       module, "RobotState", py::module_local(),
       "State of a robot. Arrays are numpy views of it that cannot be written, but attributes can "
       "be "
-      "assigned, which earlier views show, too; matrices have two dimensions.");
+      "assigned, which earlier views show, too; matrices have two dimensions.\n\n>>> state = "
+      "pyfranka.RobotState()\n>>> state.q.shape, state.O_T_EE.shape\n((7,), (4, 4))");
   state.def(py::init<>(), "All zero, poses the identity; for models without a robot.")
       .def(py::init<const RobotState&>(), py::arg("state"), "A copy.");
   bindFrames(state);
@@ -215,8 +217,10 @@ void bindState(py::module_& module) {
         return kept;
       }));
 
-  py::class_<franka::Record>(module, "Record", py::module_local(),
-                             "A state, and the command sent just before it.")
+  py::class_<franka::Record>(
+      module, "Record", py::module_local(),
+      "A state, and the command sent just before it.\n\n>>> [float(record.tau_J_d[0]) for record "
+      "in error.log[-2:]]  # of a ControlException\n[0.0, 0.0]")
       .def_readonly("state", &franka::Record::state, "The state received.")
       .def_property_readonly(
           "q_c",
@@ -249,7 +253,8 @@ void bindState(py::module_& module) {
           },
           "Torques, 7 [Nm].");
   module.def("log_to_csv", &franka::logToCSV, py::arg("log"),
-             "The records of a ControlException as comma separated values.");
+             "The records of a ControlException as comma separated values.\n\n>>> "
+             "len(pyfranka.log_to_csv(error.log).splitlines()) > len(error.log)\nTrue");
 }
 
 void bindSimState(py::module_& module) {
@@ -257,7 +262,8 @@ void bindSimState(py::module_& module) {
   py::class_<State> state(module, "LiveState", py::module_local(),
                           "Present state of a simulated robot, with the attributes of RobotState. "
                           "Its arrays are numpy views that cannot be written and show each new "
-                          "tick; copy what is to stay.");
+                          "tick; copy what is to stay.\n\n>>> state = sim[\"panda\"].state\n>>> "
+                          "(state.q == state.copy().q).all()\nTrue");
   bindFrames(state);
   bindLoads(state);
   bindJoints(state);
@@ -285,7 +291,8 @@ void bindSimState(py::module_& module) {
             franka_core::toFranka(self, copied);
             return copied;
           },
-          "A RobotState that stays as it is.")
+          "A RobotState that stays as it is.\n\n>>> type(sim[\"panda\"].state.copy())\n<class "
+          "'pyfranka.RobotState'>")
       .def(
           "__reduce__",
           [](const py::object& self) {

@@ -12,6 +12,7 @@
 
 namespace pyfranka {
 
+void bindCalls(py::module_& module);
 class Shared;
 
 void bindExceptions(py::module_& module);

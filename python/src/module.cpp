@@ -4,6 +4,7 @@
 
 PYBIND11_MODULE(_pyfranka, module) {
   module.doc() = "libfranka and ModelKDL; import pyfranka instead.";
+  pyfranka::bindCalls(module);
   pyfranka::bindExceptions(module);
   pyfranka::bindNumbers(module);
   pyfranka::bindState(module);

@@ -5,6 +5,7 @@
 #include <franka/active_control_base.h>
 #include <franka/exception.h>
 #include <pybind11/pybind11.h>
+#include <unistd.h>
 
 #include <memory>
 #include <utility>
@@ -20,20 +21,32 @@ class Motion {
     // Called with the interpreter's lock held, and braking takes time.
     if (motion_) {
       const pybind11::gil_scoped_release release;
-      motion_.reset();
+      close();
     }
   }
 
-  /// @throws franka::InvalidOperationException after close
+  /// @throws franka::InvalidOperationException after close, and in a forked process
   franka::ActiveControlBase& get() {
+    if (process_ != getpid()) {
+      throw franka::InvalidOperationException(
+          "This motion was started before the process was forked and belongs to the other "
+          "process.");
+    }
     if (!motion_) {
       throw franka::InvalidOperationException("This motion has been closed; start another one.");
     }
     return *motion_;
   }
-  void close() noexcept { motion_.reset(); }
+  void close() noexcept {
+    if (process_ == getpid()) {
+      motion_.reset();
+    } else {
+      static_cast<void>(motion_.release());  // whose end would brake the robot of the other process
+    }
+  }
 
  private:
+  pid_t process_ = getpid();
   std::unique_ptr<franka::ActiveControlBase> motion_;
 };
 

@@ -50,6 +50,11 @@ Extra renamed(Extra extra, const Names& names) {
   return extra;
 }
 
+/// The docstring of a definition whose arguments have their other names.
+inline const char* renamed(const char* /* doc */, const Names& /* names */) {
+  return "The same; arguments with their names in other packages.";
+}
+
 /// Calls `define` once with our names of the arguments and once with each set of other names.
 template <typename Define, typename... Extra>
 void withNames(const std::vector<Names>& others, const Define& define, Extra... extra) {

@@ -4,7 +4,6 @@
 
 import inspect
 import math
-import re
 import threading
 
 import numpy as np
@@ -12,19 +11,13 @@ import pyfranka.gym
 import pyfranka.sim
 import pytest
 from pyfranka.sim import FR3, KINDS, Gripper, Panda, Remote, SimulatedRobot, Simulation, SimulationBatch
+from sentences import ERRORS, unlike_ours
 from waiting import wait_for
 
 NAN, INF = math.nan, math.inf
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
 ROBOTS_TAKE_TURNS = True
 FAR = 1e4  # [m], [N]: beyond what a world takes
-ERRORS = (ValueError, TypeError, KeyError, IndexError, RuntimeError)
-# Of pybind11, numpy and Python, which name no argument of the user.
-FOREIGN = re.compile(
-    r"incompatible function arguments|could not convert|object cannot be interpreted|has no attribute"
-    r"|not supported between|unsupported|must be real number|unhashable|out of range|expected str"
-    r"|object is not|inhomogeneous|invalid literal"
-)
 QUATERNION_0 = (0, 0, 1, 0, 0, 0, 0)
 
 # "Class.function" -> a part of the sentence -> the call. `x` is an object of the class.
@@ -484,16 +477,6 @@ def with_arguments(kind):
 @pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)
 def test_each_public_function_has_a_case(kind):
     assert set(CLASSES[kind][1]) >= with_arguments(kind)
-
-
-def unlike_ours(sentence):
-    """Why this is not a sentence of ours; None if it is one."""
-    text = sentence.strip("\"'")
-    if FOREIGN.search(text):
-        return "it is Python's or a library's"
-    if not text.endswith("."):
-        return "it does not end with a full stop"
-    return None
 
 
 @pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)

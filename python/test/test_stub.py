@@ -6,6 +6,7 @@ import ast
 import builtins
 import inspect
 import pickle
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -76,6 +77,22 @@ def test_classes_show_and_are_pickled_under_the_names_that_users_import():
     for name in ("ArmModel", "GripperOutcome", "LiveState", "RequestRefused", "Snapshot"):
         assert getattr(pyfranka.sim, name).__module__ == "pyfranka.sim"
     assert pickle.loads(pickle.dumps(pyfranka.RobotMode.Reflex)) == pyfranka.RobotMode.Reflex
+    assert pyfranka.limit_rate.__module__ == "pyfranka"
+
+
+def docstrings(owner):
+    for value in vars(owner).values():
+        if inspect.isclass(value) and value.__module__.startswith("pyfranka"):
+            yield from docstrings(value)
+        for each in (value, getattr(value, "fget", None), getattr(value, "fset", None)):
+            yield getattr(each, "__doc__", None) or ""
+
+
+def test_docstrings_show_the_names_that_users_import():
+    shown = [doc for module in (_pyfranka, _pyfranka._sim) for doc in docstrings(module)]
+    assert any("pyfranka.sim.LiveState" in doc for doc in shown)
+    assert [doc for doc in shown if re.search(r"_pyfranka\b", doc.replace("import _pyfranka", ""))] == []
+    assert "state: pyfranka.RobotState" in pyfranka.Model.mass.__doc__
 
 
 def test_types_are_local_so_that_other_bindings_of_libfranka_can_be_loaded():
@@ -113,6 +130,20 @@ def test_classes_and_their_stubs_have_the_same_names(path, cls):
         node = body[name]
         body = stub_names(node.body)
     assert public(body) == names_of(cls) | RAISED.get(path[-1], set())
+
+
+def test_stubs_of_the_module_are_made_without_the_package(tmp_path):
+    """As in the build of the wheel, where pyfranka cannot be imported yet."""
+    code = (
+        "import runpy, sys\n"
+        "sys.modules['pyfranka'] = None\n"
+        "runpy.run_module('pybind11_stubgen', run_name='__main__', alter_sys=True)"
+    )
+    options = ["_pyfranka", "--exit-code", "--output-dir", tmp_path, "--numpy-array-wrap-with-annotated"]
+    options += ["--enum-class-locations", "[A-Z].*:_pyfranka"]
+    made = subprocess.run([sys.executable, "-c", code, *options], text=True, capture_output=True, timeout=120)
+    assert made.returncode == 0, made.stderr
+    assert "-> None" in (tmp_path / "_pyfranka" / "__init__.pyi").read_text()
 
 
 def test_what_is_imported_when_used_is_in_the_stub():

@@ -14,20 +14,12 @@ Arrays of a RobotState are numpy views of it; matrices have two dimensions and a
 """
 
 import builtins as _builtins
-from collections.abc import Iterable as _Iterable
 
 from _pyfranka import *  # noqa: F401, F403
 
+from pyfranka import _public_names
 
-# Classes show, and are pickled, under the names that users import.
-def _rename(values: _Iterable[object]) -> None:
-    for value in values:
-        if isinstance(value, type) and value.__module__ == "_pyfranka":
-            value.__module__ = __name__
-            _rename([*vars(value).values()])
-
-
-_rename([*globals().values()])
+_public_names.publish()
 
 # `from pyfranka import *` does not hide Python's own Exception; FrankaException is another name of ours.
 __all__ = [name for name in globals() if not name.startswith("_") and not hasattr(_builtins, name)]

@@ -34,7 +34,7 @@ from pathlib import Path
 
 from pyfranka._deprecation import renamed, warn
 from pyfranka.remote import PORT, Remote
-from pyfranka.sim.arguments import no_robot, path
+from pyfranka.sim.arguments import no_robot, path, whole
 from pyfranka.sim.setups import FR3, KINDS, Panda
 
 if typing.TYPE_CHECKING:
@@ -91,7 +91,12 @@ def SimRobot(
 
 
 class ServedRobot:
-    """One robot of a running franka_sim."""
+    """One robot of a running franka_sim.
+
+    >>> served = server["panda"]
+    >>> served.remote.state().mode
+    'Idle'
+    """
 
     def __init__(self, server: FrankaSim, robot: Panda | FR3, report: dict[str, typing.Any]):
         self.server, self.kind, self.address = server, robot.kind, robot.address
@@ -112,13 +117,21 @@ class ServedRobot:
         return self.name
 
     def connect(self) -> pyfranka.Robot:
-        """A connection to the robot that needs no real-time kernel. Raises pyfranka.Exception."""
+        """A connection to the robot that needs no real-time kernel. Raises pyfranka.Exception.
+
+        >>> server["other"].connect().server_version
+        5
+        """
         import pyfranka
 
         return pyfranka.Robot(self.address, pyfranka.RealtimeConfig.Ignore)
 
     def gripper(self) -> pyfranka.Gripper:
-        """A connection to its hand. Raises pyfranka.Exception."""
+        """A connection to its hand. Raises pyfranka.Exception.
+
+        >>> server.robot.gripper().read_once().width >= 0.0
+        True
+        """
         import pyfranka
 
         return pyfranka.Gripper(self.address)
@@ -141,6 +154,10 @@ class FrankaSim:
 
     The program ends with the object, with the interpreter and, if it was started by the main thread, also
     when this process is killed. Ctrl-C on a terminal does not reach it.
+
+    >>> with FrankaSim("panda") as server:
+    ...     server.robot.connect().read_once().robot_mode == pyfranka.RobotMode.Idle
+    True
     """
 
     _all: typing.ClassVar[weakref.WeakSet[FrankaSim]] = weakref.WeakSet()
@@ -206,19 +223,37 @@ class FrankaSim:
 
     @classmethod
     def known(cls) -> list[FrankaSim]:
-        """Those that this process has started and still uses."""
+        """Those that this process has started and still uses.
+
+        >>> server in FrankaSim.known()
+        True
+        """
         return list(cls._all)
 
     def log(self, since: int = 0) -> str:
-        """The program's output (standard output and standard error) from that byte on."""
+        """The program's output (standard output and standard error) from that byte on.
+
+        >>> "panda" in server.log()
+        True
+        """
+        since = whole(since, "since", 0, self.log_size())
         return os.pread(self._log.fileno(), self.log_size() - since, since).decode(errors="replace")
 
     def log_size(self) -> int:
-        """Bytes of the log."""
+        """Bytes of the log.
+
+        >>> before = server.log_size()
+        >>> server.log(since=before)
+        ''
+        """
         return os.fstat(self._log.fileno()).st_size
 
     def status(self) -> str:
-        """A sentence if the program has ended, or nothing."""
+        """A sentence if the program has ended, or nothing.
+
+        >>> server.status()
+        ''
+        """
         code = self.process.poll()
         if code is None:
             return ""
@@ -226,14 +261,26 @@ class FrankaSim:
         return f"franka_sim has ended {how}."
 
     def kill(self) -> None:
-        """Ends the program as a crash does, for tests of what its clients do then."""
+        """Ends the program as a crash does, for tests of what its clients do then.
+
+        >>> short = FrankaSim("fr3")
+        >>> short.kill()
+        >>> short.status()
+        'franka_sim has ended by signal SIGKILL.'
+        """
         self._stopped = True
         self._finalizer()
         self._release()
 
     def stop(self) -> None:
         """Ends the program, if it runs. Raises FrankaSimError with its last lines if it has failed, or had to
-        be killed because it did not end within 20 s."""
+        be killed because it did not end within 20 s.
+
+        >>> short = FrankaSim("fr3")
+        >>> short.stop()
+        >>> short.stopped
+        True
+        """
         if self._stopped:
             return
         self._stopped = True

@@ -144,6 +144,10 @@ class Dataset:
     numbers of features, by the features' names.
 
     Raises ValueError, TypeError, FileExistsError or RuntimeError with a sentence. Called by one thread.
+
+    >>> dataset = pyfranka.lerobot.Dataset(folder / "data", fps=20)
+    >>> dataset.add_frame({"observation.state": numpy.zeros(7), "action": numpy.zeros(7)})
+    >>> dataset.save_episode("Hold still.")
     """
 
     def __init__(
@@ -180,7 +184,11 @@ class Dataset:
 
     def add_frame(self, frame: Mapping[str, Any]) -> None:
         """Adds what belongs to one moment: numbers, vectors, and pictures (height x width x 3, uint8), by the
-        names of features such as observation.state, observation.images.wrist and action."""
+        names of features such as observation.state, observation.images.wrist and action.
+
+        >>> dataset = pyfranka.lerobot.Dataset(folder / "data", fps=20)
+        >>> dataset.add_frame({"observation.state": numpy.zeros(7), "action": numpy.zeros(7)})
+        """
         values = {
             text(name, "The name of a feature"): self._checked(name, value) for name, value in frame.items()
         }
@@ -242,13 +250,23 @@ class Dataset:
         return pattern.format(episode_chunk=self.episodes // CHUNK, episode_index=self.episodes, **more)
 
     def discard_episode(self) -> None:
-        """Forgets the frames since the last episode that was saved."""
+        """Forgets the frames since the last episode that was saved.
+
+        >>> dataset = pyfranka.lerobot.Dataset(folder / "data", fps=20)
+        >>> dataset.add_frame({"observation.state": numpy.zeros(7), "action": numpy.zeros(7)})
+        >>> dataset.discard_episode()
+        """
         for video in self._videos.values():
             video.discard()
         self._begin()
 
     def save_episode(self, task: str) -> None:
-        """Writes the frames since the last one as an episode. task: what is to be done, in words."""
+        """Writes the frames since the last one as an episode. task: what is to be done, in words.
+
+        >>> dataset = pyfranka.lerobot.Dataset(folder / "data", fps=20)
+        >>> dataset.add_frame({"observation.state": numpy.zeros(7), "action": numpy.zeros(7)})
+        >>> dataset.save_episode("Hold still.")
+        """
         text(task, "task")
         if not self._rows:
             raise ValueError("The episode has no frames; call add_frame() first.")

@@ -70,6 +70,9 @@ class RemoteState:
     mode: such as "Idle", "Move", "Reflex", "User stopped", "Guiding", "Other". protocol: version of the
     connected client, 0 without one. errors: present errors with their details, which may be empty.
     q: joint positions, 7 [rad]. fault: why the whole world stands still; empty while it does not.
+
+    >>> remote.state().mode
+    'Idle'
     """
 
     mode: str
@@ -84,6 +87,9 @@ class RemoteShape:
     """A shape to draw. body: its index in RemoteScene.bodies. kind: "box", "sphere", "capsule", "cylinder",
     "ellipsoid", "plane" or "mesh". size: half sizes as in MuJoCo, 3 [m]. pose: in the body, position [m] and
     quaternion w, x, y, z. color: red, green, blue, opacity, 0 to 1. mesh: its name, empty without one.
+
+    >>> remote.scene().shapes[0].pose.shape
+    (7,)
     """
 
     body: int
@@ -97,7 +103,11 @@ class RemoteShape:
 @dataclass(frozen=True)
 class RemoteScene:
     """The world to draw. bodies: their names, links of robots included; some may be empty. robots: arm_id and
-    type ("panda" or "fr3") of each."""
+    type ("panda" or "fr3") of each.
+
+    >>> remote.scene().robots["panda"]
+    'panda'
+    """
 
     bodies: list[str]
     shapes: list[RemoteShape]
@@ -106,7 +116,12 @@ class RemoteScene:
 
 @dataclass(frozen=True, eq=False)
 class RemoteMesh:
-    """Triangles in the frame of each shape that has them. vertices: n x 3 [m]. faces: n x 3 indices."""
+    """Triangles in the frame of each shape that has them. vertices: n x 3 [m]. faces: n x 3 indices.
+
+    >>> names = [shape.mesh for shape in remote.scene().shapes if shape.mesh]
+    >>> [remote.mesh(name).faces.shape[1] for name in names[:1]] in ([3], [])
+    True
+    """
 
     vertices: NDArray[numpy.float32]
     faces: NDArray[numpy.uint32]
@@ -134,6 +149,11 @@ class Remote:
     The robot serves eight clients at a time and executes their lines in the order of arrival. By itself each
     call is a connection of its own; while eight others are connected, it waits within its limit. As a context
     manager a Remote keeps one connection, which saves time and keeps its place. Thread-safe.
+
+    >>> remote = pyfranka.sim.Remote("172.16.0.2")
+    >>> remote.step(10)
+    >>> remote.state().mode
+    'Idle'
     """
 
     def __init__(self, address: str, port: int = PORT, timeout: float = TIME_LIMIT):
@@ -161,14 +181,22 @@ class Remote:
         self.close()
 
     def close(self) -> None:
-        """Ends the connection that the context manager holds; the robot stays."""
+        """Ends the connection that the context manager holds; the robot stays.
+
+        >>> with pyfranka.sim.Remote("172.16.0.2") as kept:
+        ...     kept.close()
+        """
         self._held = False
         connection, self._connection = self._connection, None
         if connection:
             connection.close()
 
     def send(self, line: str, timeout: float | None = None) -> str:
-        """Sends a line as it stands, without its end. Returns what follows `ok`, or an empty string."""
+        """Sends a line as it stands, without its end. Returns what follows `ok`, or an empty string.
+
+        >>> float(remote.send("time")) <= remote.time
+        True
+        """
         if "\n" in line:
             raise ValueError("Send one line at a time, without its end.")
         limit = self.timeout if timeout is None else _seconds(timeout)
@@ -184,7 +212,11 @@ class Remote:
         )
 
     def commands(self, timeout: float | None = None) -> list[str]:
-        """The lines that this robot knows, with their words."""
+        """The lines that this robot knows, with their words.
+
+        >>> "time" in remote.commands()
+        True
+        """
         return self.send("help", timeout).split("; ")
 
     @renamed("Remote.help()", "commands()")
@@ -194,23 +226,47 @@ class Remote:
     # ---- the robot ---------------------------------------------------------------------------------------
 
     def user_stop(self, pressed: bool, timeout: float | None = None) -> None:
-        """Presses or releases the user stop, which aborts a motion."""
+        """Presses or releases the user stop, which aborts a motion.
+
+        >>> remote.user_stop(True)
+        >>> remote.state().mode
+        'User stopped'
+        >>> remote.user_stop(False)
+        """
         self.send(f"user_stop {_switch(pressed)}", timeout)
 
     def guiding(self, active: bool, timeout: float | None = None) -> None:
-        """Begins or ends guiding by hand."""
+        """Begins or ends guiding by hand.
+
+        >>> remote.guiding(True)
+        >>> remote.guiding(False)
+        """
         self.send(f"guiding {_switch(active)}", timeout)
 
     def close_brakes(self, timeout: float | None = None) -> None:
-        """Closes the brakes, which ends a motion."""
+        """Closes the brakes, which ends a motion.
+
+        >>> remote.close_brakes()
+        >>> remote.open_brakes()
+        >>> remote.wait().mode
+        'Idle'
+        """
         self.send("brakes close", timeout)
 
     def open_brakes(self, timeout: float | None = None) -> None:
-        """Opens the brakes, which takes a while: wait() returns when they are open."""
+        """Opens the brakes, which takes a while: wait() returns when they are open.
+
+        >>> remote.open_brakes()
+        >>> remote.wait().mode
+        'Idle'
+        """
         self.send("brakes open", timeout)
 
     def activate_fci(self, timeout: float | None = None) -> None:
-        """Clients may connect."""
+        """Clients may connect.
+
+        >>> remote.activate_fci()
+        """
         self.send("fci on", timeout)
 
     def deactivate_fci(self, timeout: float | None = None) -> None:
@@ -249,7 +305,11 @@ class Remote:
         pressed: bool,
         timeout: float | None = None,
     ) -> None:
-        """Presses or releases a stop, the activation or enabling device (x4) or the guiding button."""
+        """Presses or releases a stop, the activation or enabling device (x4) or the guiding button.
+
+        >>> server["fr3"].remote.set_input("guiding", True)
+        >>> server["fr3"].remote.set_input("guiding", False)
+        """
         self.send(f"input {_word(name, 'The name of an input')} {_switch(pressed)}", timeout)
 
     @renamed("Remote.input()", "set_input()")
@@ -262,7 +322,11 @@ class Remote:
         self.set_input(name, pressed, timeout)
 
     def button(self, name: str, pressed: bool, timeout: float | None = None) -> None:
-        """Presses or releases a button of the Pilot: circle, cross, check, up, down, left or right."""
+        """Presses or releases a button of the Pilot: circle, cross, check, up, down, left or right.
+
+        >>> remote.button("circle", True)
+        >>> remote.button("circle", False)
+        """
         self.send(f"button {_word(name, 'The name of a button')} {_switch(pressed)}", timeout)
 
     def guiding_mode(
@@ -272,15 +336,24 @@ class Remote:
         timeout: float | None = None,
     ) -> None:
         """The directions in which the arm can be guided. axes: only for user; along and about x, y, z of K,
-        and the elbow, 7."""
+        and the elbow, 7.
+
+        >>> remote.guiding_mode("free")
+        """
         self.send(" ".join(["guiding_mode", _word(mode, "The mode"), *map(_switch, axes)]), timeout)
 
     def navigation(self, user: typing.Literal["desk", "robot"], timeout: float | None = None) -> None:
-        """Target of the Pilot's arrow keys: Desk or the robot."""
+        """Target of the Pilot's arrow keys: Desk or the robot.
+
+        >>> remote.navigation("desk")
+        """
         self.send(f"navigation {_word(user, 'The user of the keys')}", timeout)
 
     def self_test(self, due: float | None = None, timeout: float | None = None) -> None:
-        """Starts the self-test; with `due`, sets only the time until it is overdue [s]."""
+        """Starts the self-test; with `due`, sets only the time until it is overdue [s].
+
+        >>> remote.self_test(due=86400.0)
+        """
         self.send("self_test" if due is None else _line("self_test due", [due]), timeout)
 
     def acknowledge(self, error: str, timeout: float | None = None) -> None:
@@ -293,7 +366,11 @@ class Remote:
         self.send(" ".join(["inject", *words, _switch(active)]), timeout)
 
     def recover(self, timeout: float | None = None) -> None:
-        """Automatic error recovery; returns at its end."""
+        """Automatic error recovery; returns at its end.
+
+        >>> if remote.state().mode == "Reflex":
+        ...     remote.recover()
+        """
         self.send("recover", timeout)
 
     def move(
@@ -303,7 +380,10 @@ class Remote:
         timeout: float | None = None,
     ) -> None:
         """A motion of Desk, which needs no client: to joint positions, 7 [rad], at a share of the velocity
-        limits; to the pose for packing; or stops one. Returns at its end."""
+        limits; to the pose for packing; or stops one. Returns at its end.
+
+        >>> remote.move([0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785], speed=0.3)
+        """
         if isinstance(target, str):
             self.send(f"move {_word(target, 'The target')}", timeout)
         else:
@@ -318,12 +398,19 @@ class Remote:
         timeout: float | None = None,
     ) -> None:
         """The end effector as it is set in Desk: m_ee [kg], F_x_Cee 3 [m], I_ee 9 [kg m^2], F_T_NE 4x4,
-        or its 16 numbers column by column."""
+        or its 16 numbers column by column.
+
+        >>> inertia = numpy.diag([0.001, 0.0025, 0.0017])
+        >>> remote.end_effector(0.73, (-0.01, 0.0, 0.03), inertia, numpy.eye(4))
+        """
         words = [_numbers(center, 3, "The center of mass"), _matrix(inertia, 3, "The inertia")]
         self.send(_line("end_effector", [mass], *words, _matrix(F_T_NE, 4, "The transform")), timeout)
 
     def end_effector_power(self, on: bool, timeout: float | None = None) -> None:
-        """Off: the hand is not reachable."""
+        """Off: the hand is not reachable.
+
+        >>> server["fr3"].remote.end_effector_power(True)
+        """
         self.send(f"end_effector_power {_switch(on)}", timeout)
 
     def power(self, on: bool, timeout: float | None = None) -> None:
@@ -333,15 +420,26 @@ class Remote:
     def timing(
         self, what: typing.Literal["brakes", "self_test"], seconds: float, timeout: float | None = None
     ) -> None:
-        """Sets the duration of opening all brakes, or of the self-test."""
+        """Sets the duration of opening all brakes, or of the self-test.
+
+        >>> remote.timing("brakes", 1.0)
+        """
         self.send(_line(f"timing {_word(what, 'The name')}", [seconds]), timeout)
 
     def report(self, timeout: float | None = None) -> Report:
-        """Everything of the robot."""
+        """Everything of the robot.
+
+        >>> remote.report().brakes_open
+        True
+        """
         return report_of(self.send("report", timeout))
 
     def load(self, mass: float, center: ArrayLike = (0, 0, 0), timeout: float | None = None) -> None:
-        """The load that the robot assumes: mass [kg], center of mass in the flange's frame, 3 [m]."""
+        """The load that the robot assumes: mass [kg], center of mass in the flange's frame, 3 [m].
+
+        >>> remote.load(0.5, (0.0, 0.0, 0.05))
+        >>> remote.load(0.0)
+        """
         self.send(_line("load", [mass], _numbers(center, 3, "The center of mass")), timeout)
 
     def wall(
@@ -353,45 +451,77 @@ class Remote:
         timeout: float | None = None,
     ) -> None:
         """Sets the virtual wall of that number, 0 to 7: a box. center: 3 [m], edges: 3 [m], orientation:
-        quaternion w, x, y, z, all in the robot's base frame."""
+        quaternion w, x, y, z, all in the robot's base frame.
+
+        >>> remote.wall(3, center=(2.0, 0.0, 0.5), edges=(0.1, 2.0, 1.0))
+        >>> remote.remove_wall(3)
+        """
         words = [_numbers(center, 3, "The center"), _numbers(edges, 3, "The edges")]
         words.append(_numbers(orientation, 4, "The orientation"))
         self.send(_line(f"wall {_whole(number, 'The number of a wall')}", *words), timeout)
 
     def remove_wall(self, number: int, timeout: float | None = None) -> None:
-        """Removes the virtual wall of that number, 0 to 7."""
+        """Removes the virtual wall of that number, 0 to 7.
+
+        >>> remote.wall(3, center=(2.0, 0.0, 0.5), edges=(0.1, 2.0, 1.0))
+        >>> remote.remove_wall(3)
+        """
         self.send(f"wall {_whole(number, 'The number of a wall')} off", timeout)
 
     def part(self, present: bool, timeout: float | None = None) -> None:
-        """Whether a part covers the cup of the vacuum gripper."""
+        """Whether a part covers the cup of the vacuum gripper.
+
+        >>> server["vacuum"].remote.part(False)
+        """
         self.send(f"part {_switch(present)}", timeout)
 
     def pump(
         self, health: typing.Literal["green", "yellow", "orange", "red"], timeout: float | None = None
     ) -> None:
-        """Health of the vacuum gripper's pump; a red one does not work."""
+        """Health of the vacuum gripper's pump; a red one does not work.
+
+        >>> server["vacuum"].remote.pump("green")
+        """
         self.send(f"pump {_word(health, 'The health')}", timeout)
 
     def hand_homing(self, timeout: float | None = None) -> None:
-        """Closes and opens the Franka hand fully; returns when it has done so. LineRefused if it fails."""
+        """Closes and opens the Franka hand fully; returns when it has done so. LineRefused if it fails.
+
+        >>> remote.hand_homing()
+        """
         self.send("hand homing", timeout)
 
     def hand_move(self, width: float, speed: float, timeout: float | None = None) -> None:
         """Moves the fingers to a width [m] at a speed [m/s]; returns when they are there. LineRefused if an
-        object blocks them."""
+        object blocks them.
+
+        >>> remote.hand_move(width=0.04, speed=0.1)
+        """
         self.send(_line("hand move", [width, speed]), timeout)
 
     def hand_grasp(self, width: float, speed: float, force: float, timeout: float | None = None) -> None:
         """Grasps an object of this width [m], within 5 mm, with a force [N]; returns when it is held.
-        LineRefused if it is not."""
+        LineRefused if it is not.
+
+        >>> remote.hand_grasp(width=0.03, speed=0.1, force=20.0)  # there is nothing to hold
+        Traceback (most recent call last):
+        pyfranka.remote.LineRefused: ...
+        """
         self.send(_line("hand grasp", [width, speed, force]), timeout)
 
     def hand_stop(self, timeout: float | None = None) -> None:
-        """Ends the hand's command and releases its force."""
+        """Ends the hand's command and releases its force.
+
+        >>> remote.hand_stop()
+        """
         self.send("hand stop", timeout)
 
     def state(self, timeout: float | None = None) -> RemoteState:
-        """Mode, client, errors and joints."""
+        """Mode, client, errors and joints.
+
+        >>> remote.state().q.shape
+        (7,)
+        """
         text = self.send("state", timeout)
         match = STATE.fullmatch(text)
         if not match:
@@ -402,7 +532,11 @@ class Remote:
 
     def state_hash(self, timeout: float | None = None) -> int:
         """Hash of all states since the first command, as pyfranka.sim.SimulatedRobot.state_hash(). In
-        lock-step it waits until no motion runs and the world is at rest, at most 10 s of its time."""
+        lock-step it waits until no motion runs and the world is at rest, at most 10 s of its time.
+
+        >>> remote.state_hash() == remote.state_hash()
+        True
+        """
         return int(self.send("hash", timeout), 16)
 
     @renamed("Remote.hash()", "state_hash()")
@@ -412,38 +546,66 @@ class Remote:
     # ---- the link to the client --------------------------------------------------------------------------
 
     def loss(self, probability: float, seed: int = 0, timeout: float | None = None) -> None:
-        """Loses commands with this probability; the same seed, from 0 to 2^64 - 1, loses the same ones."""
+        """Loses commands with this probability; the same seed, from 0 to 2^64 - 1, loses the same ones.
+
+        >>> remote.loss(0.01, seed=5)
+        >>> remote.loss(0.0)
+        """
         self.send(_line("loss", [probability]) + f" {_whole(seed, 'A seed')}", timeout)
 
     def lose(self, commands: int, timeout: float | None = None) -> None:
-        """Loses the next commands, so many."""
+        """Loses the next commands, so many.
+
+        >>> remote.lose(2)
+        """
         self.send(f"lose {_whole(commands, 'The number of commands')}", timeout)
 
     def delay(self, ticks: int, timeout: float | None = None) -> None:
-        """Lets commands arrive 0 to 20 ticks [ms] later."""
+        """Lets commands arrive 0 to 20 ticks [ms] later.
+
+        >>> remote.delay(5)
+        >>> remote.delay(0)
+        """
         self.send(f"delay {_whole(ticks, 'A delay')}", timeout)
 
     # ---- the world ---------------------------------------------------------------------------------------
 
     def push(self, body: str, force: ArrayLike, ticks: int = 1, timeout: float | None = None) -> None:
         """A force, 3 [N] in world axes, at a body's origin, for so many milliseconds from now. Returns when
-        it has begun; wait() or step() let it end."""
+        it has begun; wait() or step() let it end.
+
+        >>> remote.push("stone", (0.0, 0.0, 1.0), ticks=10)
+        >>> remote.step(10)
+        """
         words = _line(f"push {_word(body, 'The name of a body')}", _numbers(force, 3, "The force"))
         self.send(f"{words} {_whole(ticks, 'The duration')}", timeout)
 
     def place(
         self, body: str, position: ArrayLike, orientation: ArrayLike = NO_TURN, timeout: float | None = None
     ) -> None:
-        """Puts a free body to a position, 3 [m], and a quaternion w, x, y, z of the world, at rest."""
+        """Puts a free body to a position, 3 [m], and a quaternion w, x, y, z of the world, at rest.
+
+        >>> remote.place("stone", (0.0, 0.3, 0.5))
+        >>> remote.where("stone").round(1).tolist()
+        [0.0, 0.3, 0.5]
+        """
         pose = [_numbers(position, 3, "The position"), _numbers(orientation, 4, "The orientation")]
         self.send(_line(f"place {_word(body, 'The name of a body')}", *pose), timeout)
 
     def where(self, body: str, timeout: float | None = None) -> Array:
-        """Position of a body in the world, 3 [m]."""
+        """Position of a body in the world, 3 [m].
+
+        >>> remote.where("stone").shape
+        (3,)
+        """
         return numpy.array(self.send(f"where {_word(body, 'The name of a body')}", timeout).split(), float)
 
     def scene(self, timeout: float | None = None) -> RemoteScene:
-        """Bodies and shapes of the world, for programs that draw it. The first call may take seconds."""
+        """Bodies and shapes of the world, for programs that draw it. The first call may take seconds.
+
+        >>> "stone" in remote.scene().bodies
+        True
+        """
         answer = json.loads(self.send("scene", timeout))
         shapes = [
             RemoteShape(
@@ -460,7 +622,12 @@ class Remote:
         return RemoteScene([body["name"] for body in answer["bodies"]], shapes, robots)
 
     def mesh(self, name: str, timeout: float | None = None) -> RemoteMesh:
-        """The triangles of a mesh that a shape of the scene names; read in parts, one line each."""
+        """The triangles of a mesh that a shape of the scene names; read in parts, one line each.
+
+        >>> names = {shape.mesh for shape in remote.scene().shapes if shape.mesh}
+        >>> all(len(remote.mesh(name).faces) for name in names)
+        True
+        """
         data, offset = b"", 0
         while offset is not None:
             answer = json.loads(self.send(f"mesh {_word(name, 'The name of a mesh')} {offset}", timeout))
@@ -471,7 +638,11 @@ class Remote:
         return RemoteMesh(vertices, numpy.frombuffer(data[end:], "<u4").reshape(-1, 3))
 
     def poses(self, timeout: float | None = None) -> Array:
-        """Position [m] and quaternion w, x, y, z of each body of the scene, in its order: n x 7."""
+        """Position [m] and quaternion w, x, y, z of each body of the scene, in its order: n x 7.
+
+        >>> remote.poses().shape == (len(remote.scene().bodies), 7)
+        True
+        """
         return numpy.array(json.loads(self.send("poses", timeout)), float)
 
     @property
@@ -485,6 +656,11 @@ class Remote:
         In lock-step it first waits until the world is at rest, then lets it run for exactly this time, and
         longer only if an arm moves at its end; within a motion the client makes time pass. The default limit
         is longer by the time itself.
+
+        >>> before = remote.time
+        >>> remote.step(100)
+        >>> remote.time >= before + 0.1
+        True
         """
         ticks = _whole(ticks, "The number of ticks")
         self.send(f"step {ticks}", self.timeout + 1e-3 * max(0, ticks) if timeout is None else timeout)
@@ -496,6 +672,9 @@ class Remote:
         works, and in lock-step time stands still. With a condition: once that is true.
 
         Raises LineRefused if, in lock-step, the world has not come to rest within 10 s of its time.
+
+        >>> remote.wait().mode
+        'Idle'
         """
         limit = self.timeout if timeout is None else _seconds(timeout)
         deadline = time.monotonic() + limit
@@ -514,7 +693,10 @@ class Remote:
 
     def reset(self, timeout: float | None = None) -> None:
         """Sets the world to its initial state, for all robots; refused within motions. Modes, errors and
-        settings stay."""
+        settings stay.
+
+        >>> remote.reset()
+        """
         self.send("reset", timeout)
 
     def quit(self, timeout: float | None = None) -> None:

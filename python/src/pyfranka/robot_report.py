@@ -101,6 +101,9 @@ class Report:
     rules: "desk" or "open". brakes: joint by joint, True is closed. recoverable: errors of the safety
     controller that must be acknowledged. motion: a motion of Desk runs. fault: why the whole world stands
     still.
+
+    >>> remote.report().brakes_open
+    True
     """
 
     time: float

@@ -208,6 +208,11 @@ class Environment(gymnasium.Env[dict[str, Any], Any]):
     needs pygame), rgb_array. render_size: width and height of what render() draws.
 
     Raises ValueError, TypeError, RuntimeError or ImportError with a sentence. Called by one thread.
+
+    >>> env = pyfranka.gym.Environment("Reach", control="joint_delta")
+    >>> observation, info = env.reset(seed=1)
+    >>> observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
+    >>> env.close()
     """
 
     metadata = {"render_modes": list(RENDER_MODES), "render_fps": 20}
@@ -258,7 +263,11 @@ class Environment(gymnasium.Env[dict[str, Any], Any]):
     ) -> tuple[dict[str, Any], dict[str, Any]]:
         """Begins an episode. options: q (joints of all robots [rad]), object (x, y, z [m] and, optionally,
         w, x, y, z), goal (x, y, z [m]), in place of what is drawn. Raises ValueError, TypeError or
-        RuntimeError for a seed or options that cannot be used; nothing has changed then."""
+        RuntimeError for a seed or options that cannot be used; nothing has changed then.
+
+        >>> env = pyfranka.gym.Environment("Reach")
+        >>> observation, info = env.reset(seed=1)
+        """
         self._require_open()
         checked = self._episode.checked(options)
         super().reset(seed=None if seed is None else seed_of(seed))
@@ -270,6 +279,13 @@ class Environment(gymnasium.Env[dict[str, Any], Any]):
         return observation, self._episode.report(observation)
 
     def step(self, action: Any) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
+        """Applies an action for one step of the policy: observation, reward, terminated, truncated, info.
+        Raises ValueError for another shape and for numbers that are not finite.
+
+        >>> env = pyfranka.gym.Environment("Reach")
+        >>> observation, info = env.reset(seed=1)
+        >>> observation, reward, terminated, truncated, info = env.step(env.action_space.sample())
+        """
         self._require_open()
         if not self._begun:
             raise ResetNeeded("Call reset() before the first step().")
@@ -294,7 +310,13 @@ class Environment(gymnasium.Env[dict[str, Any], Any]):
 
     def compute_reward(self, achieved_goal: Values, desired_goal: Values, info: Any = None) -> float | Values:
         """The reward of goals, ... x size, for replay with other goals (HER). info: not used. Raises
-        ValueError."""
+        ValueError.
+
+        >>> env = pyfranka.gym.Environment("Reach")
+        >>> observation, info = env.reset(seed=1)
+        >>> float(env.compute_reward(observation["achieved_goal"], observation["desired_goal"], info))
+        -1.0
+        """
         size = self._episode.view.bounds["desired_goal"].low.size
         achieved, desired = (checked_goals(goals, size) for goals in (achieved_goal, desired_goal))
         rewards = self.options.rewards(achieved, desired)
@@ -302,12 +324,21 @@ class Environment(gymnasium.Env[dict[str, Any], Any]):
 
     def render(self) -> NDArray[numpy.uint8] | None:
         """A picture, height x width x 3, with render_mode="rgb_array". With "human" reset() and step() show
-        it."""
+        it.
+
+        >>> env = pyfranka.gym.Environment("Reach", render_mode="rgb_array", render_size=(64, 48))
+        >>> observation, info = env.reset(seed=1)
+        >>> env.render().shape
+        (48, 64, 3)
+        """
         self._require_open()
         return self.options.rendered(self._episode.sim) if self.render_mode == "rgb_array" else None
 
     def close(self) -> None:
-        """Ends the simulation; further calls raise ClosedEnvironmentError."""
+        """Ends the simulation; further calls raise ClosedEnvironmentError.
+
+        >>> pyfranka.gym.Environment("Reach").close()
+        """
         if not self._closed:
             self._episode.sim.close()
             if self._window:

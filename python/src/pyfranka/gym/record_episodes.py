@@ -39,6 +39,10 @@ class RecordEpisodes(gymnasium.Wrapper[Any, Any, Any, Any]):
     whether episodes without info["is_success"] are left out.
 
     Raises as Dataset. close() ends it; an episode that has not ended is not written.
+
+    >>> env = gymnasium.make("pyfranka/Reach-v0")
+    >>> recorded = pyfranka.gym.RecordEpisodes(env, folder / "episodes", "Reach the point.")
+    >>> recorded.close()
     """
 
     def __init__(
@@ -67,12 +71,25 @@ class RecordEpisodes(gymnasium.Wrapper[Any, Any, Any, Any]):
     def reset(
         self, *, seed: int | None = None, options: dict[str, Any] | None = None
     ) -> tuple[Any, dict[str, Any]]:
+        """As of the environment. An episode that has not ended is not written.
+
+        >>> env = gymnasium.make("pyfranka/Reach-v0")
+        >>> recorded = pyfranka.gym.RecordEpisodes(env, folder / "episodes")
+        >>> observation, info = recorded.reset(seed=1)
+        """
         observation, info = super().reset(seed=seed, options=options)
         self.dataset.discard_episode()
         self._observation = observation
         return observation, info
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
+        """As of the environment. The end of an episode writes it.
+
+        >>> env = gymnasium.make("pyfranka/Reach-v0")
+        >>> recorded = pyfranka.gym.RecordEpisodes(env, folder / "episodes")
+        >>> observation, info = recorded.reset(seed=1)
+        >>> observation, *others = recorded.step(recorded.action_space.sample())
+        """
         observation, reward, terminated, truncated, info = super().step(action)
         over, success = terminated or truncated, bool(info.get("is_success", terminated))
         self.dataset.add_frame(
@@ -90,5 +107,12 @@ class RecordEpisodes(gymnasium.Wrapper[Any, Any, Any, Any]):
         return observation, reward, terminated, truncated, info
 
     def close(self) -> None:
+        """Ends the environment.
+
+        >>> env = gymnasium.make("pyfranka/Reach-v0")
+        >>> recorded = pyfranka.gym.RecordEpisodes(env, folder / "episodes")
+        >>> observation, info = recorded.reset(seed=1)
+        >>> recorded.close()
+        """
         self.dataset.discard_episode()
         super().close()

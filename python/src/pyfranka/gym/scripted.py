@@ -229,6 +229,12 @@ def scripted_policy(env: gymnasium.Env[Any, Any]) -> Script:
     """A policy for one episode of an environment with control="cartesian_delta": observation -> action.
 
     Make one after each reset. Raises ValueError for another control.
+
+    >>> env = gymnasium.make("pyfranka/Reach-v0", control="cartesian_delta")
+    >>> observation, info = env.reset(seed=1)
+    >>> policy = pyfranka.gym.scripted_policy(env)
+    >>> env.step(policy(observation))[3]  # whether the episode was truncated
+    False
     """
     unwrapped = env.unwrapped
     if not isinstance(unwrapped, Environment):

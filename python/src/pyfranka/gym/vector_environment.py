@@ -40,6 +40,10 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
     the one before in the batch.
 
     Raises ValueError, TypeError or RuntimeError with a sentence. Called by one thread.
+
+    >>> worlds = pyfranka.gym.VectorEnvironment(2, task="Reach")
+    >>> observations, infos = worlds.reset(seed=1)
+    >>> worlds.close()
     """
 
     single_observation_space: spaces.Dict
@@ -112,7 +116,11 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
     ) -> tuple[dict[str, Values], dict[str, Any]]:
         """Begins an episode in all environments, or in those of options["reset_mask"], an array of bools.
         seed: of the first one, then counted up; or one for each. Other options: as of Environment, the same
-        for all."""
+        for all.
+
+        >>> worlds = pyfranka.gym.VectorEnvironment(2, task="Reach")
+        >>> observations, infos = worlds.reset(seed=1)
+        """
         self._require_open()
         options = dict(mapping(options, "options", "values by their names"))
         mask = options.pop("reset_mask", None)
@@ -166,6 +174,15 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
         return self._observed(i, 0.0)
 
     def step(self, actions: Any) -> tuple[dict[str, Values], Values, Values, Values, dict[str, Any]]:
+        """Applies an action to each world: observations, rewards, terminated, truncated, infos, a row each.
+        Raises ValueError for another shape and for numbers that are not finite.
+
+        >>> worlds = pyfranka.gym.VectorEnvironment(2, task="Reach")
+        >>> observations, infos = worlds.reset(seed=1)
+        >>> observations, rewards, terminated, truncated, infos = worlds.step(worlds.action_space.sample())
+        >>> rewards.shape
+        (2,)
+        """
         self._require_open()
         if not self._randoms:
             raise ResetNeeded("Call reset() before the first step().")
@@ -247,10 +264,21 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
         return together
 
     def render(self) -> tuple[NDArray[numpy.uint8], ...] | None:
-        """A picture of each environment, with render_mode="rgb_array"."""
+        """A picture of each environment, with render_mode="rgb_array".
+
+        >>> worlds = pyfranka.gym.VectorEnvironment(
+        ...     2, task="Reach", render_mode="rgb_array", render_size=(64, 48)
+        ... )
+        >>> observations, infos = worlds.reset(seed=1)
+        >>> len(worlds.render())
+        2
+        """
         self._require_open()
         return tuple(self.options.rendered(sim) for sim in self._batch) if self.render_mode else None
 
     def close_extras(self, **_: Any) -> None:
-        """Ends the simulations; called by close()."""
+        """Ends the simulations; called by close().
+
+        >>> pyfranka.gym.VectorEnvironment(2, task="Reach").close()
+        """
         self._batch.close()

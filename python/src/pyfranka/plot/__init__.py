@@ -8,7 +8,7 @@ import pyfranka.plot
 try:
     robot.control_joint_velocities(...)
 except pyfranka.ControlException as error:
-    pyfranka.plot.abort_figure(error, robot.server_version()).savefig("abort.png")
+    pyfranka.plot.abort_figure(error, robot.server_version).savefig("abort.png")
 """
 
 from __future__ import annotations
@@ -46,5 +46,10 @@ __all__ = [
 
 
 def abort_figure(error: pyfranka.ControlException, version: int = 0) -> Figure:
-    """A figure of an aborted motion. @param version of the robot's protocol, for its limits"""
+    """A figure of an aborted motion. @param version of the robot's protocol, for its limits
+
+    >>> pyfranka.plot.abort_figure(error, robot.server_version).savefig(folder / "abort.png")
+    """
+    if not isinstance(error, pyfranka.ControlException):
+        raise TypeError(f"error must be the ControlException of a motion, not {error!r}.")
     return plot_abort(of_log(error.log, version), Abort.of_text(str(error)))

@@ -17,6 +17,7 @@ from matplotlib.patches import Patch
 import pyfranka
 from pyfranka.plot.recording import Abort, Array, BadInput, Recording
 from pyfranka.plot.signals import EVIDENCE, SIGNALS, Excess, worst
+from pyfranka.sim.arguments import items, whole
 
 # Seven colors that remain distinct with color blindness (Okabe and Ito, 2008; the yellow is darker).
 COLORS = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#56b4e9", "#d55e00", "#8a7a00")
@@ -35,6 +36,7 @@ DEFAULT = ("q", "dq", "tau_J", "O_F_ext_hat_K")
 CONTEXT = ("q", "dq", "tau_J", "success_rate")  # of an abort, below its evidence
 WIDTH, PANEL = 9.0, 2.1  # [inch]
 NEAR = 0.3  # share of a limit that a signal must reach for the limit to set the scale (chosen here)
+LIMITS = ("auto", "all", "none")
 WRAP = 105  # characters a line
 
 
@@ -47,6 +49,8 @@ class Panel:
     @classmethod
     def of_text(cls, text: str) -> Panel:
         """`q` or `q+q_d`. @raises BadInput with a sentence for unknown names, or too many"""
+        if not isinstance(text, str):
+            raise BadInput(f"A signal is a name such as q or q+q_d, not {text!r}.")
         names = tuple(text.split("+"))
         for name in names:
             if name not in SIGNALS:
@@ -59,8 +63,15 @@ class Panel:
 
 
 def panels_of(texts: Sequence[str]) -> list[Panel]:
-    """@raises BadInput with a sentence"""
+    """@raises BadInput, TypeError with a sentence"""
+    texts = items(texts, "signals", "names such as q+q_d")
     return [Panel.of_text(text) for text in texts]
+
+
+def require_recording(recording: object) -> None:
+    """@raises TypeError with a sentence"""
+    if not isinstance(recording, Recording):
+        raise TypeError(f"recording must be what of_log() or read_log() has returned, not {recording!r}.")
 
 
 class Plot:
@@ -71,7 +82,10 @@ class Plot:
     """
 
     def __init__(self, panels: Sequence[Panel], *, parts: Sequence[int] = (), limits: str = "auto"):
-        self._panels, self._parts, self._limits = list(panels), set(parts), limits
+        if limits not in LIMITS:
+            raise BadInput(f"limits is one of {', '.join(LIMITS)}, not {limits!r}.")
+        self._panels, self._limits = list(panels), limits
+        self._parts = {whole(part, "The number of a joint", 1) for part in items(parts, "joints", "numbers")}
         self.figure = Figure(figsize=(WIDTH, 1.3 + PANEL * len(self._panels)), layout="constrained")
         self._axes: list[Axes] = list(
             self.figure.subplots(len(self._panels), 1, sharex=True, squeeze=False)[:, 0]
@@ -82,6 +96,7 @@ class Plot:
 
         @param most points a line; 0: all @param named whether names stand at the errors
         """
+        require_recording(recording)
         step = max(1, len(recording) // most) if most else 1
         for axes, panel in zip(self._axes, self._panels):
             axes.clear()
@@ -237,7 +252,10 @@ def plot(
     limits: str = "auto",
     title: str = "",
 ) -> Figure:
-    """A figure of a recording, with a panel for each of `signals` (`q`, or `q+q_d` in one)."""
+    """A figure of a recording, with a panel for each of `signals` (`q`, or `q+q_d` in one).
+
+    >>> pyfranka.plot.plot(pyfranka.plot.of_log(error.log), ["q", "dq"]).savefig(folder / "log.png")
+    """
     drawn = Plot(panels_of(signals), parts=joints, limits=limits)
     drawn.draw(recording, title=title)
     return drawn.figure
@@ -255,7 +273,13 @@ def plot_abort(
     """A motion's last states and commands. The value that broke a limit is marked, with that limit.
 
     @param signals panels; without any those in which the abort's errors show, and some more
+
+    >>> figure = pyfranka.plot.plot_abort(pyfranka.plot.of_log(error.log))
+    >>> figure.savefig(folder / "abort.png")
     """
+    require_recording(recording)
+    if not isinstance(abort, Abort | None):
+        raise TypeError(f"abort must be an Abort, as Abort.of_text() makes it, not {abort!r}.")
     evidence = _evidence(recording, abort.errors if abort else ())
     panels = panels_of(signals or _panels_of_abort(recording, evidence))
     drawn = Plot(panels, parts=joints, limits=limits)

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import pyfranka
+from pyfranka.sim.arguments import items
 
 Array = NDArray[np.float64]
 
@@ -68,7 +69,12 @@ class BadInput(ValueError):
 
 @dataclass
 class Recording:
-    """States of one robot, oldest first. Commands stand in the row of the state that they answer."""
+    """States of one robot, oldest first. Commands stand in the row of the state that they answer.
+
+    >>> recording = pyfranka.plot.of_log(error.log, version=5)
+    >>> len(recording) == len(error.log)
+    True
+    """
 
     name: str
     time: Array  # [s] of the robot
@@ -88,14 +94,21 @@ class Recording:
 
 @dataclass
 class Abort:
-    """Why a motion ended: the text of its exception, and the errors in it."""
+    """Why a motion ended: the text of its exception, and the errors in it.
+
+    >>> abort = pyfranka.plot.Abort.of_text(str(error))
+    """
 
     text: str
     errors: tuple[str, ...]
 
     @classmethod
     def of_text(cls, text: str) -> Abort:
-        """Finds the names of errors in a text such as that of a ControlException."""
+        """Finds the names of errors in a text such as that of a ControlException.
+
+        >>> pyfranka.plot.Abort.of_text("The motion was aborted: joint_reflex.").errors
+        ('joint_reflex',)
+        """
         return cls(text.strip(), tuple(name for name in ERRORS if re.search(rf"\b{name}\b", text)))
 
 
@@ -127,7 +140,13 @@ def errors_of(state: Any) -> tuple[str, ...]:
 
 
 class Collector:
-    """Collects states as they come. One thread adds, another one may call recording()."""
+    """Collects states as they come. One thread adds, another one may call recording().
+
+    >>> collector = pyfranka.plot.Collector("robot")
+    >>> robot.read(lambda state: collector.add(state) or state.time < 0.0)
+    >>> len(collector.recording())
+    1
+    """
 
     def __init__(self, name: str, version: int = 0, most: int = MAX_STATES, fields: Iterable[str] = FIELDS):
         self.name, self.version = name, version
@@ -135,7 +154,12 @@ class Collector:
         self._rows: deque[tuple[float, int, tuple[str, ...], list[Array]]] = deque(maxlen=most)
 
     def add(self, state: Any, time: float | None = None) -> None:
-        """Adds a state of pyfranka or a franka_msgs/FrankaState. @param time its own if not given [s]"""
+        """Adds a state of pyfranka or a franka_msgs/FrankaState. @param time its own if not given [s]
+
+        >>> pyfranka.plot.Collector("robot").add(robot.read_once())
+        """
+        if not hasattr(state, "robot_mode"):
+            raise TypeError(f"state must be a RobotState, not {state!r}.")
         self._rows.append(
             (
                 float(state.time) if time is None else time,
@@ -149,7 +173,13 @@ class Collector:
         return len(self._rows)
 
     def recording(self, seconds: float = 0.0) -> Recording:
-        """The collected states, or their last seconds. @raises BadInput if there is nothing."""
+        """The collected states, or their last seconds. @raises BadInput if there is nothing.
+
+        >>> collector = pyfranka.plot.Collector("robot", version=robot.server_version)
+        >>> collector.add(robot.read_once())
+        >>> len(collector.recording().time)
+        1
+        """
         rows = list(self._rows)
         if not rows:
             raise BadInput(f"{self.name} has no state of a robot.")
@@ -170,7 +200,12 @@ class Collector:
 
 
 def of_log(log: Sequence[pyfranka.Record], version: int = 0, name: str = "motion") -> Recording:
-    """The log of a ControlException. @param version of the robot, for its limits"""
+    """The log of a ControlException. @param version of the robot, for its limits
+
+    >>> pyfranka.plot.of_log(error.log, version=5).limits.dq.shape
+    (7,)
+    """
+    log = items(log, "log", "records, that of a ControlException")
     if not log:
         raise BadInput("The exception has no log: pyfranka.Robot's log_size was 0, or no motion had begun.")
     collector = Collector(name, version)

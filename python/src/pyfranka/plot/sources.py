@@ -26,6 +26,7 @@ from pyfranka.plot.recording import (
     answering,
     kind_of,
 )
+from pyfranka.sim.arguments import path
 
 TOPIC = "/franka_state_controller/franka_states"
 MESSAGE = "franka_msgs/FrankaState"
@@ -42,8 +43,13 @@ def read_log(
     """A motion log: the CSV of franka::logToCSV. The reason is in a text file, by default beside it.
 
     @raises BadInput with a sentence if it is none
+
+    >>> written = (folder / "motion.csv").write_text(pyfranka.log_to_csv(error.log))
+    >>> recording, abort = pyfranka.plot.read_log(folder / "motion.csv")
+    >>> len(recording) == len(error.log)
+    True
     """
-    file, reason = Path(file), None if reason is None else Path(reason)
+    file, reason = Path(path(file, "file")), None if reason is None else Path(path(reason, "reason"))
     columns = _read_columns(file)
     if "time" not in columns or not any(name.startswith("state.") for name in columns):
         raise BadInput(
@@ -110,7 +116,7 @@ def _read_reason(file: Path, reason: Path | None) -> Abort | None:
 
 def read_bag(file: str | os.PathLike[str], topic: str = "", version: int = 0) -> Recording:
     """The states in a bag. @raises BadInput with a sentence if there are none, or of several robots"""
-    file = Path(file)
+    file = Path(path(file, "file"))
     try:
         import rosbag
     except ImportError:

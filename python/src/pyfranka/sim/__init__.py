@@ -53,8 +53,4 @@ __all__ = [
     "Snapshot",
 ]
 
-# Classes show, and are pickled, under the names that users import.
-for _class in (ArmModel, GripperOutcome, LiveState, RequestRefused, Snapshot):
-    _class.__module__ = __name__
-
 __getattr__ = renamed_in(__name__, Robot="SimulatedRobot")

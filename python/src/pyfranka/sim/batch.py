@@ -48,6 +48,11 @@ class SimulationBatch(Sequence[Simulation]):
     [m] and the quaternion w, x, y, z) and "<body>.twist" [m/s, rad/s]; without it, what is usual.
 
     Raises ValueError and RuntimeError with a sentence.
+
+    >>> with pyfranka.sim.SimulationBatch(2, robots=[pyfranka.sim.FR3()], observe=["time"]) as batch:
+    ...     batch.step(100)
+    ...     batch.observations.tolist()
+    [[0.1], [0.1]]
     """
 
     def __init__(
@@ -98,7 +103,10 @@ class SimulationBatch(Sequence[Simulation]):
         self.close()
 
     def close(self) -> None:
-        """Ends all simulations: further calls raise RuntimeError."""
+        """Ends all simulations: further calls raise RuntimeError.
+
+        >>> pyfranka.sim.SimulationBatch(2).close()
+        """
         for one in self._worlds:
             one.close()
 
@@ -121,11 +129,20 @@ class SimulationBatch(Sequence[Simulation]):
         resetting these ends that. Raises RuntimeError and steps none if one is closed or in use by another
         thread. Warns once of a world (RuntimeWarning) when there are more contacts than the limit
         (nconmax). Ctrl-C ends a long step; all worlds have then advanced by as many ticks.
+
+        >>> batch.step(10)
+        >>> batch[1].ticks
+        10
         """
         self._native.step(ticks)
 
     def observe(self) -> Array:
-        """Brings `observations` up to date after worlds were changed one by one, and returns them."""
+        """Brings `observations` up to date after worlds were changed one by one, and returns them.
+
+        >>> batch[0].step(10)
+        >>> batch.observe()[:, batch.layout["time"]].tolist()
+        [[0.01], [0.0]]
+        """
         self._native.observe()
         return self._observations
 
@@ -140,6 +157,9 @@ class SimulationBatch(Sequence[Simulation]):
 
         Raises as Simulation.reset(), and no world has changed; if no random pose of a world is free, those
         before it have been reset.
+
+        >>> batch.reset(q="random")[:, batch.layout["panda.q"]].shape
+        (2, 7)
         """
         which = range(len(self)) if worlds is None else items(worlds, "worlds", "numbers of worlds")
         chosen = [self._worlds[self._checked(i)] for i in which]
@@ -154,6 +174,10 @@ class SimulationBatch(Sequence[Simulation]):
 
         Raises ValueError if it does not have what `observations` shows, or is in the batch already, and
         IndexError without such a world; nothing has changed then.
+
+        >>> batch.replace(0, pyfranka.sim.Simulation(seed=5))
+        >>> batch[0].ticks
+        0
         """
         number = self._checked(number)
         if not isinstance(simulation, Simulation):

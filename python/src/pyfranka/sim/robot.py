@@ -17,7 +17,13 @@ Array = NDArray[numpy.float64]
 
 
 class Action:
-    """A command of the hand, which runs while the simulation steps."""
+    """A command of the hand, which runs while the simulation steps.
+
+    >>> action = arm.gripper.move(0.04)
+    >>> sim.step(2000)
+    >>> action.succeeded
+    True
+    """
 
     def __init__(self, robot: _sim.Robot, ticket: int, what: str):
         self._robot, self._ticket, self._what = robot, ticket, what
@@ -52,6 +58,9 @@ class Gripper:
 
     What the hand refuses raises RequestRefused, as the arm's requests do: a width beyond max_width, a speed
     or a force below zero. ValueError or TypeError: what is not a finite number. Nothing has changed then.
+
+    >>> arm.gripper.grasp(0.03, 0.1, 20.0)
+    <Action grasp: Running>
     """
 
     def __init__(self, robot: _sim.Robot):
@@ -66,11 +75,19 @@ class Gripper:
         return f"<Gripper: width {width:.4g} of {max_width:.4g} m, {'' if grasped else 'not '}grasped>"
 
     def homing(self) -> Action:
-        """Closes and opens the fingers fully."""
+        """Closes and opens the fingers fully.
+
+        >>> arm.gripper.homing().outcome == pyfranka.sim.GripperOutcome.Running
+        True
+        """
         return Action(self._robot, self._robot.hand_homing(), "homing")
 
     def move(self, width: float, speed: float = 0.1) -> Action:
-        """Moves the fingers to a width [m] at a speed [m/s]. Raises RequestRefused."""
+        """Moves the fingers to a width [m] at a speed [m/s]. Raises RequestRefused.
+
+        >>> arm.gripper.move(0.04)
+        <Action move: Running>
+        """
         return Action(self._robot, self._robot.hand_move(width, speed), "move")
 
     def grasp(
@@ -82,12 +99,22 @@ class Gripper:
         epsilon_outer: float = 0.005,
     ) -> Action:
         """Closes [m, m/s] and holds with a force [N]. Succeeds if the held object has the requested width,
-        within the epsilons [m]. Raises RequestRefused."""
+        within the epsilons [m]. Raises RequestRefused.
+
+        >>> action = arm.gripper.grasp(0.03, speed=0.1, force=20.0)
+        >>> sim.step(3000)
+        >>> action.done, action.succeeded  # there is nothing to hold
+        (True, False)
+        """
         ticket = self._robot.hand_grasp(width, speed, force, epsilon_inner, epsilon_outer)
         return Action(self._robot, ticket, "grasp")
 
     def stop(self) -> Action:
-        """Ends the running command and the force of a grasp."""
+        """Ends the running command and the force of a grasp.
+
+        >>> arm.gripper.stop().succeeded
+        True
+        """
         return Action(self._robot, self._robot.hand_stop(), "stop")
 
     @property
@@ -117,6 +144,12 @@ class SimulatedRobot:
     What it refuses raises RequestRefused with its mode and what to do; ValueError or TypeError: arguments
     that cannot be used; RuntimeError: the simulation is closed or in use by another thread. Nothing has
     changed then.
+
+    >>> arm = sim["panda"]
+    >>> arm.command(torque=[0.0] * 7)
+    >>> sim.step(10)
+    >>> arm
+    <Panda 'panda': moving>
     """
 
     def __init__(self, native: _sim.Robot, setup: _Setup):
@@ -198,6 +231,11 @@ class SimulatedRobot:
 
         Raises RequestRefused if the robot cannot start the motion, or if one of another kind runs or one
         is ending; ValueError or TypeError with a sentence, and nothing has changed.
+
+        >>> arm.command(joint_velocities=[0.0] * 7)
+        >>> sim.step()
+        >>> arm.moving
+        True
         """
         values = {
             "torque": torque,
@@ -236,6 +274,11 @@ class SimulatedRobot:
         (linear), at constant speed; stiffness: 7 [Nm/rad], which stays until the motion ends.
 
         Raises as command().
+
+        >>> arm.joint_impedance(arm.state.q + 0.1, duration=1.0)
+        >>> sim.step(1500)
+        >>> arm.moving
+        True
         """
         self._native.joint_impedance(target, duration, stiffness, linear)
 
@@ -250,27 +293,57 @@ class SimulatedRobot:
     ) -> None:
         """The same for the end effector. target: O_T_EE, 4x4; stiffness: 6 [N/m, Nm/rad] along and about the
         axes of K; nullspace_stiffness of the joints [Nm/rad]; damping of the joints beside that of the
-        springs, 7 [Nm s/rad], for an arm that swings."""
+        springs, 7 [Nm s/rad], for an arm that swings.
+
+        >>> target = arm.state.O_T_EE.copy()
+        >>> target[2, 3] += 0.05
+        >>> arm.cartesian_impedance(target, duration=1.0)
+        """
         self._native.cartesian_impedance(target, duration, stiffness, nullspace_stiffness, linear, damping)
 
     def finish(self) -> None:
-        """Ends the motion as a client does: the arm brakes, and is idle after some ticks."""
+        """Ends the motion as a client does: the arm brakes, and is idle after some ticks.
+
+        >>> arm.command(torque=[0.0] * 7)
+        >>> arm.finish()
+        """
         self._native.finish()
 
     def recover(self) -> None:
-        """Starts the recovery from errors, which takes some ticks. Raises RequestRefused."""
+        """Starts the recovery from errors, which takes some ticks. Raises RequestRefused.
+
+        >>> if arm.state.robot_mode == pyfranka.RobotMode.Reflex:
+        ...     arm.recover()
+        """
         self._native.recover()
 
     def set_user_stop(self, pressed: bool) -> None:
-        """Presses or releases the user stop."""
+        """Presses or releases the user stop.
+
+        >>> arm.set_user_stop(True)
+        >>> sim.step()
+        >>> arm.state.robot_mode == pyfranka.RobotMode.UserStopped
+        True
+        """
         self._native.set_user_stop(pressed)
 
     def close_brakes(self) -> None:
-        """Closes the brakes, which ends a motion."""
+        """Closes the brakes, which ends a motion.
+
+        >>> arm.close_brakes()
+        >>> sim.step(1000)
+        >>> arm.brakes_closed
+        True
+        """
         self._native.set_brakes(True)
 
     def open_brakes(self) -> None:
-        """Opens the brakes, which takes some ticks."""
+        """Opens the brakes, which takes some ticks.
+
+        >>> arm.close_brakes()
+        >>> sim.step(1000)
+        >>> arm.open_brakes()
+        """
         self._native.set_brakes(False)
 
     @renamed("SimulatedRobot.set_brakes()", "close_brakes() and open_brakes()")
@@ -279,16 +352,28 @@ class SimulatedRobot:
 
     def set_guiding(self, active: bool) -> None:
         """Begins or ends guiding by hand. Raises RequestRefused with closed brakes, while the user stop is
-        pressed and in a recovery."""
+        pressed and in a recovery.
+
+        >>> arm.set_guiding(True)
+        >>> sim.step()
+        >>> arm.state.robot_mode == pyfranka.RobotMode.Guiding
+        True
+        """
         self._native.set_guiding(active)
 
     def set_joint_impedance(self, K_theta: ArrayLike) -> None:
         """Stiffness of the robot's own joint controller, 7 [Nm/rad]. Raises RequestRefused, as all setters
-        do."""
+        do.
+
+        >>> arm.set_joint_impedance([3000.0] * 4 + [2500.0, 2000.0, 2000.0])
+        """
         self._native.set_joint_impedance(K_theta)
 
     def set_cartesian_impedance(self, K_x: ArrayLike) -> None:
-        """Stiffness of the robot's own Cartesian controller, 6 [N/m, Nm/rad]."""
+        """Stiffness of the robot's own Cartesian controller, 6 [N/m, Nm/rad].
+
+        >>> arm.set_cartesian_impedance([3000.0] * 3 + [300.0] * 3)
+        """
         self._native.set_cartesian_impedance(K_x)
 
     def set_collision_behavior(
@@ -298,24 +383,42 @@ class SimulatedRobot:
         lower_force: ArrayLike,
         upper_force: ArrayLike,
     ) -> None:
-        """Thresholds of contact (lower) and collision (upper): 7 [Nm] and 6 [N, Nm]."""
+        """Thresholds of contact (lower) and collision (upper): 7 [Nm] and 6 [N, Nm].
+
+        >>> arm.set_collision_behavior([20.0] * 7, [40.0] * 7, [20.0] * 6, [40.0] * 6)
+        """
         self._native.set_collision_behavior(lower_torque, upper_torque, lower_force, upper_force)
 
     def set_EE(self, NE_T_EE: ArrayLike) -> None:
-        """Pose of the end effector in NE, 4x4."""
+        """Pose of the end effector in NE, 4x4.
+
+        >>> arm.set_EE(numpy.eye(4))
+        """
         self._native.set_EE(NE_T_EE)
 
     def set_K(self, EE_T_K: ArrayLike) -> None:
-        """Pose of the stiffness frame in EE, 4x4."""
+        """Pose of the stiffness frame in EE, 4x4.
+
+        >>> arm.set_K(numpy.eye(4))
+        """
         self._native.set_K(EE_T_K)
 
     def set_load(self, mass: float, F_x_Cload: ArrayLike, load_inertia: ArrayLike) -> None:
         """The load that the robot assumes: mass [kg], center of mass in F, 3 [m], inertia, 3x3
-        [kg m^2]."""
+        [kg m^2].
+
+        >>> arm.set_load(0.5, [0.0, 0.0, 0.05], 0.001 * numpy.eye(3))
+        """
         self._native.set_load(mass, F_x_Cload, load_inertia)
 
     def state_hash(self) -> int:
-        """Hash of all states since the first command; the control interface's `hash` of a served robot."""
+        """Hash of all states since the first command; the control interface's `hash` of a served robot.
+
+        >>> arm.command(torque=[0.0] * 7)
+        >>> sim.step()
+        >>> arm.state_hash() != 0
+        True
+        """
         return int(self._native.hash())
 
     @renamed("SimulatedRobot.hash()", "state_hash()")

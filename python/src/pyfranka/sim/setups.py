@@ -36,6 +36,10 @@ class _Setup:
     served; empty: an address of its own. arguments: further options of the program franka_sim.
 
     All values are checked here. Raises ValueError or TypeError with a sentence.
+
+    >>> robots = [pyfranka.sim.Panda(base=(0, 0.5, 0)), pyfranka.sim.FR3(base=(0, -0.5, 0))]
+    >>> [robot.kind for robot in robots]
+    ['panda', 'fr3']
     """
 
     name: str = ""
@@ -80,7 +84,11 @@ class _Setup:
             raise ValueError("The vacuum gripper is served on the network only: use FrankaSim.")
 
     def options(self) -> list[str]:
-        """The words of franka_sim's command line."""
+        """The words of franka_sim's command line.
+
+        >>> pyfranka.sim.Panda(hand=False, address="127.0.0.2").options()
+        ['--robot=panda', '--ip=127.0.0.2', '--hand=none']
+        """
         words = [f"--robot={self.kind}", f"--ip={self.address}"]
         given = {
             "base": ",".join(map(repr, self.base)) if any(self.base) else "",

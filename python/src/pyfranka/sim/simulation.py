@@ -34,7 +34,12 @@ log = logging.getLogger("pyfranka.sim")
 
 
 class Contact(typing.NamedTuple):
-    """A contact of two bodies: names, position in the world [m], force on the second one, world axes [N]."""
+    """A contact of two bodies: names, position in the world [m], force on the second one, world axes [N].
+
+    >>> sim.step(500)  # the stone comes to rest
+    >>> sim.contacts()[0].body1, sim.contacts()[0].body2
+    ('pick_tray', 'stone')
+    """
 
     body1: str
     body2: str
@@ -51,7 +56,12 @@ class _Reset(typing.NamedTuple):
 
 
 class Picture(typing.NamedTuple):
-    """rgb: height x width x 3. depth along the viewing axis [m], height x width; None for the free camera."""
+    """rgb: height x width x 3. depth along the viewing axis [m], height x width; None for the free camera.
+
+    >>> rgb, depth = sim.render(width=64, height=48)
+    >>> rgb.shape
+    (48, 64, 3)
+    """
 
     rgb: NDArray[numpy.uint8]
     depth: NDArray[numpy.float32] | None
@@ -77,6 +87,11 @@ class Simulation:
     the same calls give the same bits.
 
     Raises RuntimeError or ValueError with a sentence for a world or a robot that cannot be used.
+
+    >>> with pyfranka.sim.Simulation("stone.xml", [pyfranka.sim.Panda(base=(-0.5, 0, 0))]) as sim:
+    ...     sim.step(100)
+    ...     sim
+    <Simulation of 'panda' at 0.1 s>
     """
 
     def __init__(
@@ -131,15 +146,27 @@ class Simulation:
         return len(self._robots)
 
     def keys(self) -> KeysView[str]:
-        """Names of the robots."""
+        """Names of the robots.
+
+        >>> [*sim.keys()]
+        ['panda']
+        """
         return self._robots.keys()
 
     def values(self) -> ValuesView[SimulatedRobot]:
-        """The robots, in the order of `robots`."""
+        """The robots, in the order of `robots`.
+
+        >>> [robot.name for robot in sim.values()]
+        ['panda']
+        """
         return self._robots.values()
 
     def items(self) -> ItemsView[str, SimulatedRobot]:
-        """Names and robots."""
+        """Names and robots.
+
+        >>> {name: robot.moving for name, robot in sim.items()}
+        {'panda': False}
+        """
         return self._robots.items()
 
     def __enter__(self) -> Simulation:
@@ -150,7 +177,10 @@ class Simulation:
         self.close()
 
     def close(self) -> None:
-        """Ends the simulation: all further calls raise RuntimeError. Clients lose their robots."""
+        """Ends the simulation: all further calls raise RuntimeError. Clients lose their robots.
+
+        >>> pyfranka.sim.Simulation().close()
+        """
         self._native.close()
 
     def serve(
@@ -173,6 +203,12 @@ class Simulation:
         connection is ended, and collisions, are warnings of the logger "pyfranka.sim".
 
         Raises ValueError, KeyError; RuntimeError where the address cannot be used.
+
+        >>> served = pyfranka.sim.Simulation()
+        >>> served.serve("127.0.33.7")
+        >>> pyfranka.Robot("127.0.33.7", pyfranka.RealtimeConfig.Ignore).server_version
+        5
+        >>> served.close()
         """
         if robot is None and len(self) != 1:
             raise ValueError(f"Which robot? There are: {', '.join(self) or 'none'}.")
@@ -201,7 +237,12 @@ class Simulation:
     def step(self, ticks: int = 1) -> None:
         """Advances by so many milliseconds; other Python threads run meanwhile. Raises RuntimeError once the
         physics has diverged; reset() ends that. Warns once (RuntimeWarning) when there are more contacts than
-        the limit (nconmax)."""
+        the limit (nconmax).
+
+        >>> sim.step(10)
+        >>> sim.ticks
+        10
+        """
         self._native.step(ticks)
 
     def reset(
@@ -221,6 +262,10 @@ class Simulation:
 
         Raises ValueError, TypeError, KeyError; RuntimeError where an object cannot be moved or no random pose
         is free. Nothing has changed then.
+
+        >>> sim.reset(q="random", objects={"stone": [0.0, 0.2, 0.5]}, seed=7)
+        >>> sim.ticks
+        0
         """
         self._carry_out(self._plan(q, objects, seed))
 
@@ -297,7 +342,12 @@ class Simulation:
     def snapshot(self) -> Snapshot:
         """The present state of the world and of its robots, with motions, commands, hands and settings, for
         restore() here or in a simulation with an equal world and equal robots. The random numbers of reset()
-        are not part of it. RuntimeError once the physics has diverged."""
+        are not part of it. RuntimeError once the physics has diverged.
+
+        >>> before = sim.snapshot()
+        >>> sim.step(10)
+        >>> sim.restore(before)
+        """
         return self._native.snapshot()
 
     def restore(self, snapshot: Snapshot) -> None:
@@ -306,11 +356,23 @@ class Simulation:
         interrupted.
 
         Raises RuntimeError for a snapshot of another world or other robots, and nothing has changed.
+
+        >>> before = sim.snapshot()
+        >>> sim.step(10)
+        >>> sim.restore(before)
+        >>> sim.ticks
+        0
         """
         self._native.restore(snapshot)
 
     def state_hash(self) -> int:
-        """Hash of the world's state: bodies, joints and what acts on them."""
+        """Hash of the world's state: bodies, joints and what acts on them.
+
+        >>> before = sim.state_hash()
+        >>> sim.step()
+        >>> sim.state_hash() == before
+        False
+        """
         return int(self._native.hash())
 
     @renamed("Simulation.hash()", "state_hash()")
@@ -318,30 +380,61 @@ class Simulation:
         return self.state_hash()
 
     def bodies(self) -> list[str]:
-        """Names of all bodies, links included."""
+        """Names of all bodies, links included.
+
+        >>> "stone" in sim.bodies()
+        True
+        """
         return list(self._native.bodies())
 
     def body_pose(self, body: str) -> tuple[Array, Array]:
-        """Position [m] and quaternion w, x, y, z of a body in the world."""
+        """Position [m] and quaternion w, x, y, z of a body in the world.
+
+        >>> position, orientation = sim.body_pose("stone")
+        >>> position.shape, orientation.shape
+        ((3,), (4,))
+        """
         pose: tuple[Array, Array] = self._native.body_pose(body)
         return pose
 
     def place_body(self, body: str, position: ArrayLike, orientation: ArrayLike = NO_TURN) -> None:
-        """Puts a free body to a position [m] and a quaternion w, x, y, z, at rest."""
+        """Puts a free body to a position [m] and a quaternion w, x, y, z, at rest.
+
+        >>> sim.place_body("stone", [0.0, 0.2, 0.5])
+        >>> sim.body_pose("stone")[0].tolist()
+        [0.0, 0.2, 0.5]
+        """
         self._native.place_body(body, position, orientation)
 
     def push(self, body: str, force: ArrayLike, torque: ArrayLike = (0.0, 0.0, 0.0), ticks: int = 1) -> None:
-        """A force [N] and a torque [Nm] at a body's origin, world axes, for so many milliseconds from now."""
+        """A force [N] and a torque [Nm] at a body's origin, world axes, for so many milliseconds from now.
+
+        >>> sim.push("stone", [0.0, 0.0, 1.0], ticks=100)
+        >>> sim.step(100)
+        """
         self._native.push(body, force, torque, ticks)
 
     def contacts(self) -> list[Contact]:
-        """The present contacts."""
+        """The present contacts.
+
+        >>> sim.step(500)  # the stone comes to rest
+        >>> "stone" in {contact.body2 for contact in sim.contacts()}
+        True
+        """
         return [Contact(*contact) for contact in self._native.contacts()]
 
     def cameras(self) -> list[str]:
-        """Names of the world's cameras."""
+        """Names of the world's cameras.
+
+        >>> sim.cameras()  # this world has none
+        []
+        """
         return list(self._native.cameras())
 
     def render(self, camera: str = "", width: int = 640, height: int = 480) -> Picture:
-        """A picture of a camera; without a name, of a view of the whole world. Needs no display."""
+        """A picture of a camera; without a name, of a view of the whole world. Needs no display.
+
+        >>> sim.render(width=64, height=48).rgb.shape
+        (48, 64, 3)
+        """
         return Picture(*self._native.render(camera, width, height))

@@ -9,6 +9,7 @@
 #include <netinet/tcp.h>
 #include <poll.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
@@ -89,11 +90,24 @@ void enableKeepalive(int socket) {
 
 CommandChannel::CommandChannel(const Endpoint& endpoint, FindMessage find_message,
                                Clock::time_point deadline)
-    : socket_(connectTo(endpoint, deadline)), find_message_(find_message) {
+    : socket_(connectTo(endpoint, deadline)), process_(getpid()), find_message_(find_message) {
   enableKeepalive(socket_.get());
 }
 
-CommandChannel::~CommandChannel() { shutdown(socket_.get(), SHUT_RDWR); }
+CommandChannel::~CommandChannel() {
+  if (process_ == getpid()) {
+    shutdown(socket_.get(), SHUT_RDWR);
+  }
+}
+
+void CommandChannel::requireOwnProcess() const {
+  if (process_ != getpid()) {
+    throw InvalidOperationException(
+        "libfranka: This connection was made before the process was forked and belongs to the "
+        "other "
+        "process. Connect again in this one.");
+  }
+}
 
 std::uint32_t CommandChannel::expect() {
   const std::lock_guard<std::mutex> lock(receive_mutex_);
@@ -108,6 +122,7 @@ void CommandChannel::discardReplies(std::uint32_t id) noexcept {
 }
 
 void CommandChannel::send(fci::Bytes request) {
+  requireOwnProcess();
   const std::lock_guard<std::mutex> lock(send_mutex_);
   const Clock::time_point deadline = Clock::now() + kSendTimeout;
   std::size_t sent = 0;

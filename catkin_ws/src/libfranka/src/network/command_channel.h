@@ -4,6 +4,7 @@
 
 #include <franka_core/fci/decode_error.h>
 #include <franka_core/fci/protocol.h>
+#include <sys/types.h>
 
 #include <atomic>
 #include <chrono>
@@ -26,6 +27,8 @@ using Clock = std::chrono::steady_clock;
 /// Replies belong to requests by their id. They are kept until requested, also if another thread
 /// reads them from the socket; two replies to one request are queued. Unexpected replies (see
 /// expect, forget) are dropped. All functions end in bounded time. Thread-safe.
+///
+/// It belongs to the process that made it: a forked one can neither use nor end the connection.
 class CommandChannel {
  public:
   /// Finds the first message of the stream: its id and size (see fci::nextMessage).
@@ -47,7 +50,9 @@ class CommandChannel {
   std::uint32_t expect();
   /// Drops all present and future replies to this id.
   void discardReplies(std::uint32_t id) noexcept;
-  /// Sends one request.
+  /// @throws InvalidOperationException in a process that was forked after the connection was made.
+  void requireOwnProcess() const;
+  /// Sends one request. @throws InvalidOperationException as requireOwnProcess.
   /// @throws NetworkException if the connection is lost or takes no bytes for kSendTimeout.
   void send(franka_core::fci::Bytes request);
 
@@ -74,6 +79,7 @@ class CommandChannel {
   std::optional<Message> take(std::uint32_t id);
 
   Descriptor socket_;
+  pid_t process_;
   FindMessage find_message_;
 
   std::mutex send_mutex_;

@@ -1,0 +1,42 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Errors for users: whether a text is a sentence of ours."""
+
+import re
+
+ERRORS = (ValueError, TypeError, KeyError, IndexError, RuntimeError)
+# Of pybind11, numpy and Python, which name no argument of the user.
+FOREIGN = re.compile(
+    r"incompatible function arguments|could not convert|object cannot be interpreted|has no attribute"
+    r"|not supported between|unsupported|must be real number|unhashable|out of range|expected str"
+    r"|object is not|inhomogeneous|invalid literal|incompatible constructor arguments|_pyfranka"
+)
+
+
+def unlike_ours(sentence):
+    """Why this is not a sentence of ours; None if it is one."""
+    text = sentence.strip("\"'")
+    if FOREIGN.search(text):
+        return "it is Python's or a library's"
+    # Genuine libfranka's own words stay.
+    if not text.endswith(".") and not text.startswith("libfranka"):
+        return "it does not end with a full stop"
+    return None
+
+
+def faults_of(cases, thing, owner=""):
+    """What is wrong with the refusals of a table: function -> a part of the sentence -> the call, which gets
+    the thing."""
+    wrong = []
+    for function, sentences in cases.items():
+        for part, call in sentences.items():
+            where = f"{owner}.{function}, {part!r}"
+            try:
+                call(thing)
+                wrong.append(f"{where}: not refused")
+            except ERRORS as error:
+                # KeyError shows the repr of its argument.
+                text = str(error.args[0]) if error.args else ""
+                if part not in text or unlike_ours(text):
+                    wrong.append(f"{where}: {unlike_ours(text) or 'another sentence'}: {type(error)} {text}")
+    return wrong
