@@ -114,7 +114,8 @@ def environment(wheel, tmp_path_factory) -> Environment:
 @pytest.fixture(scope="session")
 def complete(wheel, tmp_path_factory) -> Environment:
     """With the packages of all extras."""
-    return Environment(tmp_path_factory.mktemp("complete"), wheel, "wheel-extras", "[gym,cluster,plot,desk]")
+    extras = "[gym,cluster,plot,desk,lerobot]"
+    return Environment(tmp_path_factory.mktemp("complete"), wheel, "wheel-extras", extras)
 
 
 def metadata(archive: zipfile.ZipFile, file: str) -> str:
@@ -145,13 +146,14 @@ def test_metadata_describes_the_package(archive):
 
 def test_metadata_has_extras_and_requirements(archive):
     metadata_fields = Parser().parsestr(metadata(archive, "METADATA"))
-    assert metadata_fields.get_all("Provides-Extra") == ["desk", "gym", "plot", "cluster"]
+    assert metadata_fields.get_all("Provides-Extra") == ["desk", "gym", "plot", "cluster", "lerobot"]
     assert metadata_fields.get_all("Requires-Dist")[0] == "numpy"
     for extra, names in (
         ("desk", {"aiohttp", "cryptography"}),
         ("gym", {"gymnasium"}),
         ("plot", {"matplotlib"}),
         ("cluster", {"dask", "distributed", "pyarrow"}),
+        ("lerobot", {"pyarrow", "imageio"}),
     ):
         required = [
             line
@@ -313,6 +315,20 @@ def test_a_sweep_names_the_packages_that_it_needs(environment):
 def test_a_plot_names_the_packages_that_it_needs(environment):
     result = environment.run("franka_plot", "robot", "127.0.61.8")
     assert result.returncode == 1 and f": {environment.install_command('plot')}." in result.stderr
+
+
+OF_EXTRAS = [
+    ("gym", "import pyfranka.gym"),
+    ("plot", "import pyfranka.plot"),
+    ("lerobot", "import pyfranka.lerobot as lerobot; lerobot.Dataset('x', 20)"),
+]
+
+
+@pytest.mark.parametrize(("extra", "code"), OF_EXTRAS)
+def test_a_module_names_the_extra_that_it_needs(environment, extra, code):
+    result = environment.run("python", "-c", code)
+    assert result.returncode == 1
+    assert result.stderr.endswith(f": {environment.install_command(extra)}.\n"), result.stderr
 
 
 def test_packages_are_named_if_the_file_of_the_wheel_has_gone(wheel, tmp_path):
@@ -551,6 +567,22 @@ def test_a_sweep_runs_with_its_extra(complete):
         print(pyarrow.parquet.read_table("cases.parquet")["result.ticks"].to_pylist())
     """
     assert complete.python(code) == "[100, 101, 102, 103]\n"
+
+
+@with_extras
+def test_an_episode_becomes_a_data_set_with_its_extra(complete):
+    code = """
+        import numpy
+        from pyfranka.lerobot import Dataset
+        pictures = numpy.random.default_rng(1).integers(0, 255, (10, 48, 64, 3), numpy.uint8)
+        with Dataset("episodes", 10) as dataset:
+            for picture in pictures:
+                dataset.add_frame({"action": numpy.zeros(3), "observation.images.picture": picture})
+            dataset.save_episode("look around")
+        video, = dataset.folder.rglob("*.mp4")
+        print(dataset.frames, video.stat().st_size > 1000)
+    """
+    assert complete.python(code).split() == ["10", "True"]
 
 
 @with_extras

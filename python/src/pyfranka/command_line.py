@@ -18,6 +18,8 @@ WITHOUT_WHEEL = {
     "gym": "./franka install extras in the workspace, and use .venv/bin/python3",
     "cluster": "./franka install extras in the workspace, and use .venv/bin/python3; "
     "or apt-get install ros-franka-sweep",
+    "lerobot": "./franka install extras in the workspace, and use .venv/bin/python3; "
+    "for pictures apt-get install ffmpeg",
 }
 
 
@@ -30,7 +32,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def install_command(extra: str) -> str:
-    """For messages: the command that installs the packages of an extra (desk, gym, plot, cluster).
+    """For messages: the command that installs the packages of an extra (desk, gym, plot, cluster, lerobot).
 
     The name pyfranka is not on PyPI, so `pip install pyfranka[gym]` finds nothing: the command names the file
     of the wheel, or the packages if the file has gone.
@@ -45,6 +47,14 @@ def install_command(extra: str) -> str:
     required = (line.replace('"', "'").partition(";") for line in wheel.requires or ())
     packages = [name.strip() for name, _, marker in required if f"extra == '{extra}'" in marker]
     return shlex.join(["pip", "install", *packages])
+
+
+def missing_package(what: str, package: str, extra: str) -> ModuleNotFoundError:
+    """The exception of a module (what) whose extra is not installed, with the command that installs it."""
+    advice = f"{what} needs the Python package {package}: {install_command(extra)}"
+    if _wheel() is None:
+        advice += f"; with the wheel pip install 'pyfranka-....whl[{extra}]'"
+    return ModuleNotFoundError(f"{advice}.", name=package)
 
 
 # The installed wheel that this module is of.

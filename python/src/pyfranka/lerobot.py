@@ -30,6 +30,7 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
+from pyfranka.command_line import missing_package
 from pyfranka.sim.arguments import path, text, whole
 
 __all__ = ["Dataset", "convert_recording", "main"]
@@ -57,11 +58,7 @@ def _pyarrow() -> Any:
         import pyarrow
         import pyarrow.parquet
     except ModuleNotFoundError:
-        raise ModuleNotFoundError(
-            "A data set of LeRobot needs the Python package pyarrow: pip install pyarrow; in the workspace "
-            "run ./franka install extras, and use .venv/bin/python3.",
-            name="pyarrow",
-        ) from None
+        raise missing_package("A data set of LeRobot", "pyarrow", "lerobot") from None
     return pyarrow
 
 
@@ -74,7 +71,8 @@ def _ffmpeg() -> str:
         program = imageio_ffmpeg.get_ffmpeg_exe()
     if program is None:
         raise RuntimeError(
-            "Pictures need the program ffmpeg: apt install ffmpeg, or pip install imageio-ffmpeg."
+            "Pictures need the program ffmpeg: apt-get install ffmpeg, or pip install imageio-ffmpeg, which "
+            "is in the wheel's extra lerobot."
         )
     return program
 

@@ -14,12 +14,9 @@ try:
 except ModuleNotFoundError as error:
     if not str(error.name).startswith("gymnasium"):
         raise
-    raise ModuleNotFoundError(
-        "pyfranka.gym needs the Python package gymnasium: install the wheel with its extra, "
-        "pip install 'pyfranka-....whl[gym]'; in the workspace run ./franka install extras, and use "
-        ".venv/bin/python3.",
-        name="gymnasium",
-    ) from None
+    from pyfranka.command_line import missing_package
+
+    raise missing_package("pyfranka.gym", "gymnasium", "gym") from None
 
 from .environment import Environment
 from .record_episodes import RecordEpisodes

@@ -18,11 +18,9 @@ try:
 except ModuleNotFoundError as error:
     if not str(error.name).startswith("matplotlib"):
         raise
-    raise ModuleNotFoundError(
-        "pyfranka.plot needs the Python package matplotlib: install python3-matplotlib, or the wheel with "
-        "its extra, pip install 'pyfranka-....whl[plot]'.",
-        name="matplotlib",
-    ) from None
+    from pyfranka.command_line import missing_package
+
+    raise missing_package("pyfranka.plot", "matplotlib", "plot") from None
 
 import pyfranka
 from pyfranka.plot.figure import plot, plot_abort
