@@ -104,8 +104,7 @@ void CommandChannel::requireOwnProcess() const {
   if (process_ != getpid()) {
     throw InvalidOperationException(
         "libfranka: This connection was made before the process was forked and belongs to the "
-        "other "
-        "process. Connect again in this one.");
+        "other process. Connect again in this one.");
   }
 }
 
