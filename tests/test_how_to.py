@@ -9,6 +9,7 @@ import xml.etree.ElementTree as ET
 from pathlib import Path
 
 import page_commands
+import page_output
 import pytest
 import yaml
 from fci_session import simulated
@@ -81,8 +82,8 @@ def test_control_unit_uses_the_own_tool(tmp_path):
     commands = page_commands.commands_of(HOW_TO / "own_tool.md")
     (command,) = [words for words in commands if words[:3] == ["rosrun", "xacro", "xacro"]]
     subprocess.run(command, cwd=tmp_path, check=True, timeout=60)
-    (program,) = blocks("own_tool", "python")
-    assert float(run(program, tmp_path)) == pytest.approx(0.3)
+    (example,) = page_output.examples("how_to/own_tool.md")
+    example.check(run(example.code, tmp_path))
 
 
 def test_the_rate_of_states_can_be_set(tmp_path):
