@@ -659,7 +659,7 @@ class Remote:
 
         >>> before = remote.time
         >>> remote.step(100)
-        >>> remote.time >= before + 0.1
+        >>> round(1000 * (remote.time - before)) >= 100
         True
         """
         ticks = _whole(ticks, "The number of ticks")
