@@ -418,6 +418,15 @@ reveal_type(sim.Panda().base)
 print([outcome.result["error"] for outcome in sweep(reach, ["left", "right"]) if outcome.ok])
 sim.Panda(bass=(0, 0, 0))
 """
+# What stubtest says of every module of pybind11, and what is there for a reason.
+NOT_IN_TYPES = (
+    "metaclass differs$|__pybind11_module_local_|__all__ is not present",
+    'stub does not have .args parameter "args"$',  # of classes that only the robot makes
+    r"^pyfranka\.(Array|Command) is not present at runtime$",  # names within the types
+    r"^pyfranka\.ModelKDL\.\w+ is not present at runtime$",  # it needs ROS
+    # libfranka's names with our docstrings, which pybind11-stubgen cannot read; pyfranka's types have them.
+    r"^_pyfranka\.\w+\.\w+ is inconsistent, stub is a staticmethod but runtime is not$",
+)
 
 
 def test_types_are_found_by_a_type_checker(environment, archive):
@@ -437,6 +446,32 @@ def test_types_are_found_by_a_type_checker(environment, archive):
         checked.stdout + checked.stderr
     )
     assert 'Revealed type is "_pyfranka.RobotMode"' in checked.stdout
+
+
+# One after the other: pyfranka gives the classes of _pyfranka its name.
+@pytest.mark.parametrize("package", ["_pyfranka", "pyfranka"])
+def test_types_and_what_is_imported_have_no_difference(environment, archive, tmp_path, package):
+    """By mypy's stubtest; modules of Python have their types in themselves."""
+    archive.extractall(tmp_path, [name for name in archive.namelist() if name.endswith((".py", ".pyi"))])
+    (tmp_path / "_pyfranka-stubs").rename(tmp_path / "_pyfranka")
+    settings = tmp_path / "mypy.ini"
+    settings.write_text("[mypy]\nignore_missing_imports = True\n[mypy-pyfranka.*]\nignore_errors = True\n")
+    installed = next((environment.folder / "venv" / "lib").glob("python3*/site-packages"))
+    variables = {name: value for name, value in os.environ.items() if name not in OF_A_WORKSPACE}
+    options = ["--concise", "--mypy-config-file", settings]
+    compared = subprocess.run(
+        [sys.executable, "-m", "mypy.stubtest", *options, package],
+        env={**variables, "PYTHONPATH": str(installed), "MYPYPATH": str(tmp_path)},
+        cwd=tmp_path,
+        text=True,
+        capture_output=True,
+        timeout=300,
+    )
+    modules = "|".join(path.stem for path in (tmp_path / "pyfranka").iterdir() if path.suffix != ".pyi")
+    lines = compared.stdout.splitlines()
+    found = [line for line in lines if not re.match(rf"pyfranka\.({modules})\b", line)]
+    assert any("metaclass" in line for line in found), compared.stdout + compared.stderr  # it has compared
+    assert [line for line in found if not any(re.search(each, line) for each in NOT_IN_TYPES)] == []
 
 
 def test_the_plugin_is_found_by_its_entry_point(environment):
