@@ -146,6 +146,30 @@ QUESTIONS = [
         ("gymnasium.make", "PickAndPlace"),
     ),
     Question(
+        "How do I record episodes for imitation learning?",
+        ("Tasks as environments of Gymnasium", "Export of episodes"),
+        "Export of episodes",
+        ("RecordEpisodes", "LeRobot", "[gym,lerobot]"),
+    ),
+    Question(
+        "How do I run many cases on all cores or on a cluster?",
+        ("Simulated robots in a Python program", "Sweeps"),
+        "Sweeps",
+        ("pyfranka.sweep", "0.0", "tcp://host:8786"),
+    ),
+    Question(
+        "Why does pip find nothing for pyfranka[gym], and what works?",
+        ("Simulated robots in a Python program", "Without ROS: the wheel"),
+        "Without ROS: the wheel",
+        ("alone finds nothing", ".whl[gym,plot]", "lerobot"),
+    ),
+    Question(
+        "What does the exit code of a program mean?",
+        ("The shell", "Exit codes"),
+        "Exit codes",
+        ("franka_info", "cannot be reached", "pyfranka-examples", "franka_control_node"),
+    ),
+    Question(
         "Does panda-python work with the simulated robot?",
         ("Other people's clients: panda-python and pylibfranka", "3. Move the Panda with panda-python"),
         "3. Move the Panda with panda-python",

@@ -5,8 +5,10 @@
 test_docs_names.py does this for topics, services, actions and parameters. The long form builds the site.
 """
 
+import re
 import subprocess
 import types
+import xml.etree.ElementTree as ElementTree
 
 import pytest
 from docsite import (
@@ -98,6 +100,18 @@ def test_public_names_of_cpp_have_a_comment():
     names = cpp_comments.public_names()
     assert {"franka_core::kFr3Limits", "franka_core::ArmLimits::dtau"} <= {each.name for each in names}
     assert not [f"{each.file}:{each.line}: {each.name}" for each in names if not each.described]
+
+
+def test_exceptions_in_comments_are_names_of_types():
+    """Otherwise the site, which makes links of them, cannot be built: '@throws Refused; when ...'."""
+    cpp_api.run_doxygen()
+    found = [
+        "".join(name.itertext())
+        for path in sorted(cpp_api.XML.glob("*.xml"))
+        for name in ElementTree.parse(path).iterfind(".//parameterlist[@kind='exception']//parametername")
+    ]
+    assert "RequestRefused" in found
+    assert [name for name in found if not re.fullmatch(r"[\w:]+", name)] == []
 
 
 def test_names_without_a_comment_are_found(tmp_path):

@@ -124,7 +124,7 @@ class SimulatedRobot {
   bool moving() const noexcept { return !std::holds_alternative<std::monostate>(input_); }
 
   /// Makes a request of the unit. @param what for the message: "The load"
-  /// @throws RequestRefused; guiding also where the unit would ignore it (user stop, brakes)
+  /// @throws RequestRefused also for guiding where the unit would ignore it (user stop, brakes)
   void request(const UnitRequest& request, const std::string& what);
   /// Starts the recovery from errors; it takes time. @throws RequestRefused
   void recover();
