@@ -16,6 +16,7 @@ from __future__ import annotations
 import base64
 import json
 import operator
+import os
 import re
 import socket
 import threading
@@ -148,7 +149,8 @@ class Remote:
 
     The robot serves eight clients at a time and executes their lines in the order of arrival. By itself each
     call is a connection of its own; while eight others are connected, it waits within its limit. As a context
-    manager a Remote keeps one connection, which saves time and keeps its place. Thread-safe.
+    manager a Remote keeps one connection, which saves time and keeps its place. Thread-safe. A forked
+    process, a copy and a pickle have connections of their own.
 
     >>> remote = pyfranka.sim.Remote("172.16.0.2")
     >>> remote.step(10)
@@ -160,9 +162,14 @@ class Remote:
         if not address or not isinstance(address, str):
             raise ValueError("Give the address of the robot, such as 127.0.0.1.")
         self.address, self.port, self.timeout = address, _whole(port, "The port"), _seconds(timeout)
+        if not 1 <= self.port <= 65535:
+            raise ValueError(f"The port is 1 to 65535, not {self.port}.")
         self._connection: _Connection | None = None
         self._held = False
-        self._lock = threading.RLock()
+        self._lock, self._process = threading.RLock(), os.getpid()
+
+    def __reduce__(self) -> tuple[type[Remote], tuple[str, int, float]]:
+        return type(self), (self.address, self.port, self.timeout)
 
     def __repr__(self) -> str:
         return f"Remote({self.address!r}, {self.port})"
@@ -197,8 +204,14 @@ class Remote:
         >>> float(remote.send("time")) <= remote.time
         True
         """
+        if not isinstance(line, str):
+            raise TypeError(f"A line is a text, not {line!r}.")
         if "\n" in line:
             raise ValueError("Send one line at a time, without its end.")
+        try:
+            line.encode()
+        except UnicodeEncodeError:
+            raise ValueError(f"The line {line!r} cannot be sent as UTF-8.") from None
         limit = self.timeout if timeout is None else _seconds(timeout)
         with self._locked(limit):
             answer = self._exchange(line, time.monotonic() + limit, limit)
@@ -340,6 +353,8 @@ class Remote:
 
         >>> remote.guiding_mode("free")
         """
+        if not isinstance(axes, Iterable):
+            raise TypeError(f"The axes are a list, each True or False, not {axes!r}.")
         self.send(" ".join(["guiding_mode", _word(mode, "The mode"), *map(_switch, axes)]), timeout)
 
     def navigation(self, user: typing.Literal["desk", "robot"], timeout: float | None = None) -> None:
@@ -663,7 +678,9 @@ class Remote:
         True
         """
         ticks = _whole(ticks, "The number of ticks")
-        self.send(f"step {ticks}", self.timeout + 1e-3 * max(0, ticks) if timeout is None else timeout)
+        # The robot refuses more than that.
+        duration = 1e-3 * min(max(0, ticks), 1 << 32)
+        self.send(f"step {ticks}", self.timeout + duration if timeout is None else timeout)
 
     def wait(
         self, condition: Callable[[RemoteState], bool] | None = None, timeout: float | None = None
@@ -676,6 +693,8 @@ class Remote:
         >>> remote.wait().mode
         'Idle'
         """
+        if condition is not None and not callable(condition):
+            raise TypeError(f"The condition is a function of a RemoteState, not {condition!r}.")
         limit = self.timeout if timeout is None else _seconds(timeout)
         deadline = time.monotonic() + limit
         least = min(limit, MIN_ANSWER_TIME)
@@ -717,12 +736,21 @@ class Remote:
 
     @contextmanager
     def _locked(self, limit: float) -> Iterator[None]:
+        if self._process != os.getpid():
+            self._leave_other_process()
         if not self._lock.acquire(timeout=limit):
             raise TimeoutError(f"Another thread has used this Remote for more than {limit:g} s.")
         try:
             yield
         finally:
             self._lock.release()
+
+    def _leave_other_process(self) -> None:
+        """After a fork the connection belongs to the other process, in which a thread may hold the lock."""
+        self._lock, self._process = threading.RLock(), os.getpid()
+        connection, self._connection = self._connection, None
+        if connection:
+            connection.close()  # this process's copy; the other one's stays open
 
     def _listens(self, deadline: float) -> bool:
         try:
@@ -765,6 +793,10 @@ class _Connection:
             raise ConnectionError(
                 f"There is no control interface at {self._place} ({error.strerror or error}). Start "
                 "franka_sim there, without --control-port 0."
+            ) from None
+        except ValueError as error:  # of an address that cannot be one
+            raise ConnectionError(
+                f"There is no control interface at {self._place!r}, which is not an address ({error})."
             ) from None
 
     def close(self) -> None:
@@ -815,7 +847,8 @@ def _left(deadline: float) -> float:
 
 
 def _seconds(limit: float) -> float:
-    if not isinstance(limit, (int, float, numpy.number)) or not 0.0 < limit < float(threading.TIMEOUT_MAX):
+    real = isinstance(limit, (int, float, numpy.integer, numpy.floating))
+    if not real or not 0.0 < limit < float(threading.TIMEOUT_MAX):
         raise ValueError(f"A time limit is a positive number of seconds, not {limit!r}.")
     return float(limit)
 
@@ -846,18 +879,23 @@ def _numbers(values: ArrayLike, count: int, what: str) -> Array:
     except ValueError:  # rows of different lengths
         real = False
     if not real:
-        raise ValueError(f"{what} has {count} numbers, which {values!r} has not.")
+        raise ValueError(f"{what} must have {count} numbers, not {values!r}.")
     if array.size != count or array.ndim != 1:
-        raise ValueError(f"{what} has {count} numbers, not {array.size if array.ndim == 1 else array.shape}.")
+        found = array.size if array.ndim == 1 else array.shape
+        raise ValueError(f"{what} must have {count} numbers, not {found}.")
     return array.astype(float)
 
 
 def _matrix(values: ArrayLike, rows: int, what: str) -> Array:
     """The numbers, column by column, of a square matrix or of such a list."""
-    shape = numpy.shape(values)
+    try:
+        shape: tuple[int, ...] | None = numpy.shape(values)
+    except ValueError:  # rows of different lengths
+        shape = None
     if shape not in ((rows * rows,), (rows, rows)):
         raise ValueError(
-            f"{what} is {rows}x{rows}, or {rows * rows} numbers column by column, not of shape {shape}."
+            f"{what} is {rows}x{rows}, or {rows * rows} numbers column by column, not "
+            f"{repr(values) if shape is None else f'of shape {shape}'}."
         )
     return _numbers(numpy.ravel(values, order="F"), rows * rows, what)
 
@@ -868,6 +906,8 @@ def _line(name: str, *numbers: Iterable[float]) -> str:
 
 def _number(value: float, name: str) -> str:
     try:
+        if isinstance(value, (str, bytes, bytearray)):  # from which Python makes a number, too
+            raise TypeError
         return repr(float(value))  # the shortest text that reads as the same number
-    except (TypeError, ValueError):
+    except (TypeError, ValueError, OverflowError):
         raise ValueError(f"'{name}' takes numbers, not {value!r}.") from None
