@@ -7,6 +7,7 @@ import json
 import os
 import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import gymnasium
@@ -303,6 +304,19 @@ REFUSED = {
     "'a' has the shape [1] there and None here": ({"a": 1.0}, {}),
     "by names other than timestamp": ({"index": 1},),
     "'a' has the shape () and the type <U4": ({"a": "text"},),
+    "'a' must be finite numbers within float32, not [nan]": ({"a": [np.nan]},),
+    "within float32, not 1e+300": ({"a": 1e300},),
+    "within int64, not ": ({"a": np.uint64(2**63)},),
+    "'a' has the shape (0,)": ({"a": []},),
+    "by names other than timestamp, frame": ({"a": [[1], [1, 2]]},),
+    "'a' has int64 there and float32 here": ({"a": 1}, {"a": 1.5}),
+    "'a' has float32 there and bool here": ({"a": 1.0}, {"a": True}),
+    "without '/', not 'a/b'": ({"a/b": 1.0},),
+    "without '/', not '../../a'": ({"../../a": np.zeros((4, 4, 3), dtype=np.uint8)},),
+    "without '/', not ''": ({"": 1.0},),
+    "must be a text, not 5": ({5: 1.0},),
+    "A frame is a dict of values by the names of features, not [1]": ([1],),
+    "A frame is a dict of values by the names of features, not {}": ({},),
     "Width and height of a video are even": ({"a": np.zeros((3, 4, 3), dtype=np.uint8)},),
     "Pictures need the program ffmpeg": ({"a": np.zeros((4, 4, 3), dtype=np.uint8)},),
 }
@@ -314,10 +328,41 @@ def test_what_cannot_be_written_is_refused_with_a_sentence(sentence, folder, mon
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     *frames, last = REFUSED[sentence] or [None]
     frames, fps = ([*frames], last) if last == 0 else ([*frames, last], 20)
-    with pytest.raises((ValueError, RuntimeError)) as refused:
+    with pytest.raises((ValueError, TypeError, RuntimeError)) as refused:
         with_frames(folder, *[frame for frame in frames if frame is not None], fps=fps)
     assert sentence in str(refused.value)
     assert not list(folder.rglob("*.parquet"))
+
+
+@pytest.mark.parametrize(
+    ("names", "sentence"),
+    [
+        ({"a": ["x"]}, "'a' has 2 numbers and 1 names"),
+        ({"a": "xy"}, "The names of 'a' must be a list of texts, not 'xy'"),
+        ({"a": [1, 2]}, "A name of 'a' must be a text, not 1"),
+        (5, "names must be a dict of lists of texts, not 5"),
+    ],
+)
+def test_names_that_do_not_fit_are_refused(names, sentence, folder):
+    with pytest.raises((ValueError, TypeError)) as refused:
+        Dataset(folder, 20, names=names).add_frame({"a": [1.0, 2.0]})
+    assert sentence in str(refused.value)
+
+
+def test_a_refused_frame_leaves_the_others(folder):
+    with Dataset(folder, 20) as dataset:
+        for value in (1.5, 2, "x", 3.5):
+            with suppress(ValueError):
+                dataset.add_frame({"a": value})
+        dataset.save_episode("x")
+    assert values(episode(folder, 0), "a").tolist() == [1.5, 2.0, 3.5]
+    assert str(episode(folder, 0).schema.field("a").type) == "float"
+
+
+def test_a_file_is_refused_as_a_folder(folder):
+    folder.write_text("")
+    with pytest.raises(FileExistsError, match="name another folder"):
+        Dataset(folder, 10)
 
 
 def test_tasks_are_numbered_and_a_full_folder_is_refused(folder):
