@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bad input of the functions of pyfranka's client, FrankaSim and plots: a sentence, and nothing half done."""
 
+import copy
 import math
 import os
 import pickle
@@ -470,3 +471,9 @@ def test_a_forked_process_can_neither_use_nor_end_a_vacuum_gripper_of_the_other(
 def test_a_snapshot_cannot_be_pickled_and_says_what_to_do():
     with pyfranka.sim.Simulation() as sim, pytest.raises(TypeError, match="restore it in the process"):
         pickle.dumps(sim.snapshot())
+
+
+@pytest.mark.parametrize("copies", [pickle.dumps, copy.copy, copy.deepcopy])
+def test_a_simulation_cannot_be_pickled_or_copied_and_says_what_to_do(copies):
+    with pyfranka.sim.Simulation() as sim, pytest.raises(TypeError, match="make one with the same world"):
+        copies(sim)
