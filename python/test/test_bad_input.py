@@ -10,7 +10,7 @@ import numpy as np
 import pyfranka.gym
 import pyfranka.sim
 import pytest
-from pyfranka.sim import FR3, KINDS, Gripper, Panda, Remote, SimulatedRobot, Simulation, SimulationBatch
+from pyfranka.sim import FR3, KINDS, Gripper, Panda, SimulatedRobot, Simulation, SimulationBatch
 from sentences import ERRORS, unlike_ours
 from waiting import wait_for
 
@@ -622,77 +622,3 @@ def test_while_another_thread_steps_each_call_is_refused(sim, name):
         ended.set()
         worker.join()
     sim.step()
-
-
-# ---- the control interface ---------------------------------------------------------------------------------
-
-REMOTE = {
-    "__init__": {"Give the address": lambda x: Remote(""), "The port is a whole": lambda x: Remote("a", 1.5)},
-    "send": {"one line at a time": lambda x: x.send("state\nquit")},
-    "user_stop": {"Give True or False, not 'off'": lambda x: x.user_stop("off")},
-    "guiding": {"Give True or False, not 1": lambda x: x.guiding(1)},
-    "brakes": {"Give True or False": lambda x: x.brakes("shut")},
-    "fci": {"Give True or False": lambda x: x.fci(None)},
-    "joints": {"Give True or False": lambda x: x.joints("locked")},
-    "operating_mode": {"": lambda x: x.operating_mode("party")},
-    "input": {"": lambda x: x.input("x99", True)},
-    "set_input": {"": lambda x: x.set_input("x99", True)},
-    "button": {"": lambda x: x.button("star", True)},
-    "guiding_mode": {"": lambda x: x.guiding_mode("wild")},
-    "navigation": {"": lambda x: x.navigation("cat")},
-    "self_test": {"": lambda x: x.self_test(NAN)},
-    "acknowledge": {"": lambda x: x.acknowledge("nothing")},
-    "inject": {"": lambda x: x.inject("nothing", True)},
-    "move": {"7 numbers": lambda x: x.move([1, 2])},
-    "end_effector": {"": lambda x: x.end_effector(NAN, (0, 0, 0), [0] * 9, [0] * 16)},
-    "end_effector_power": {"Give True or False": lambda x: x.end_effector_power(3)},
-    "power": {"Give True or False": lambda x: x.power("on")},
-    "timing": {"": lambda x: x.timing("brakes", NAN)},
-    "load": {"": lambda x: x.load(-1.0)},
-    "wall": {"": lambda x: x.wall(1.5, (0, 0, 0), (1, 1, 1))},
-    "remove_wall": {"whole number": lambda x: x.remove_wall("a")},
-    "part": {"Give True or False": lambda x: x.part("yes")},
-    "pump": {"": lambda x: x.pump(NAN)},
-    "hand_move": {"": lambda x: x.hand_move(NAN, 0.1)},
-    "hand_grasp": {"": lambda x: x.hand_grasp(0.03, NAN, 10)},
-    "loss": {"": lambda x: x.loss(2.0)},
-    "lose": {"whole number": lambda x: x.lose("x")},
-    "delay": {"whole number, not 1.5": lambda x: x.delay(1.5)},
-    "push": {"one word, not 'a b'": lambda x: x.push("a b", (0, 0, 1), 1)},
-    "place": {
-        "The position has 3 numbers": lambda x: x.place("stone", "high"),
-        "The orientation has 4 numbers": lambda x: x.place("stone", (0, 0, 1), (1, 0, 0)),
-    },
-    "state": {"positive number of seconds": lambda x: x.state(timeout=NAN)},
-    "where": {"one word": lambda x: x.where("stone\nquit")},
-    "mesh": {"": lambda x: x.mesh("nothing")},
-    "step": {"": lambda x: x.step(-1)},
-    "wait": {"positive number of seconds": lambda x: x.wait(timeout=0)},
-}
-
-
-def test_bad_input_of_the_control_interface(served, name):
-    remote, wrong = served[name].remote, []
-    takes = {
-        function
-        for function in with_arguments(Remote)
-        if set(inspect.signature(getattr(Remote, function)).parameters) - {"self", "timeout"}
-    }
-    assert set(REMOTE) >= takes
-    for function in with_arguments(Remote) - {"__init__"}:
-        if "timeout" in inspect.signature(getattr(Remote, function)).parameters and function not in takes:
-            REMOTE.setdefault(
-                function,
-                {"positive number of seconds": lambda x, f=function: getattr(x, f)(timeout="long")},
-            )
-    before = remote.state_hash(), remote.time
-    for function, sentences in REMOTE.items():
-        for part, call in sentences.items():
-            try:
-                call(remote)
-                wrong.append(f"{function}: not refused")
-            except (ValueError, TypeError, RuntimeError) as error:
-                if part not in str(error) or unlike_ours(str(error)):
-                    wrong.append(f"{function}: {type(error)} {error}")
-    assert not wrong, "\n".join(wrong)
-    assert (remote.state_hash(), remote.time) == before

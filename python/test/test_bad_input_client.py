@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Bad input of the functions of pyfranka's client, FrankaSim and plots: a sentence, and nothing half done."""
 
+import copy
 import math
 import os
 import pickle
@@ -431,6 +432,48 @@ def test_a_forked_process_can_neither_use_nor_end_the_connections_of_the_other(n
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+VACUUM_AFTER_FORK = {
+    "VacuumGripper": {
+        "before the process was forked": lambda x: x.read_once(),
+        "Connect again": lambda x: x.vacuum(5, timedelta(seconds=1)),
+        "belongs to the other process": lambda x: x.drop_off(timedelta(seconds=1)),
+        "Connect again in this one": lambda x: x.stop(),
+    }
+}
+VACUUM_IN_FORKED_PROCESS = """
+import os, sys
+sys.path[:0] = {path!r}
+import pyfranka
+from test_bad_input_client import VACUUM_AFTER_FORK, faults_of
+
+gripper = pyfranka.VacuumGripper({address!r})
+child = os.fork()
+if child == 0:
+    wrong = faults_of(VACUUM_AFTER_FORK, gripper)
+    print("\\n".join(wrong), flush=True)
+    del gripper  # as at the end of the interpreter
+    os._exit(bool(wrong))
+ended = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
+assert not gripper.read_once().part_present
+gripper.stop()
+sys.exit(ended)
+"""
+
+
+def test_a_forked_process_can_neither_use_nor_end_a_vacuum_gripper_of_the_other():
+    path = [os.path.dirname(__file__), os.path.dirname(sentences.__file__)]
+    with FrankaSim(Panda(hand="vacuum")) as server:
+        code = VACUUM_IN_FORKED_PROCESS.format(path=path, address=server.robot.address)
+        done = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True, timeout=120)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def test_a_snapshot_cannot_be_pickled_and_says_what_to_do():
     with pyfranka.sim.Simulation() as sim, pytest.raises(TypeError, match="restore it in the process"):
         pickle.dumps(sim.snapshot())
+
+
+@pytest.mark.parametrize("copies", [pickle.dumps, copy.copy, copy.deepcopy])
+def test_a_simulation_cannot_be_pickled_or_copied_and_says_what_to_do(copies):
+    with pyfranka.sim.Simulation() as sim, pytest.raises(TypeError, match="make one with the same world"):
+        copies(sim)

@@ -5,7 +5,9 @@
 import errno
 import json
 import os
+import subprocess
 import sys
+from contextlib import suppress
 from pathlib import Path
 
 import gymnasium
@@ -23,6 +25,53 @@ from pathlib import Path
 file = Path(sys.argv[-1])
 file.write_bytes(sys.stdin.buffer.read())
 file.with_suffix(".txt").write_text(" ".join(sys.argv))
+"""
+TOP = Path(__file__).resolve().parents[2]
+# The last version that reads format v2.1, without its many dependencies that a reader does not import.
+LEROBOT = ["lerobot==0.3.3", "torchvision==0.22.1"]
+IMPORTED = [
+    "torch==2.13.0",
+    "av==15.1.0",
+    "datasets==3.6.0",
+    "huggingface-hub==0.36.0",
+    "imageio-ffmpeg==0.6.0",
+    "jsonlines==4.0.0",
+    "numpy==2.3.5",
+    "pillow==13.0.0",
+]
+READER = """
+import json, sys
+import torch
+# Only the operator's name: torchvision's binary is of another torch, and is not needed here.
+library = torch.library.Library("torchvision", "FRAGMENT")
+library.define("nms(Tensor dets, Tensor scores, float iou_threshold) -> Tensor")
+from lerobot.datasets.lerobot_dataset import LeRobotDataset
+
+options = {"root": sys.argv[1], "video_backend": "pyav", **json.loads(sys.argv[2])}
+data = LeRobotDataset("someone/set", **options)
+frames = [data[i] for i in range(len(data))]
+read = {
+    "format": str(data.meta._version),
+    "fps": data.fps,
+    "robot": data.meta.robot_type,
+    "episodes": data.num_episodes,
+    "frames": data.num_frames,
+    "ends": data.episode_data_index["to"].tolist(),
+    "features": {name: list(each["shape"]) for name, each in data.features.items()},
+    "names": data.meta.names,
+    "tasks": [frame["task"] for frame in frames],
+    "mean": {name: each["mean"].tolist() for name, each in data.meta.stats.items()},
+    "values": {
+        name: [frame[name].tolist() for frame in frames]
+        for name in frames[0] if name != "task"
+    },
+    "batch": {
+        name: list(value.shape)
+        for name, value in next(iter(torch.utils.data.DataLoader(data, batch_size=3))).items()
+        if name != "task"
+    },
+}
+print(json.dumps(read))
 """
 OWN = {"timestamp": "float", "frame_index": "int64", "episode_index": "int64", "index": "int64"}
 OWN["task_index"] = "int64"
@@ -255,6 +304,19 @@ REFUSED = {
     "'a' has the shape [1] there and None here": ({"a": 1.0}, {}),
     "by names other than timestamp": ({"index": 1},),
     "'a' has the shape () and the type <U4": ({"a": "text"},),
+    "'a' must be finite numbers within float32, not [nan]": ({"a": [np.nan]},),
+    "within float32, not 1e+300": ({"a": 1e300},),
+    "within int64, not ": ({"a": np.uint64(2**63)},),
+    "'a' has the shape (0,)": ({"a": []},),
+    "by names other than timestamp, frame": ({"a": [[1], [1, 2]]},),
+    "'a' has int64 there and float32 here": ({"a": 1}, {"a": 1.5}),
+    "'a' has float32 there and bool here": ({"a": 1.0}, {"a": True}),
+    "without '/', not 'a/b'": ({"a/b": 1.0},),
+    "without '/', not '../../a'": ({"../../a": np.zeros((4, 4, 3), dtype=np.uint8)},),
+    "without '/', not ''": ({"": 1.0},),
+    "must be a text, not 5": ({5: 1.0},),
+    "A frame is a dict of values by the names of features, not [1]": ([1],),
+    "A frame is a dict of values by the names of features, not {}": ({},),
     "Width and height of a video are even": ({"a": np.zeros((3, 4, 3), dtype=np.uint8)},),
     "Pictures need the program ffmpeg": ({"a": np.zeros((4, 4, 3), dtype=np.uint8)},),
 }
@@ -266,10 +328,41 @@ def test_what_cannot_be_written_is_refused_with_a_sentence(sentence, folder, mon
     monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
     *frames, last = REFUSED[sentence] or [None]
     frames, fps = ([*frames], last) if last == 0 else ([*frames, last], 20)
-    with pytest.raises((ValueError, RuntimeError)) as refused:
+    with pytest.raises((ValueError, TypeError, RuntimeError)) as refused:
         with_frames(folder, *[frame for frame in frames if frame is not None], fps=fps)
     assert sentence in str(refused.value)
     assert not list(folder.rglob("*.parquet"))
+
+
+@pytest.mark.parametrize(
+    ("names", "sentence"),
+    [
+        ({"a": ["x"]}, "'a' has 2 numbers and 1 names"),
+        ({"a": "xy"}, "The names of 'a' must be a list of texts, not 'xy'"),
+        ({"a": [1, 2]}, "A name of 'a' must be a text, not 1"),
+        (5, "names must be a dict of lists of texts, not 5"),
+    ],
+)
+def test_names_that_do_not_fit_are_refused(names, sentence, folder):
+    with pytest.raises((ValueError, TypeError)) as refused:
+        Dataset(folder, 20, names=names).add_frame({"a": [1.0, 2.0]})
+    assert sentence in str(refused.value)
+
+
+def test_a_refused_frame_leaves_the_others(folder):
+    with Dataset(folder, 20) as dataset:
+        for value in (1.5, 2, "x", 3.5):
+            with suppress(ValueError):
+                dataset.add_frame({"a": value})
+        dataset.save_episode("x")
+    assert values(episode(folder, 0), "a").tolist() == [1.5, 2.0, 3.5]
+    assert str(episode(folder, 0).schema.field("a").type) == "float"
+
+
+def test_a_file_is_refused_as_a_folder(folder):
+    folder.write_text("")
+    with pytest.raises(FileExistsError, match="name another folder"):
+        Dataset(folder, 10)
 
 
 def test_tasks_are_numbered_and_a_full_folder_is_refused(folder):
@@ -281,3 +374,87 @@ def test_tasks_are_numbered_and_a_full_folder_is_refused(folder):
     assert [line["task"] for line in lines(folder, "tasks")] == ["take", "put"]
     with pytest.raises(FileExistsError, match="name another folder"):
         Dataset(folder, 10)
+
+
+@pytest.fixture(scope="module")
+def lerobot_python():
+    """The interpreter of an environment with lerobot and what its reader imports. It is kept."""
+    folder = TOP / "out" / "lerobot"
+    python, stamp, wanted = folder / "bin" / "python", folder / "installed", " ".join([*LEROBOT, *IMPORTED])
+    if not (stamp.exists() and stamp.read_text() == wanted):
+        subprocess.run(["/usr/bin/python3", "-m", "venv", "--clear", folder], check=True, timeout=300)
+        pip = [python, "-m", "pip", "install", "--quiet", "--disable-pip-version-check"]
+        for words in (IMPORTED, ["--no-deps", *LEROBOT]):
+            result = subprocess.run([*pip, *words], capture_output=True, text=True, timeout=3000)
+            assert result.returncode == 0, result.stderr
+        stamp.write_text(wanted)
+    return python
+
+
+@pytest.fixture
+def genuine_ffmpeg(lerobot_python, tmp_path, monkeypatch):
+    program = "import imageio_ffmpeg; print(imageio_ffmpeg.get_ffmpeg_exe())"
+    file = subprocess.check_output([lerobot_python, "-I", "-c", program], text=True, timeout=60).strip()
+    (tmp_path / "ffmpeg").symlink_to(file)
+    monkeypatch.setenv("PATH", str(tmp_path), prepend=os.pathsep)
+    monkeypatch.setitem(sys.modules, "imageio_ffmpeg", None)
+
+
+def read_by_lerobot(python, folder, **options):
+    """What LeRobotDataset finds in a folder, without a network."""
+    offline = {"HF_HUB_OFFLINE": "1", "HF_HOME": str(folder.parent / "hub"), "PATH": os.environ["PATH"]}
+    command = [python, "-I", "-c", READER, folder, json.dumps(options)]
+    ran = subprocess.run(command, capture_output=True, text=True, timeout=300, env=offline)
+    assert ran.returncode == 0, ran.stderr[-3000:]
+    return json.loads(ran.stdout.splitlines()[-1])
+
+
+@pytest.mark.long_form("lerobot brings torch")
+def test_lerobot_reads_episodes_of_an_environment(lerobot_python, genuine_ffmpeg, folder):
+    options = {"observation": "state+pictures", "size": (64, 48), "frequency": 25, "robot": "fr3"}
+    inner = gymnasium.make("pyfranka/Push-v0", max_episode_steps=4, **options)
+    env = pyfranka.gym.RecordEpisodes(inner, folder, "push the cube")
+    steps = [*play(env, 1), *play(env, 2)]
+    env.close()
+
+    delta = {"action": [0.0, 1 / 25]}
+    read = read_by_lerobot(lerobot_python, folder, delta_timestamps=delta)
+    expected = {"format": "2.1", "fps": 25, "robot": "fr3", "episodes": 2, "frames": 8, "ends": [4, 8]}
+    assert {name: read[name] for name in expected} == expected
+    info = info_of(folder)["features"]
+    assert read["features"] == {name: each["shape"] for name, each in info.items()}
+    assert read["names"]["observation.state"][0] == "fr3.q.0"
+    assert read["tasks"] == ["push the cube"] * 8
+    found = {name: np.array(each) for name, each in read["values"].items()}
+    actions = np.array([action for _, action, _ in steps])
+    following = actions[[1, 2, 3, 3, 5, 6, 7, 7]]  # an episode's last one is repeated
+    assert (found["action"] == np.stack([actions, following], axis=1)).all()
+    assert found["action_is_pad"].tolist() == [[False, i % 4 == 3] for i in range(8)]
+    assert (found["observation.state"] == [seen["observation"] for seen, *_ in steps]).all()
+    assert found["next.reward"] == pytest.approx([reward for *_, reward in steps])
+    assert found["next.done"].tolist() == [False, False, False, True] * 2
+    pictures = np.stack([seen["picture"] for seen, *_ in steps]).transpose(0, 3, 1, 2) / 255
+    decoded = found["observation.images.picture"]
+    assert decoded.shape == (8, 3, 48, 64)
+    assert np.abs(decoded - pictures).mean(axis=(1, 2, 3)).max() < 0.03  # lossy
+    colors = np.array(read["mean"]["observation.images.picture"])
+    assert colors.ravel() == pytest.approx(pictures.mean(axis=(0, 2, 3)))
+    assert read["batch"]["observation.images.picture"] == [3, 3, 48, 64]
+    assert read["batch"]["observation.state"] == [3, 33]
+
+
+@pytest.mark.long_form("lerobot brings torch")
+def test_lerobot_reads_recordings_and_numbers(lerobot_python, folder, tmp_path):
+    rows = recording(tmp_path / "one.csv", 0.2)
+    assert main([str(folder), str(tmp_path / "one.csv"), "--task", "wave"]) == 0
+    read = read_by_lerobot(lerobot_python, folder)
+    assert (read["episodes"], read["frames"], read["tasks"]) == (1, 10, ["wave"] * 10)
+    assert read["names"]["action"] == [f"dq_d{joint}" for joint in range(1, 8)]
+    assert read["values"]["observation.state"][0] == pytest.approx(rows[0, 1:15])
+
+    env = pyfranka.gym.RecordEpisodes(gymnasium.make("CartPole-v1"), tmp_path / "cart")
+    seen = play(env, 1)
+    env.close()
+    read = read_by_lerobot(lerobot_python, tmp_path / "cart")
+    assert read["values"]["action"] == [action for _, action, _ in seen]
+    assert (read["frames"], read["tasks"][0]) == (len(seen), "CartPole-v1")

@@ -62,10 +62,11 @@ def remote(robot):
 
 @pytest.fixture
 def clock(monkeypatch):
-    """The clock of pyfranka.remote: only its own pauses advance it, by 30 s each."""
+    """The clock of a Remote: only its own pauses advance it, by 30 s each."""
     clock = SimpleNamespace(pauses=[])
     clock.monotonic, clock.sleep = lambda: 30.0 * len(clock.pauses), clock.pauses.append
-    monkeypatch.setattr("pyfranka.remote.time", clock)
+    for module in ("pyfranka.remote", "pyfranka._remote_connection"):
+        monkeypatch.setattr(f"{module}.time", clock)
     monkeypatch.setattr("pyfranka.remote.MIN_ANSWER_TIME", 30.0)
     monkeypatch.setattr("pyfranka.remote.MIN_TIME_OF_RETRY", 30.0)
     return clock

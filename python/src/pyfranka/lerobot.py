@@ -135,6 +135,31 @@ def _statistics(values: Values) -> dict[str, Any]:
     return {**result, "count": [len(rows)]}
 
 
+def _feature_name(name: Any) -> str:
+    """A name that LeRobot takes, and that is a folder's of videos."""
+    if (
+        not text(name, "The name of a feature")
+        or not name.isprintable()
+        or "/" in name
+        or name in (".", "..")
+    ):
+        raise ValueError(
+            f"The name of a feature is a text such as observation.state, without '/', not {name!r}."
+        )
+    return str(name)
+
+
+def _checked_names(names: Any) -> dict[str, list[str]]:
+    if not isinstance(names, Mapping):
+        raise TypeError(f"names must be a dict of lists of texts, not {names!r}.")
+    result = {}
+    for feature, each in names.items():
+        if isinstance(each, str) or not isinstance(each, Sequence):
+            raise TypeError(f"The names of '{feature}' must be a list of texts, not {each!r}.")
+        result[feature] = [text(name, f"A name of '{feature}'") for name in each]
+    return result
+
+
 class Dataset:
     """Writes episodes, frame by frame, into a new folder. The first frame says what features there are.
 
@@ -158,10 +183,10 @@ class Dataset:
         self.folder = Path(path(folder, "folder"))
         self.fps, self._robot = whole(fps, "fps", 1, 1000), text(robot_type, "robot_type")
         self._arrow = _pyarrow()
-        if self.folder.exists() and any(self.folder.iterdir()):
+        self._names = _checked_names(names or {})
+        if self.folder.exists() and (not self.folder.is_dir() or any(self.folder.iterdir())):
             raise FileExistsError(f"There is something in {self.folder} already; name another folder.")
         (self.folder / "meta").mkdir(parents=True, exist_ok=True)
-        self._names = dict(names or {})
         self._features: dict[str, dict[str, Any]] = {}
         self._tasks: list[str] = []
         self.episodes, self.frames = 0, 0  # that are saved
@@ -181,15 +206,15 @@ class Dataset:
         return bool(self._features[name]["dtype"] == "video")
 
     def add_frame(self, frame: Mapping[str, Any]) -> None:
-        """Adds what belongs to one moment: numbers, vectors, and pictures (height x width x 3, uint8), by the
-        names of features such as observation.state, observation.images.wrist and action.
+        """Adds what belongs to one moment: finite numbers, vectors of such, and pictures (height x width x 3,
+        uint8), by the names of features such as observation.state, observation.images.wrist and action.
 
         >>> dataset = pyfranka.lerobot.Dataset(folder / "data", fps=20)
         >>> dataset.add_frame({"observation.state": numpy.zeros(7), "action": numpy.zeros(7)})
         """
-        values = {
-            text(name, "The name of a feature"): self._checked(name, value) for name, value in frame.items()
-        }
+        if not isinstance(frame, Mapping) or not (frame or self._features):
+            raise TypeError(f"A frame is a dict of values by the names of features, not {frame!r}.")
+        values = {_feature_name(name): self._checked(name, value) for name, value in frame.items()}
         if not self._features:
             self._features = {name: self._feature(name, value) for name, value in values.items()}
         for name in sorted({*values, *self._features}):
@@ -200,6 +225,8 @@ class Dataset:
                     f"All frames have the features of the first one; '{name}' has the shape {expected} there "
                     f"and {None if have is None else list(have.shape)} here."
                 )
+            if not self._is_video(name):
+                values[name] = self._as_in_first_frame(name, have)
         for name in values:
             if self._is_video(name):
                 if name not in self._videos:
@@ -208,25 +235,43 @@ class Dataset:
                 self._videos[name].add(values[name])
         self._rows.append({name: value for name, value in values.items() if not self._is_video(name)})
 
+    def _as_in_first_frame(self, name: str, have: Values) -> Values:
+        dtype = numpy.dtype(self._features[name]["dtype"])
+        if dtype.kind != have.dtype.kind and (dtype.kind, have.dtype.kind) != ("f", "i"):
+            raise ValueError(
+                f"All frames have the types of the first one; '{name}' has {dtype} there and {have.dtype} "
+                "here."
+            )
+        return have.astype(dtype)
+
     def _checked(self, name: str, value: Any) -> Values:
-        values = numpy.asarray(value)
+        try:
+            values = numpy.asarray(value)
+        except ValueError:  # rows of different lengths
+            values = numpy.asarray(None)
         if values.ndim == 3 and values.dtype == numpy.uint8 and values.shape[2] == 3:
             if values.shape[0] % 2 or values.shape[1] % 2:
                 raise ValueError(
                     f"Width and height of a video are even; '{name}' has the shape {values.shape}."
                 )
             return values
-        if name in OWN or values.dtype.kind not in DTYPES or values.ndim > 1:
+        if name in OWN or values.dtype.kind not in DTYPES or values.ndim > 1 or not values.size:
             raise ValueError(
                 f"A frame has numbers, vectors and pictures (height x width x 3, uint8) by names other than "
                 f"{', '.join(OWN)}; '{name}' has the shape {values.shape} and the type {values.dtype}."
             )
-        result: Values = numpy.atleast_1d(values).astype(DTYPES[values.dtype.kind])
+        with numpy.errstate(over="ignore"):
+            result: Values = numpy.atleast_1d(values).astype(DTYPES[values.dtype.kind])
+        # Statistics of other numbers would be useless.
+        if not numpy.isfinite(result).all() or (values.dtype.kind == "u" and (result < 0).any()):
+            raise ValueError(f"'{name}' must be finite numbers within {result.dtype}, not {value!r}.")
         return result
 
     def _feature(self, name: str, value: Values) -> dict[str, Any]:
         if value.ndim == 1:
-            names = list(self._names.get(name, [])) or None
+            names = self._names.get(name) or None
+            if names is not None and len(names) != len(value):
+                raise ValueError(f"'{name}' has {len(value)} numbers and {len(names)} names.")
             return {"dtype": value.dtype.name, "shape": list(value.shape), "names": names}
         height, width, channels = value.shape
         video: dict[str, Any] = {

@@ -15,7 +15,7 @@ from __future__ import annotations
 
 import base64
 import json
-import operator
+import os
 import re
 import socket
 import threading
@@ -28,7 +28,9 @@ from dataclasses import dataclass
 import numpy
 from numpy.typing import ArrayLike, NDArray
 
+from pyfranka import _remote_words as words
 from pyfranka._deprecation import renamed, warn
+from pyfranka._remote_connection import Connection, left
 from pyfranka.refusals import split_refusal
 from pyfranka.robot_report import Report, report_of
 
@@ -43,9 +45,6 @@ PAUSE = 0.01  # [s] between two looks (chosen here)
 # The last request of wait() may take this long beyond the limit: else it would have no time for its answer.
 MIN_ANSWER_TIME = 1.0  # [s] (chosen here)
 MIN_TIME_OF_RETRY = 0.5  # [s] that are left when a refused line is tried again (chosen here)
-# [bytes] (chosen here) The longest answers describe large worlds.
-MAX_ANSWER = 1 << 24
-MAX_FOREIGN_TEXT = 1 << 16  # of something else that listens there
 FULL = re.compile(r"error: \d+ clients use this control interface")
 STATE = re.compile(
     r"(?P<mode>.+?), client of protocol (?P<protocol>\d+), errors (?P<errors>.*), q(?P<q>(?: \S+){7})"
@@ -148,7 +147,8 @@ class Remote:
 
     The robot serves eight clients at a time and executes their lines in the order of arrival. By itself each
     call is a connection of its own; while eight others are connected, it waits within its limit. As a context
-    manager a Remote keeps one connection, which saves time and keeps its place. Thread-safe.
+    manager a Remote keeps one connection, which saves time and keeps its place. Thread-safe. A forked
+    process, a copy and a pickle have connections of their own.
 
     >>> remote = pyfranka.sim.Remote("172.16.0.2")
     >>> remote.step(10)
@@ -159,10 +159,15 @@ class Remote:
     def __init__(self, address: str, port: int = PORT, timeout: float = TIME_LIMIT):
         if not address or not isinstance(address, str):
             raise ValueError("Give the address of the robot, such as 127.0.0.1.")
-        self.address, self.port, self.timeout = address, _whole(port, "The port"), _seconds(timeout)
-        self._connection: _Connection | None = None
+        self.address, self.port, self.timeout = address, words.whole(port, "The port"), words.seconds(timeout)
+        if not 1 <= self.port <= 65535:
+            raise ValueError(f"The port is 1 to 65535, not {self.port}.")
+        self._connection: Connection | None = None
         self._held = False
-        self._lock = threading.RLock()
+        self._lock, self._process = threading.RLock(), os.getpid()
+
+    def __reduce__(self) -> tuple[type[Remote], tuple[str, int, float]]:
+        return type(self), (self.address, self.port, self.timeout)
 
     def __repr__(self) -> str:
         return f"Remote({self.address!r}, {self.port})"
@@ -197,9 +202,15 @@ class Remote:
         >>> float(remote.send("time")) <= remote.time
         True
         """
+        if not isinstance(line, str):
+            raise TypeError(f"A line is a text, not {line!r}.")
         if "\n" in line:
             raise ValueError("Send one line at a time, without its end.")
-        limit = self.timeout if timeout is None else _seconds(timeout)
+        try:
+            line.encode()
+        except UnicodeEncodeError:
+            raise ValueError(f"The line {line!r} cannot be sent as UTF-8.") from None
+        limit = self.timeout if timeout is None else words.seconds(timeout)
         with self._locked(limit):
             answer = self._exchange(line, time.monotonic() + limit, limit)
         word, _, value = answer.partition(" ")
@@ -233,7 +244,7 @@ class Remote:
         'User stopped'
         >>> remote.user_stop(False)
         """
-        self.send(f"user_stop {_switch(pressed)}", timeout)
+        self.send(f"user_stop {words.switch(pressed)}", timeout)
 
     def guiding(self, active: bool, timeout: float | None = None) -> None:
         """Begins or ends guiding by hand.
@@ -241,7 +252,7 @@ class Remote:
         >>> remote.guiding(True)
         >>> remote.guiding(False)
         """
-        self.send(f"guiding {_switch(active)}", timeout)
+        self.send(f"guiding {words.switch(active)}", timeout)
 
     def close_brakes(self, timeout: float | None = None) -> None:
         """Closes the brakes, which ends a motion.
@@ -283,21 +294,21 @@ class Remote:
 
     @renamed("Remote.brakes()", "close_brakes() and open_brakes()")
     def brakes(self, closed: bool, timeout: float | None = None) -> None:
-        self.send("brakes " + ("close" if _switch(closed) == "on" else "open"), timeout)
+        self.send("brakes " + ("close" if words.switch(closed) == "on" else "open"), timeout)
 
     @renamed("Remote.fci()", "activate_fci() and deactivate_fci()")
     def fci(self, active: bool, timeout: float | None = None) -> None:
-        self.send(f"fci {_switch(active)}", timeout)
+        self.send(f"fci {words.switch(active)}", timeout)
 
     @renamed("Remote.joints()", "lock_joints() and unlock_joints()")
     def joints(self, locked: bool, timeout: float | None = None) -> None:
-        self.send("joints " + ("lock" if _switch(locked) == "on" else "unlock"), timeout)
+        self.send("joints " + ("lock" if words.switch(locked) == "on" else "unlock"), timeout)
 
     def operating_mode(
         self, mode: typing.Literal["execution", "programming"], timeout: float | None = None
     ) -> None:
         """Of an FR3; programming ends the FCI."""
-        self.send(f"operating_mode {_word(mode, 'The mode')}", timeout)
+        self.send(f"operating_mode {words.word(mode, 'The mode')}", timeout)
 
     def set_input(
         self,
@@ -310,7 +321,7 @@ class Remote:
         >>> server["fr3"].remote.set_input("guiding", True)
         >>> server["fr3"].remote.set_input("guiding", False)
         """
-        self.send(f"input {_word(name, 'The name of an input')} {_switch(pressed)}", timeout)
+        self.send(f"input {words.word(name, 'The name of an input')} {words.switch(pressed)}", timeout)
 
     @renamed("Remote.input()", "set_input()")
     def input(
@@ -327,7 +338,7 @@ class Remote:
         >>> remote.button("circle", True)
         >>> remote.button("circle", False)
         """
-        self.send(f"button {_word(name, 'The name of a button')} {_switch(pressed)}", timeout)
+        self.send(f"button {words.word(name, 'The name of a button')} {words.switch(pressed)}", timeout)
 
     def guiding_mode(
         self,
@@ -340,30 +351,35 @@ class Remote:
 
         >>> remote.guiding_mode("free")
         """
-        self.send(" ".join(["guiding_mode", _word(mode, "The mode"), *map(_switch, axes)]), timeout)
+        if not isinstance(axes, Iterable):
+            raise TypeError(f"The axes are a list, each True or False, not {axes!r}.")
+        self.send(" ".join(["guiding_mode", words.word(mode, "The mode"), *map(words.switch, axes)]), timeout)
 
     def navigation(self, user: typing.Literal["desk", "robot"], timeout: float | None = None) -> None:
         """Target of the Pilot's arrow keys: Desk or the robot.
 
         >>> remote.navigation("desk")
         """
-        self.send(f"navigation {_word(user, 'The user of the keys')}", timeout)
+        self.send(f"navigation {words.word(user, 'The user of the keys')}", timeout)
 
     def self_test(self, due: float | None = None, timeout: float | None = None) -> None:
         """Starts the self-test; with `due`, sets only the time until it is overdue [s].
 
         >>> remote.self_test(due=86400.0)
         """
-        self.send("self_test" if due is None else _line("self_test due", [due]), timeout)
+        self.send("self_test" if due is None else words.line("self_test due", [due]), timeout)
 
     def acknowledge(self, error: str, timeout: float | None = None) -> None:
         """Acknowledges an error of the safety controller, such as td2Timeout."""
-        self.send(f"acknowledge {_word(error, 'The name of an error')}", timeout)
+        self.send(f"acknowledge {words.word(error, 'The name of an error')}", timeout)
 
     def inject(self, error: str, active: bool, joint: int = 0, timeout: float | None = None) -> None:
         """Lets the safety controller have an error, or not. joint: 1 to 7, for those of a joint."""
-        words = [_word(error, "The name of an error"), *([str(_whole(joint, "A joint"))] if joint else [])]
-        self.send(" ".join(["inject", *words, _switch(active)]), timeout)
+        parts = [
+            words.word(error, "The name of an error"),
+            *([str(words.whole(joint, "A joint"))] if joint else []),
+        ]
+        self.send(" ".join(["inject", *parts, words.switch(active)]), timeout)
 
     def recover(self, timeout: float | None = None) -> None:
         """Automatic error recovery; returns at its end.
@@ -385,9 +401,9 @@ class Remote:
         >>> remote.move([0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785], speed=0.3)
         """
         if isinstance(target, str):
-            self.send(f"move {_word(target, 'The target')}", timeout)
+            self.send(f"move {words.word(target, 'The target')}", timeout)
         else:
-            self.send(_line("move", _numbers(target, 7, "The target"), [speed]), timeout)
+            self.send(words.line("move", words.numbers(target, 7, "The target"), [speed]), timeout)
 
     def end_effector(
         self,
@@ -403,19 +419,21 @@ class Remote:
         >>> inertia = numpy.diag([0.001, 0.0025, 0.0017])
         >>> remote.end_effector(0.73, (-0.01, 0.0, 0.03), inertia, numpy.eye(4))
         """
-        words = [_numbers(center, 3, "The center of mass"), _matrix(inertia, 3, "The inertia")]
-        self.send(_line("end_effector", [mass], *words, _matrix(F_T_NE, 4, "The transform")), timeout)
+        parts = [words.numbers(center, 3, "The center of mass"), words.matrix(inertia, 3, "The inertia")]
+        self.send(
+            words.line("end_effector", [mass], *parts, words.matrix(F_T_NE, 4, "The transform")), timeout
+        )
 
     def end_effector_power(self, on: bool, timeout: float | None = None) -> None:
         """Off: the hand is not reachable.
 
         >>> server["fr3"].remote.end_effector_power(True)
         """
-        self.send(f"end_effector_power {_switch(on)}", timeout)
+        self.send(f"end_effector_power {words.switch(on)}", timeout)
 
     def power(self, on: bool, timeout: float | None = None) -> None:
         """Off: the robot is not reachable. On: it starts, with Desk's rules locked."""
-        self.send(f"power {_switch(on)}", timeout)
+        self.send(f"power {words.switch(on)}", timeout)
 
     def timing(
         self, what: typing.Literal["brakes", "self_test"], seconds: float, timeout: float | None = None
@@ -424,7 +442,7 @@ class Remote:
 
         >>> remote.timing("brakes", 1.0)
         """
-        self.send(_line(f"timing {_word(what, 'The name')}", [seconds]), timeout)
+        self.send(words.line(f"timing {words.word(what, 'The name')}", [seconds]), timeout)
 
     def report(self, timeout: float | None = None) -> Report:
         """Everything of the robot.
@@ -440,7 +458,7 @@ class Remote:
         >>> remote.load(0.5, (0.0, 0.0, 0.05))
         >>> remote.load(0.0)
         """
-        self.send(_line("load", [mass], _numbers(center, 3, "The center of mass")), timeout)
+        self.send(words.line("load", [mass], words.numbers(center, 3, "The center of mass")), timeout)
 
     def wall(
         self,
@@ -456,9 +474,9 @@ class Remote:
         >>> remote.wall(3, center=(2.0, 0.0, 0.5), edges=(0.1, 2.0, 1.0))
         >>> remote.remove_wall(3)
         """
-        words = [_numbers(center, 3, "The center"), _numbers(edges, 3, "The edges")]
-        words.append(_numbers(orientation, 4, "The orientation"))
-        self.send(_line(f"wall {_whole(number, 'The number of a wall')}", *words), timeout)
+        parts = [words.numbers(center, 3, "The center"), words.numbers(edges, 3, "The edges")]
+        parts.append(words.numbers(orientation, 4, "The orientation"))
+        self.send(words.line(f"wall {words.whole(number, 'The number of a wall')}", *parts), timeout)
 
     def remove_wall(self, number: int, timeout: float | None = None) -> None:
         """Removes the virtual wall of that number, 0 to 7.
@@ -466,14 +484,14 @@ class Remote:
         >>> remote.wall(3, center=(2.0, 0.0, 0.5), edges=(0.1, 2.0, 1.0))
         >>> remote.remove_wall(3)
         """
-        self.send(f"wall {_whole(number, 'The number of a wall')} off", timeout)
+        self.send(f"wall {words.whole(number, 'The number of a wall')} off", timeout)
 
     def part(self, present: bool, timeout: float | None = None) -> None:
         """Whether a part covers the cup of the vacuum gripper.
 
         >>> server["vacuum"].remote.part(False)
         """
-        self.send(f"part {_switch(present)}", timeout)
+        self.send(f"part {words.switch(present)}", timeout)
 
     def pump(
         self, health: typing.Literal["green", "yellow", "orange", "red"], timeout: float | None = None
@@ -482,7 +500,7 @@ class Remote:
 
         >>> server["vacuum"].remote.pump("green")
         """
-        self.send(f"pump {_word(health, 'The health')}", timeout)
+        self.send(f"pump {words.word(health, 'The health')}", timeout)
 
     def hand_homing(self, timeout: float | None = None) -> None:
         """Closes and opens the Franka hand fully; returns when it has done so. LineRefused if it fails.
@@ -497,7 +515,7 @@ class Remote:
 
         >>> remote.hand_move(width=0.04, speed=0.1)
         """
-        self.send(_line("hand move", [width, speed]), timeout)
+        self.send(words.line("hand move", [width, speed]), timeout)
 
     def hand_grasp(self, width: float, speed: float, force: float, timeout: float | None = None) -> None:
         """Grasps an object of this width [m], within 5 mm, with a force [N]; returns when it is held.
@@ -507,7 +525,7 @@ class Remote:
         Traceback (most recent call last):
         pyfranka.remote.LineRefused: ...
         """
-        self.send(_line("hand grasp", [width, speed, force]), timeout)
+        self.send(words.line("hand grasp", [width, speed, force]), timeout)
 
     def hand_stop(self, timeout: float | None = None) -> None:
         """Ends the hand's command and releases its force.
@@ -551,14 +569,14 @@ class Remote:
         >>> remote.loss(0.01, seed=5)
         >>> remote.loss(0.0)
         """
-        self.send(_line("loss", [probability]) + f" {_whole(seed, 'A seed')}", timeout)
+        self.send(words.line("loss", [probability]) + f" {words.whole(seed, 'A seed')}", timeout)
 
     def lose(self, commands: int, timeout: float | None = None) -> None:
         """Loses the next commands, so many.
 
         >>> remote.lose(2)
         """
-        self.send(f"lose {_whole(commands, 'The number of commands')}", timeout)
+        self.send(f"lose {words.whole(commands, 'The number of commands')}", timeout)
 
     def delay(self, ticks: int, timeout: float | None = None) -> None:
         """Lets commands arrive 0 to 20 ticks [ms] later.
@@ -566,7 +584,7 @@ class Remote:
         >>> remote.delay(5)
         >>> remote.delay(0)
         """
-        self.send(f"delay {_whole(ticks, 'A delay')}", timeout)
+        self.send(f"delay {words.whole(ticks, 'A delay')}", timeout)
 
     # ---- the world ---------------------------------------------------------------------------------------
 
@@ -577,8 +595,10 @@ class Remote:
         >>> remote.push("stone", (0.0, 0.0, 1.0), ticks=10)
         >>> remote.step(10)
         """
-        words = _line(f"push {_word(body, 'The name of a body')}", _numbers(force, 3, "The force"))
-        self.send(f"{words} {_whole(ticks, 'The duration')}", timeout)
+        parts = words.line(
+            f"push {words.word(body, 'The name of a body')}", words.numbers(force, 3, "The force")
+        )
+        self.send(f"{parts} {words.whole(ticks, 'The duration')}", timeout)
 
     def place(
         self, body: str, position: ArrayLike, orientation: ArrayLike = NO_TURN, timeout: float | None = None
@@ -589,8 +609,8 @@ class Remote:
         >>> remote.where("stone").round(1).tolist()
         [0.0, 0.3, 0.5]
         """
-        pose = [_numbers(position, 3, "The position"), _numbers(orientation, 4, "The orientation")]
-        self.send(_line(f"place {_word(body, 'The name of a body')}", *pose), timeout)
+        pose = [words.numbers(position, 3, "The position"), words.numbers(orientation, 4, "The orientation")]
+        self.send(words.line(f"place {words.word(body, 'The name of a body')}", *pose), timeout)
 
     def where(self, body: str, timeout: float | None = None) -> Array:
         """Position of a body in the world, 3 [m].
@@ -598,7 +618,9 @@ class Remote:
         >>> remote.where("stone").shape
         (3,)
         """
-        return numpy.array(self.send(f"where {_word(body, 'The name of a body')}", timeout).split(), float)
+        return numpy.array(
+            self.send(f"where {words.word(body, 'The name of a body')}", timeout).split(), float
+        )
 
     def scene(self, timeout: float | None = None) -> RemoteScene:
         """Bodies and shapes of the world, for programs that draw it. The first call may take seconds.
@@ -630,7 +652,7 @@ class Remote:
         """
         data, offset = b"", 0
         while offset is not None:
-            answer = json.loads(self.send(f"mesh {_word(name, 'The name of a mesh')} {offset}", timeout))
+            answer = json.loads(self.send(f"mesh {words.word(name, 'The name of a mesh')} {offset}", timeout))
             data += base64.b64decode(answer["data"])
             offset = answer["next"]
         end = 12 * answer["vertices"]  # [bytes]: three numbers of four bytes each
@@ -662,8 +684,10 @@ class Remote:
         >>> round(1000 * (remote.time - before)) >= 100
         True
         """
-        ticks = _whole(ticks, "The number of ticks")
-        self.send(f"step {ticks}", self.timeout + 1e-3 * max(0, ticks) if timeout is None else timeout)
+        ticks = words.whole(ticks, "The number of ticks")
+        # The robot refuses more than that.
+        duration = 1e-3 * min(max(0, ticks), 1 << 32)
+        self.send(f"step {ticks}", self.timeout + duration if timeout is None else timeout)
 
     def wait(
         self, condition: Callable[[RemoteState], bool] | None = None, timeout: float | None = None
@@ -676,13 +700,15 @@ class Remote:
         >>> remote.wait().mode
         'Idle'
         """
-        limit = self.timeout if timeout is None else _seconds(timeout)
+        if condition is not None and not callable(condition):
+            raise TypeError(f"The condition is a function of a RemoteState, not {condition!r}.")
+        limit = self.timeout if timeout is None else words.seconds(timeout)
         deadline = time.monotonic() + limit
         least = min(limit, MIN_ANSWER_TIME)
         if condition is None:
             self.send("wait", limit)
-            return self.state(max(least, _left(deadline)))
-        while not condition(state := self.state(max(least, _left(deadline)))):
+            return self.state(max(least, left(deadline)))
+        while not condition(state := self.state(max(least, left(deadline)))):
             if time.monotonic() + PAUSE > deadline:
                 raise TimeoutError(
                     f"The robot at {self._place()} has not come to the awaited state within {limit:g} s: "
@@ -701,7 +727,7 @@ class Remote:
 
     def quit(self, timeout: float | None = None) -> None:
         """Ends the program, with all its robots; returns when nothing listens there."""
-        limit = self.timeout if timeout is None else _seconds(timeout)
+        limit = self.timeout if timeout is None else words.seconds(timeout)
         deadline = time.monotonic() + limit
         self.send("quit", limit)
         self.close()
@@ -717,6 +743,8 @@ class Remote:
 
     @contextmanager
     def _locked(self, limit: float) -> Iterator[None]:
+        if self._process != os.getpid():
+            self._leave_other_process()
         if not self._lock.acquire(timeout=limit):
             raise TimeoutError(f"Another thread has used this Remote for more than {limit:g} s.")
         try:
@@ -724,9 +752,16 @@ class Remote:
         finally:
             self._lock.release()
 
+    def _leave_other_process(self) -> None:
+        """After a fork the connection belongs to the other process, in which a thread may hold the lock."""
+        self._lock, self._process = threading.RLock(), os.getpid()
+        connection, self._connection = self._connection, None
+        if connection:
+            connection.close()  # this process's copy; the other one's stays open
+
     def _listens(self, deadline: float) -> bool:
         try:
-            socket.create_connection((self.address, self.port), timeout=_left(deadline)).close()
+            socket.create_connection((self.address, self.port), timeout=left(deadline)).close()
             return True
         except OSError:
             return False
@@ -734,7 +769,7 @@ class Remote:
     # The answer to a line. While the robot has too many clients, the line is refused and not executed.
     def _exchange(self, line: str, deadline: float, limit: float) -> str:
         while True:
-            connection = self._connection or _Connection(self.address, self.port, deadline, limit)
+            connection = self._connection or Connection(self.address, self.port, deadline, limit)
             self._connection = None
             keep = False
             try:
@@ -750,124 +785,3 @@ class Remote:
             if not refused or time.monotonic() + PAUSE + MIN_TIME_OF_RETRY > deadline:
                 return answer
             time.sleep(PAUSE)
-
-
-class _Connection:
-    """One TCP connection, in which lines are answered one after the other."""
-
-    def __init__(self, address: str, port: int, deadline: float, limit: float):
-        self._place = f"{address}, port {port}"
-        try:
-            self._socket = socket.create_connection((address, port), timeout=_left(deadline))
-        except TimeoutError:
-            raise TimeoutError(f"Nothing has answered at {self._place} within {limit:g} s.") from None
-        except OSError as error:
-            raise ConnectionError(
-                f"There is no control interface at {self._place} ({error.strerror or error}). Start "
-                "franka_sim there, without --control-port 0."
-            ) from None
-
-    def close(self) -> None:
-        self._socket.close()
-
-    def exchange(self, line: str, deadline: float, limit: float) -> str:
-        try:
-            self._socket.settimeout(_left(deadline))
-            self._socket.sendall(line.encode() + b"\n")
-            return self._answer(deadline).decode(errors="replace")
-        except TimeoutError:
-            raise TimeoutError(
-                f"The robot at {self._place} has not answered '{line}' within {limit:g} s. The line may "
-                "still take effect."
-            ) from None
-        except EOFError:
-            raise ConnectionError(
-                f"The robot at {self._place} went away before it answered '{line}'."
-            ) from None
-        except OSError as error:
-            raise ConnectionError(
-                f"The connection to the robot at {self._place} broke at '{line}': {error.strerror or error}."
-            ) from None
-
-    def _answer(self, deadline: float) -> bytes:
-        data = b""
-        while b"\n" not in data and len(data) < (MAX_ANSWER if _is_answer(data) else MAX_FOREIGN_TEXT):
-            if time.monotonic() > deadline:
-                raise TimeoutError
-            self._socket.settimeout(_left(deadline))
-            part = self._socket.recv(65536)
-            if not part:
-                raise EOFError
-            data += part
-        return data.partition(b"\n")[0].rstrip(b"\r")
-
-
-def _is_answer(beginning: bytes) -> bool:
-    return any(word.startswith(beginning[: len(word)]) for word in (b"ok", b"error:"))
-
-
-# ---- words of a line -------------------------------------------------------------------------------------
-
-
-def _left(deadline: float) -> float:
-    """Seconds until the deadline; never zero, which would mean a socket that does not wait."""
-    return max(1e-3, deadline - time.monotonic())
-
-
-def _seconds(limit: float) -> float:
-    if not isinstance(limit, (int, float, numpy.number)) or not 0.0 < limit < float(threading.TIMEOUT_MAX):
-        raise ValueError(f"A time limit is a positive number of seconds, not {limit!r}.")
-    return float(limit)
-
-
-def _switch(on: bool) -> str:
-    if not isinstance(on, (bool, numpy.bool_)):
-        raise TypeError(f"Give True or False, not {on!r}.")
-    return "on" if on else "off"
-
-
-def _whole(number: int, what: str) -> int:
-    try:
-        return operator.index(number)
-    except TypeError:
-        raise TypeError(f"{what} is a whole number, not {number!r}.") from None
-
-
-def _word(text: str, what: str) -> str:
-    if not isinstance(text, str) or text.split() != [text]:
-        raise ValueError(f"{what} is one word, not {text!r}.")
-    return text
-
-
-def _numbers(values: ArrayLike, count: int, what: str) -> Array:
-    try:
-        array = numpy.asarray(values)
-        real = array.dtype.kind in "biuf"
-    except ValueError:  # rows of different lengths
-        real = False
-    if not real:
-        raise ValueError(f"{what} has {count} numbers, which {values!r} has not.")
-    if array.size != count or array.ndim != 1:
-        raise ValueError(f"{what} has {count} numbers, not {array.size if array.ndim == 1 else array.shape}.")
-    return array.astype(float)
-
-
-def _matrix(values: ArrayLike, rows: int, what: str) -> Array:
-    """The numbers, column by column, of a square matrix or of such a list."""
-    shape = numpy.shape(values)
-    if shape not in ((rows * rows,), (rows, rows)):
-        raise ValueError(
-            f"{what} is {rows}x{rows}, or {rows * rows} numbers column by column, not of shape {shape}."
-        )
-    return _numbers(numpy.ravel(values, order="F"), rows * rows, what)
-
-
-def _line(name: str, *numbers: Iterable[float]) -> str:
-    return " ".join([name, *(_number(number, name) for each in numbers for number in each)])
-
-
-def _number(value: float, name: str) -> str:
-    try:
-        return repr(float(value))  # the shortest text that reads as the same number
-    except (TypeError, ValueError):
-        raise ValueError(f"'{name}' takes numbers, not {value!r}.") from None

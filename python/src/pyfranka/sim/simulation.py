@@ -121,6 +121,12 @@ class Simulation:
             if overlaps := self._native.overlaps(name):
                 warnings.warn(f"{overlaps} Give it another base.", stacklevel=stacklevel)
 
+    def __reduce__(self) -> str:
+        raise TypeError(
+            "A Simulation can be neither pickled nor copied: make one with the same world, robots and seed "
+            "where it is used."
+        )
+
     def __repr__(self) -> str:
         robots = ", ".join(f"'{name}'" for name in self) or "no robots"
         try:
