@@ -59,7 +59,8 @@ class Program:
             stdout=subprocess.PIPE,
             stderr=subprocess.PIPE,
             text=True,
-            env={**os.environ, "FRANKA_REALTIME": "ignore"},
+            # They print with printf and choose no locale: a decimal comma comes from the long form only.
+            env={**os.environ, "FRANKA_REALTIME": "ignore", "LC_NUMERIC": "C"},
         )
 
     def line(self):
