@@ -263,7 +263,7 @@ void bindSimState(py::module_& module) {
                           "Present state of a simulated robot, with the attributes of RobotState. "
                           "Its arrays are numpy views that cannot be written and show each new "
                           "tick; copy what is to stay.\n\n>>> state = sim[\"panda\"].state\n>>> "
-                          "(state.q == state.copy().q).all()\nTrue");
+                          "numpy.array_equal(state.q, state.copy().q)\nTrue");
   bindFrames(state);
   bindLoads(state);
   bindJoints(state);

@@ -20,7 +20,7 @@ import sentences
 from pyfranka import Frame, RobotState, Torques
 from pyfranka.franka_sim import FrankaSim
 from pyfranka.plot import Collector, abort_figure, of_log, plot, plot_abort, read_log
-from pyfranka.sim import Panda
+from pyfranka.sim import KINDS, Panda
 from sentences import ERRORS, faults_of, unlike_ours
 
 NAN = math.nan
@@ -396,6 +396,12 @@ AFTER_FORK = {
         "Connect again": lambda x: x["hand"].move(0.02, 0.1),
     },
     "ActiveControl": {"before the process was forked": lambda x: x["motion"].write_once(Torques(SEVEN))},
+    "VacuumGripper": {
+        "before the process was forked": lambda x: x["vacuum"].read_once(),
+        "Connect again": lambda x: x["vacuum"].vacuum(5, timedelta(seconds=1)),
+        "belongs to the other process": lambda x: x["vacuum"].drop_off(timedelta(seconds=1)),
+        "Connect again in this one": lambda x: x["vacuum"].stop(),
+    },
 }
 IN_FORKED_PROCESS = """
 import os, sys
@@ -404,21 +410,23 @@ import pyfranka
 from test_bad_input_client import AFTER_FORK, SEVEN, Torques, faults_of
 
 robot = pyfranka.Robot({address!r}, pyfranka.RealtimeConfig.Ignore)
-hand = pyfranka.Gripper({address!r})
+hand, vacuum = pyfranka.Gripper({address!r}), pyfranka.VacuumGripper({vacuum!r})
 motion = robot.start_torque_control()
 motion.read_once()
 child = os.fork()
 if child == 0:
-    wrong = faults_of(AFTER_FORK, dict(robot=robot, hand=hand, motion=motion))
+    wrong = faults_of(AFTER_FORK, dict(robot=robot, hand=hand, motion=motion, vacuum=vacuum))
     print("\\n".join(wrong), flush=True)
     motion.close()
-    del robot, hand, motion  # as at the end of the interpreter
+    del robot, hand, motion, vacuum  # as at the end of the interpreter
     os._exit(bool(wrong))
 ended = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 motion.write_once(Torques(SEVEN))
 motion.read_once()
 motion.close()
 assert hand.read_once().width >= 0.0
+assert not vacuum.read_once().part_present
+vacuum.stop()
 robot.read_once()
 sys.exit(ended)
 """
@@ -426,44 +434,9 @@ sys.exit(ended)
 
 def test_a_forked_process_can_neither_use_nor_end_the_connections_of_the_other(name):
     path = [os.path.dirname(__file__), os.path.dirname(sentences.__file__)]
-    with FrankaSim(name) as server:
-        code = IN_FORKED_PROCESS.format(path=path, address=server.robot.address)
-        done = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True, timeout=120)
-    assert done.returncode == 0, done.stdout + done.stderr
-
-
-VACUUM_AFTER_FORK = {
-    "VacuumGripper": {
-        "before the process was forked": lambda x: x.read_once(),
-        "Connect again": lambda x: x.vacuum(5, timedelta(seconds=1)),
-        "belongs to the other process": lambda x: x.drop_off(timedelta(seconds=1)),
-        "Connect again in this one": lambda x: x.stop(),
-    }
-}
-VACUUM_IN_FORKED_PROCESS = """
-import os, sys
-sys.path[:0] = {path!r}
-import pyfranka
-from test_bad_input_client import VACUUM_AFTER_FORK, faults_of
-
-gripper = pyfranka.VacuumGripper({address!r})
-child = os.fork()
-if child == 0:
-    wrong = faults_of(VACUUM_AFTER_FORK, gripper)
-    print("\\n".join(wrong), flush=True)
-    del gripper  # as at the end of the interpreter
-    os._exit(bool(wrong))
-ended = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
-assert not gripper.read_once().part_present
-gripper.stop()
-sys.exit(ended)
-"""
-
-
-def test_a_forked_process_can_neither_use_nor_end_a_vacuum_gripper_of_the_other():
-    path = [os.path.dirname(__file__), os.path.dirname(sentences.__file__)]
-    with FrankaSim(Panda(hand="vacuum")) as server:
-        code = VACUUM_IN_FORKED_PROCESS.format(path=path, address=server.robot.address)
+    with FrankaSim(KINDS[name](), Panda(name="vacuum", hand="vacuum", base=(0, 2, 0))) as server:
+        addresses = {"address": server[name].address, "vacuum": server["vacuum"].address}
+        code = IN_FORKED_PROCESS.format(path=path, **addresses)
         done = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True, timeout=120)
     assert done.returncode == 0, done.stdout + done.stderr
 

@@ -31,7 +31,7 @@ import numpy
 from numpy.typing import NDArray
 
 from pyfranka.command_line import missing_package
-from pyfranka.sim.arguments import path, text, whole
+from pyfranka.sim.arguments import items, mapping, path, text, whole
 
 __all__ = ["Dataset", "convert_recording", "main"]
 
@@ -150,14 +150,12 @@ def _feature_name(name: Any) -> str:
 
 
 def _checked_names(names: Any) -> dict[str, list[str]]:
-    if not isinstance(names, Mapping):
-        raise TypeError(f"names must be a dict of lists of texts, not {names!r}.")
-    result = {}
-    for feature, each in names.items():
-        if isinstance(each, str) or not isinstance(each, Sequence):
-            raise TypeError(f"The names of '{feature}' must be a list of texts, not {each!r}.")
-        result[feature] = [text(name, f"A name of '{feature}'") for name in each]
-    return result
+    return {
+        feature: [
+            text(name, f"A name of '{feature}'") for name in items(each, f"The names of '{feature}'", "texts")
+        ]
+        for feature, each in mapping(names, "names", "lists of texts").items()
+    }
 
 
 class Dataset:
@@ -183,7 +181,7 @@ class Dataset:
         self.folder = Path(path(folder, "folder"))
         self.fps, self._robot = whole(fps, "fps", 1, 1000), text(robot_type, "robot_type")
         self._arrow = _pyarrow()
-        self._names = _checked_names(names or {})
+        self._names = _checked_names(names)
         if self.folder.exists() and (not self.folder.is_dir() or any(self.folder.iterdir())):
             raise FileExistsError(f"There is something in {self.folder} already; name another folder.")
         (self.folder / "meta").mkdir(parents=True, exist_ok=True)
