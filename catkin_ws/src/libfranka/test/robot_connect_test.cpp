@@ -5,6 +5,8 @@
 #include <franka_core/limits.h>
 #include <franka_core/robot_versions.h>
 #include <ros_test/eventually.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <cmath>
 
@@ -204,6 +206,44 @@ TEST(ConnectObject, StaysConnectedWhenMoved) {
   moved = Robot(other.address(), franka::RealtimeConfig::kIgnore);
   EXPECT_EQ(10, moved.serverVersion());
   EXPECT_EQ(franka::RobotMode::kIdle, moved.readOnce().robot_mode);
+}
+
+// The exit status of a function in a forked process: 0 if it returns.
+template <typename Function>
+int inForkedProcess(Function function) {
+  const pid_t process = fork();
+  if (process == 0) {
+    try {
+      function();
+      _exit(0);
+    } catch (const franka::InvalidOperationException&) {
+      _exit(1);
+    } catch (const std::exception&) {
+      _exit(2);
+    }
+  }
+  int status = 0;
+  waitpid(process, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+}
+
+TEST(ConnectFork, ForkedProcessMayUseConnectionButNotEndIt) {
+  FakeRobot fake(5);
+  auto robot = connect(fake);
+  const int connections = fake.connections();
+  const auto use = [&robot] {
+    robot->readOnce();
+    robot->setCollisionBehavior(kTorques, kTorques, kTwist, kTwist);
+    robot.reset();
+  };
+  EXPECT_EQ(0, inForkedProcess(use));
+  EXPECT_EQ(franka::RobotMode::kIdle, robot->readOnce().robot_mode);
+  franka::allowUseAfterFork(false);
+  const int refused = inForkedProcess(use);
+  franka::allowUseAfterFork(true);
+  EXPECT_EQ(1, refused);
+  EXPECT_EQ(1, fake.count(Command::kSetCollisionBehavior));
+  EXPECT_EQ(connections, fake.connections());
 }
 
 TEST(ConnectTimeouts, MustBePositive) {

@@ -59,4 +59,11 @@ void setTimeouts(const Timeouts& timeouts);
 /// The values of setTimeouts, or the defaults. Thread-safe.
 Timeouts timeouts();
 
+/// Whether a process that was forked may use the connections of the one that made them, as with the
+/// vendor's library; the default. A daemon needs it. Only one of the processes may use a connection
+/// then: each would receive the replies and states of the other one. If it is not allowed, calls
+/// throw an InvalidOperationException there; pyfranka forbids it. In either case the connection
+/// lasts until the process that made it, or the last that has it, ends it. Thread-safe.
+void allowUseAfterFork(bool allowed) noexcept;
+
 }  // namespace franka

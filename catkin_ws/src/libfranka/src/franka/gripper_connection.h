@@ -76,7 +76,7 @@ class GripperConnection {
 
   /// The state in the next datagram, after those already received.
   State readOnce() {
-    channel_->requireOwnProcess();
+    channel_->checkProcess();
     const std::unique_lock<std::mutex> lock(state_mutex_, std::try_to_lock);
     if (!lock.owns_lock()) {
       throw InvalidOperationException(

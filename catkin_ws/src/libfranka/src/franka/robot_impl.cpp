@@ -80,7 +80,7 @@ Timeouts timeouts() {
 }
 
 Robot::Impl::Operation::Operation(Impl& robot) : robot_(robot) {
-  robot_.channel_->requireOwnProcess();
+  robot_.channel_->checkProcess();
   if (robot_.busy_.test_and_set(std::memory_order_acquire)) {
     throw InvalidOperationException(fci::kOtherOperationRunning);
   }

@@ -50,7 +50,7 @@ class Robot::Impl {
   /// The exclusive right to receive states: one motion or read at a time.
   class Operation {
    public:
-    /// @throws InvalidOperationException if another one exists, or in a forked process.
+    /// @throws InvalidOperationException if another one exists, or as checkProcess.
     explicit Operation(Impl& robot);
     ~Operation();
     Operation(const Operation&) = delete;

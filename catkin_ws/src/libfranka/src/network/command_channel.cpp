@@ -4,6 +4,7 @@
 
 #include <fcntl.h>
 #include <franka/exception.h>
+#include <franka/extensions.h>
 #include <franka_core/fci/texts.h>
 #include <franka_core/realtime_rule.h>
 #include <netinet/tcp.h>
@@ -12,7 +13,21 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cerrno>
+
+namespace franka {
+
+namespace {
+
+// Whether forked processes may use connections (allowUseAfterFork).
+std::atomic<bool> allowed_after_fork{true};
+
+}  // namespace
+
+void allowUseAfterFork(bool allowed) noexcept { allowed_after_fork = allowed; }
+
+}  // namespace franka
 
 namespace franka::network {
 
@@ -100,8 +115,8 @@ CommandChannel::~CommandChannel() {
   }
 }
 
-void CommandChannel::requireOwnProcess() const {
-  if (process_ != getpid()) {
+void CommandChannel::checkProcess() const {
+  if (!allowed_after_fork && process_ != getpid()) {
     throw InvalidOperationException(
         "libfranka: This connection was made before the process was forked and belongs to the "
         "other process. Connect again in this one.");
@@ -121,7 +136,7 @@ void CommandChannel::discardReplies(std::uint32_t id) noexcept {
 }
 
 void CommandChannel::send(fci::Bytes request) {
-  requireOwnProcess();
+  checkProcess();
   const std::lock_guard<std::mutex> lock(send_mutex_);
   const Clock::time_point deadline = Clock::now() + kSendTimeout;
   std::size_t sent = 0;

@@ -28,7 +28,8 @@ using Clock = std::chrono::steady_clock;
 /// reads them from the socket; two replies to one request are queued. Unexpected replies (see
 /// expect, forget) are dropped. All functions end in bounded time. Thread-safe.
 ///
-/// It belongs to the process that made it: a forked one can neither use nor end the connection.
+/// A forked process cannot end the connection of the one that made it, and can be kept from using
+/// it (allowUseAfterFork).
 class CommandChannel {
  public:
   /// Finds the first message of the stream: its id and size (see fci::nextMessage).
@@ -50,9 +51,10 @@ class CommandChannel {
   std::uint32_t expect();
   /// Drops all present and future replies to this id.
   void discardReplies(std::uint32_t id) noexcept;
-  /// @throws InvalidOperationException in a process that was forked after the connection was made.
-  void requireOwnProcess() const;
-  /// Sends one request. @throws InvalidOperationException as requireOwnProcess.
+  /// @throws InvalidOperationException in a process that was forked after the connection was made,
+  /// if allowUseAfterFork forbids it.
+  void checkProcess() const;
+  /// Sends one request. @throws InvalidOperationException as checkProcess.
   /// @throws NetworkException if the connection is lost or takes no bytes for kSendTimeout.
   void send(franka_core::fci::Bytes request);
 
