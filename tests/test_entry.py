@@ -341,6 +341,21 @@ def test_options_of_programs_are_completed(words, expected):
     assert set(result.stdout.split()) == expected, result.stderr
 
 
+def test_the_demo_builds_targets_that_exist():
+    targets = set(in_script("demo_targets").split())
+    listed = subprocess.check_output(["make", "-C", TOP / "catkin_ws/build", "help"], text=True)
+    assert "franka_sim_mujoco_node" in targets and "franka_msgs_generate_messages_py" in targets
+    assert targets <= set(listed.replace("...", "").split())
+
+
+@pytest.mark.parametrize(("built", "said"), [("all_built", ""), ("some_built", "builds")])
+def test_a_shell_builds_what_the_demo_did_not(built, said, tmp_path):
+    (tmp_path / "build").mkdir()
+    (tmp_path / "build" / built).touch()
+    stubs = "cmd_build() { echo builds; }; end_alone() { :; }; ros_environment() { :; }"
+    assert in_script(f"workspace={tmp_path}; {stubs}; cmd_shell true").strip() == said
+
+
 def test_shell_keeps_the_status_of_its_command():
     assert franka("shell", "bash", "-c", "exit 7").returncode == 7
 
