@@ -29,7 +29,7 @@ QUESTIONS = [
         "How long does the installation take, and what is the command?",
         ("Get started with ROS",),
         "1. Build",
-        ("./franka build", "five minutes", "twenty"),
+        ("./franka build", "five to seven minutes", "twenty"),
     ),
     Question(
         "How do I start a simulated arm with a controller?",
