@@ -3,6 +3,7 @@
 """franka_control_node with one arm, franka_combined_control_node with several: launched, observed, used."""
 
 import math
+from collections.abc import Sequence
 from pathlib import Path
 
 import rospy
@@ -10,7 +11,7 @@ import yaml
 from actionlib_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticArray
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
-from geometry_msgs.msg import PoseStamped
+from geometry_msgs.msg import Point, PoseStamped
 from pyfranka.remote import Remote
 from ros_client import Action, Controllers, follow, trigger
 from ros_nodes import CONTROL_CONFIG
@@ -219,8 +220,8 @@ class Diagnosis:
         return wait_for(matching, lambda: f"A status of {what}, out of {self.latest},")
 
 
-def go_to_height(arm: Arm, publisher: rospy.Publisher, height: float) -> None:
-    """Moves the target of the Cartesian impedance controller, and waits for a third of the way.
+def go_to(arm: Arm, publisher: rospy.Publisher, position: Sequence[float]) -> None:
+    """Moves the target of the Cartesian impedance controller, and waits for a third of the way up or down.
 
     Not if it is nearer than 2 cm: the joints' friction holds an arm at rest against 200 N/m. Measured:
     at 12 mm it does not move at all, and from 30 mm it comes as near as 16 to 19 mm.
@@ -228,10 +229,10 @@ def go_to_height(arm: Arm, publisher: rospy.Publisher, height: float) -> None:
     wait_for(publisher.get_num_connections, "The controller's subscription")
     target = PoseStamped()
     target.header.frame_id = f"{arm.name}_link0"
-    x, y, z = arm.state.O_T_EE[12:15]
-    target.pose.position.x, target.pose.position.y, target.pose.position.z = x, y, height
+    target.pose.position = Point(*position)
     target.pose.orientation.x = 1.0
-    rest = max(abs(height - z) * 2 / 3, 0.02)
+    height = position[2]
+    rest = max(abs(height - arm.state.O_T_EE[14]) * 2 / 3, 0.02)
 
     def gets_near():
         publisher.publish(target)  # again: a controller that restarts after a recovery forgets its target
@@ -242,5 +243,5 @@ def go_to_height(arm: Arm, publisher: rospy.Publisher, height: float) -> None:
 
 def follow_pose(arm: Arm, publisher: rospy.Publisher) -> None:
     """The end effector follows the target of the Cartesian impedance controller: 3 cm up or down."""
-    z = arm.state.O_T_EE[14]
-    go_to_height(arm, publisher, z + math.copysign(0.03, 0.5 - z))
+    x, y, z = arm.state.O_T_EE[12:15]
+    go_to(arm, publisher, (x, y, z + math.copysign(0.03, 0.5 - z)))
