@@ -1,16 +1,19 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What the end of a Session ends: all processes of its master, and no others."""
+"""A Session waits for its launch, and its end ends all processes of its master, and no others."""
 
 import os
 import signal
 import subprocess
+import threading
 from pathlib import Path
+from xmlrpc.server import SimpleXMLRPCServer
 
-import franka_sim_mujoco.session
 import pytest
+from franka_sim_mujoco.session import Session
 from waiting import wait_for
 
+ROSOUT = [["/rosout", ["/rosout"]]]
 ANOTHER_MASTER = ["env", "ROS_MASTER_URI=http://localhost:1"]
 
 
@@ -22,7 +25,7 @@ ANOTHER_MASTER = ["env", "ROS_MASTER_URI=http://localhost:1"]
 def test_a_session_ends_the_processes_of_its_master(prefix, network, ends, tmp_path, monkeypatch):
     """Another network needs rights that a test may not have, so the system's answer is replaced."""
     readlink = os.readlink
-    with franka_sim_mujoco.session.Session("--help", log=tmp_path / "launch.log") as session:
+    with Session("--help", log=tmp_path / "launch.log") as session:
         other = subprocess.Popen([*prefix, "sleep", "300"], env=session.environment)
         its_network = Path(f"/proc/{other.pid}/ns/net")
         monkeypatch.setattr(os, "readlink", lambda path: network * (path == its_network) or readlink(path))
@@ -36,3 +39,21 @@ def test_a_session_ends_the_processes_of_its_master(prefix, network, ends, tmp_p
 def sleeps(process):
     """Whether the command has become `sleep`, after it has changed its environment."""
     return Path(f"/proc/{process.pid}/comm").read_text().strip() == "sleep"
+
+
+def test_a_node_that_is_not_rosouts_is_awaited_as_parameters_are_set_before(tmp_path, monkeypatch):
+    asked = []
+
+    def state(_caller: str):
+        asked.append(len(asked))
+        nodes = ROSOUT if len(asked) < 4 else [*ROSOUT, ["/clock", ["/gazebo"]]]
+        return [1, "", [nodes if len(asked) > 1 else [], [], []]]
+
+    with SimpleXMLRPCServer(("127.0.0.1", 0), logRequests=False) as master:
+        master.register_function(state, "getSystemState")
+        threading.Thread(target=master.serve_forever, daemon=True).start()
+        session = Session("panda.launch", log=tmp_path / "log", port=master.server_address[1])
+        monkeypatch.setattr(session, "running", lambda: True)
+        session.wait_for_node(timeout=60)
+        master.shutdown()
+    assert len(asked) == 4

@@ -6,7 +6,6 @@ A process can join one master only: mark its tests with `own_process`.
 """
 
 import os
-import xmlrpc.client
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -41,18 +40,6 @@ def join(uri: str, **options) -> None:
     rospy_connections.init_node("test", anonymous=True, disable_signals=True, **options)
 
 
-def wait_for_launch(uri: str) -> None:
-    """Waits for the first node of a launch."""
-    server = xmlrpc.client.ServerProxy(uri)
-
-    def parameters_are_set():
-        """A launch sets them, and use_sim_time among them, before it starts its nodes."""
-        kinds = server.getSystemState("/test")[2]
-        return {node for kind in kinds for _, nodes in kind for node in nodes} - {"/rosout"}
-
-    wait_for(parameters_are_set, "A node of the launch", START)
-
-
 @contextmanager
 def in_session(session: Session, **options):
     """Starts a session, and joins its master. @param options of rospy.init_node"""
@@ -60,8 +47,7 @@ def in_session(session: Session, **options):
 
     with session:
         logs.append(session.log)
-        session.wait_for_master(START)
-        wait_for_launch(session.environment["ROS_MASTER_URI"])
+        session.wait_for_node(START)
         join(session.environment["ROS_MASTER_URI"], **options)
         try:
             yield session

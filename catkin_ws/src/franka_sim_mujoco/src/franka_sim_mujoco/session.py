@@ -8,8 +8,10 @@ import signal
 import socket
 import subprocess
 import time
+import xmlrpc.client
 from contextlib import suppress
 from pathlib import Path
+from typing import Any
 
 
 class SessionError(RuntimeError):
@@ -103,6 +105,22 @@ class Session:
                     return
             time.sleep(0.05)
         raise SessionError(f"The ROS master did not come up on port {self.port} within {timeout} s.")
+
+    def wait_for_node(self, timeout: float = 60.0) -> None:
+        """Waits for the first node of the launch, before which roslaunch has set all parameters.
+
+        A program that becomes a node earlier does not see use_sim_time, and has the wall clock for good.
+        """
+        deadline = time.monotonic() + timeout
+        self.wait_for_master(timeout)
+        with xmlrpc.client.ServerProxy(self.environment["ROS_MASTER_URI"]) as master:
+            while time.monotonic() < deadline:
+                self.check()
+                kinds: Any = master.getSystemState("/session")
+                if {node for kind in kinds[2] for _, nodes in kind for node in nodes} - {"/rosout"}:
+                    return
+                time.sleep(0.05)
+        raise SessionError(f"The launch started no node within {timeout} s:\n{self.tail()}")
 
     def stop(self, timeout: float = 20.0) -> None:
         """Interrupts the launch as Ctrl-C does, then ends the rest of its process group."""
