@@ -4,13 +4,15 @@
 
 import os
 import signal
+import socket
 import subprocess
 import threading
+from contextlib import suppress
 from pathlib import Path
 from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
-from franka_sim_mujoco.session import Session
+from franka_sim_mujoco.session import Session, SessionError
 from waiting import wait_for
 
 ROSOUT = [["/rosout", ["/rosout"]]]
@@ -57,3 +59,22 @@ def test_a_node_that_is_not_rosouts_is_awaited_as_parameters_are_set_before(tmp_
         session.wait_for_node(timeout=60)
         master.shutdown()
     assert len(asked) == 4
+
+
+def test_a_launch_that_ends_before_its_first_node_is_told_with_its_log(tmp_path, monkeypatch):
+    """Its master accepts connections and closes them, as one does that ends between two calls."""
+    log = tmp_path / "log"
+    log.write_text("panda.launch: nothing was spawned")
+    alive = [True, True, True]
+    with socket.create_server(("127.0.0.1", 0)) as master:
+        threading.Thread(target=refuse, args=[master], daemon=True).start()
+        session = Session("panda.launch", log=log, port=master.getsockname()[1])
+        monkeypatch.setattr(session, "running", lambda: bool(alive and alive.pop()))
+        with pytest.raises(SessionError, match="nothing was spawned"):
+            session.wait_for_node(timeout=60)
+
+
+def refuse(server):
+    with suppress(OSError):
+        while True:
+            server.accept()[0].close()

@@ -116,9 +116,10 @@ class Session:
         with xmlrpc.client.ServerProxy(self.environment["ROS_MASTER_URI"]) as master:
             while time.monotonic() < deadline:
                 self.check()
-                kinds: Any = master.getSystemState("/session")
-                if {node for kind in kinds[2] for _, nodes in kind for node in nodes} - {"/rosout"}:
-                    return
+                with suppress(OSError):  # from a master that ends, whose launch then ends with the reason
+                    kinds: Any = master.getSystemState("/session")
+                    if {node for kind in kinds[2] for _, nodes in kind for node in nodes} - {"/rosout"}:
+                        return
                 time.sleep(0.05)
         raise SessionError(f"The launch started no node within {timeout} s:\n{self.tail()}")
 
