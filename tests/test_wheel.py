@@ -682,7 +682,9 @@ def test_desk_serves_its_page_with_its_extra(complete):
 
 @pytest.mark.long_form("downloads the meshes")
 def test_meshes_are_in_the_pictures(environment):
-    assert environment.run("pyfranka-meshes").returncode == 0
+    environment.python("import ensurepip; ensurepip.bootstrap()")
+    meshes = environment.run("pyfranka-meshes")
+    assert meshes.returncode == 0, meshes.stdout + meshes.stderr
     code = """
         import pyfranka.meshes
         from pyfranka.sim import Panda, Simulation
