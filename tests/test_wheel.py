@@ -668,7 +668,7 @@ def test_desk_serves_its_page_with_its_extra(complete):
         program = [sys.prefix + "/bin/franka_sim", "--ip", "127.0.61.10", "--desk"]
         with subprocess.Popen(program, stdout=subprocess.PIPE, text=True) as served:
             try:
-                while "Desk" not in (line := served.stdout.readline()):
+                while "https://" not in (line := served.stdout.readline()):
                     assert line, "franka_sim has ended"
                 trusting = ssl._create_unverified_context()
                 address = next(word for word in line.split() if word.startswith("https://"))
