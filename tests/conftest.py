@@ -29,7 +29,8 @@ def desk_client(tmp_path):
 def installed() -> Path:
     """The workspace's install space. The build keeps its configuration, which other tests read meanwhile."""
     prefix = WORKSPACE / "install"
-    make_once("installed", ["bash", "-c", f"rm -rf {prefix} && make -C {WORKSPACE / 'build'} install"], 900)
+    install = f"rm -rf {prefix} && cmake --build {WORKSPACE / 'build'} --target install"
+    make_once("installed", ["bash", "-c", install], 900)
     return prefix
 
 
