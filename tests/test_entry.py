@@ -427,6 +427,17 @@ def test_a_source_error_is_not_retried(tmp_path):
     assert printed.endswith("given up\n") and "expected a sentence" in printed
 
 
+@pytest.mark.parametrize("generated, kept", [("Makefile", False), ("build.ninja", True)])
+def test_what_make_has_built_is_not_left_to_ninja(generated, kept, tmp_path):
+    (tmp_path / "build").mkdir()
+    for name in (generated, "object.o"):
+        (tmp_path / "build" / name).touch()
+    printed = in_script(
+        f"top={tmp_path}; workspace=$top; catkin_make() {{ ls build; }}; configure_and_make OFF OFF"
+    )
+    assert ("object.o" in printed) == kept
+
+
 BUILD = """
     echo "-- +++ processing catkin package: 'one'"
     for i in 3 9 10 57 100 2 99; do echo "[ $i%] Building $i.o"; done"""

@@ -3,6 +3,7 @@
 """Sanitizers: ThreadSanitizer for data shared by services and loop, all sanitizers for the client."""
 
 import os
+import re
 import subprocess
 from pathlib import Path
 
@@ -10,6 +11,7 @@ import pytest
 import ros_nodes
 
 TOP = Path(__file__).resolve().parent.parent
+DATA = TOP / "tests" / "data"
 SCRIPT = TOP / "catkin_ws" / "src" / "ros_control" / "controller_manager" / "test" / "tsan.sh"
 
 
@@ -23,7 +25,7 @@ def test_controller_manager_under_thread_sanitizer(long_run):
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
     )
-    assert result.returncode == 0, result.stdout[-6000:]
+    assert result.returncode == 0, first_report(result.stdout)
 
 
 @pytest.mark.long_form("builds libfranka and its tests again")
@@ -60,7 +62,7 @@ def test_hardware_interface_under_thread_sanitizer(tmp_path):
     run(["cmake", "-S", TOP / "catkin_ws" / "src", "-B", build, *definitions], 300)
     run(["make", "-C", build, "-j2", "franka_hw_robot_test"], 3600)
     with ros_nodes.master(tmp_path) as ros:
-        suppressions = TOP / "tests" / "data" / "franka_hw_tsan.supp"
+        suppressions = DATA / "franka_hw_tsan.supp"
         ros.environment.pop("FRANKA_TEST_LONG", None)  # it takes long enough with the sanitizer
         ros.environment["TSAN_OPTIONS"] = f"suppressions={suppressions} second_deadlock_stack=1"
         # First in the path, because the workspace's libraries are not instrumented.
@@ -70,16 +72,28 @@ def test_hardware_interface_under_thread_sanitizer(tmp_path):
         # Without tests that count allocations or milliseconds.
         tests = "-Cycle.*:Modes.ControllersRunOnceAMillisecond*"
         result = ros.run("setarch", "-R", str(program), f"--gtest_filter={tests}", timeout=1800)
-    reports = result.stderr[result.stderr.find("WARNING: ThreadSanitizer") :]
-    assert result.returncode == 0, reports[:6000] + result.stdout[-3000:]
+    assert result.returncode == 0, first_report(result.stderr) + result.stdout[-3000:]
     assert "[  PASSED  ]" in result.stdout
+
+
+def first_report(said):
+    """The first report, from which the others often follow, and the end."""
+    report = re.search(r"(WARNING|ERROR): \w+Sanitizer|runtime error:", said)
+    return (said[report.start() :][:6000] + "\n...\n" if report else "") + said[-3000:]
+
+
+def added(name, option):
+    """The sanitizer's options of the environment, and this one."""
+    return ":".join(filter(None, [os.environ.get(name), option]))
 
 
 def run(command, seconds):
     environment = {
         **os.environ,
         "PATH": f"/usr/bin:{os.environ['PATH']}",  # ROS is written for Debian's Python
-        "ASAN_OPTIONS": "verify_asan_link_order=0",  # the library of decimal_comma.py is loaded before ASan's
+        # The library of decimal_comma.py is loaded before ASan's.
+        "ASAN_OPTIONS": added("ASAN_OPTIONS", "verify_asan_link_order=0"),
+        "LSAN_OPTIONS": added("LSAN_OPTIONS", f"suppressions={DATA / 'urdfdom_lsan.supp'}"),
     }
     result = subprocess.run(
         [str(word) for word in command],
@@ -89,4 +103,4 @@ def run(command, seconds):
         stdout=subprocess.PIPE,
         stderr=subprocess.STDOUT,
     )
-    assert result.returncode == 0, result.stdout[-6000:]
+    assert result.returncode == 0, first_report(result.stdout)

@@ -74,6 +74,17 @@ def test_a_launch_that_ends_before_its_first_node_is_told_with_its_log(tmp_path,
             session.wait_for_node(timeout=60)
 
 
+def test_a_master_that_accepts_and_never_answers_does_not_hold_the_session(tmp_path, monkeypatch):
+    log = tmp_path / "log"
+    log.write_text("something else listens there")
+    monkeypatch.setattr("franka_sim_mujoco.session.ANSWER", 0.1)
+    with socket.create_server(("127.0.0.1", 0)) as mute:
+        session = Session("panda.launch", log=log, port=mute.getsockname()[1])
+        monkeypatch.setattr(session, "running", lambda: True)
+        with pytest.raises(SessionError, match=r"no node within 0.5 s:\nsomething else listens there"):
+            session.wait_for_node(timeout=0.5)
+
+
 def refuse(server):
     with suppress(OSError):
         while True:

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Starts a launch file on its own master and ends all its processes."""
 
+import http.client
 import os
 import random
 import signal
@@ -9,9 +10,12 @@ import socket
 import subprocess
 import time
 import xmlrpc.client
+from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
+
+ANSWER = 2.0  # s that a master may take
 
 
 class SessionError(RuntimeError):
@@ -29,6 +33,15 @@ def free_port() -> int:
             probe.bind(("127.0.0.1", port))
             return port
     raise SessionError("No port for a ROS master is free: a hundred between 20000 and 32767 are taken.")
+
+
+class _Transport(xmlrpc.client.Transport):
+    """Asks a master that must answer soon: one that accepts and stays mute would hold its caller for ever."""
+
+    def make_connection(self, host: Any) -> http.client.HTTPConnection:
+        connection = super().make_connection(host)
+        connection.timeout = ANSWER
+        return connection
 
 
 class Session:
@@ -96,32 +109,37 @@ class Session:
         )
 
     def wait_for_master(self, timeout: float = 60.0) -> None:
-        """Waits until the master accepts connections."""
-        deadline = time.monotonic() + timeout
-        while time.monotonic() < deadline:
-            self.check()
-            with socket.socket() as probe:
-                if probe.connect_ex(("127.0.0.1", self.port)) == 0:
-                    return
-            time.sleep(0.05)
-        raise SessionError(f"The ROS master did not come up on port {self.port} within {timeout} s.")
+        """Waits until the master accepts connections; SessionError if the launch ends before or none does."""
+        self._wait(self._accepts, timeout, f"The ROS master did not come up on port {self.port}")
 
     def wait_for_node(self, timeout: float = 60.0) -> None:
         """Waits for the first node of the launch, before which roslaunch has set all parameters.
 
         A program that becomes a node earlier does not see use_sim_time, and has the wall clock for good.
+        SessionError if the launch ends before or no node comes.
         """
+        self._wait(self._has_node, timeout, "The launch started no node")
+
+    def _wait(self, reached: Callable[[], bool], timeout: float, failure: str) -> None:
         deadline = time.monotonic() + timeout
-        self.wait_for_master(timeout)
-        with xmlrpc.client.ServerProxy(self.environment["ROS_MASTER_URI"]) as master:
-            while time.monotonic() < deadline:
-                self.check()
-                with suppress(OSError):  # from a master that ends, whose launch then ends with the reason
-                    kinds: Any = master.getSystemState("/session")
-                    if {node for kind in kinds[2] for _, nodes in kind for node in nodes} - {"/rosout"}:
-                        return
-                time.sleep(0.05)
-        raise SessionError(f"The launch started no node within {timeout} s:\n{self.tail()}")
+        while time.monotonic() < deadline:
+            self.check()
+            if reached():
+                return
+            time.sleep(0.05)
+        raise SessionError(f"{failure} within {timeout} s:\n{self.tail()}")
+
+    def _accepts(self) -> bool:
+        with socket.socket() as probe:
+            return probe.connect_ex(("127.0.0.1", self.port)) == 0
+
+    def _has_node(self) -> bool:
+        # A master that is not there yet, ends (its launch then ends, with the reason) or does not answer.
+        with suppress(OSError, http.client.HTTPException):
+            with xmlrpc.client.ServerProxy(self.environment["ROS_MASTER_URI"], _Transport()) as master:
+                kinds: Any = master.getSystemState("/session")
+                return bool({node for kind in kinds[2] for _, nodes in kind for node in nodes} - {"/rosout"})
+        return False
 
     def stop(self, timeout: float = 20.0) -> None:
         """Interrupts the launch as Ctrl-C does, then ends the rest of its process group."""
