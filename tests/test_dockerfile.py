@@ -4,6 +4,7 @@
 and commands run in them as in containers."""
 
 import json
+import re
 import shutil
 import subprocess
 from pathlib import Path
@@ -14,6 +15,8 @@ from dockerfile import Image, stages_of
 
 TOP = Path(__file__).resolve().parent.parent
 DOCKERFILE = TOP / "Dockerfile"
+PAGE = TOP / "docs" / "how_to" / "containers.md"
+SIZES = re.compile(r"take (\d\.\d) and (\d\.\d) GB")
 
 
 def test_the_dockerfile_has_no_findings():
@@ -49,6 +52,22 @@ def image(repository, tmp_path_factory):
         yield image
 
 
+def gigabytes(image):
+    """Without downloaded packages, which Docker's base image does not keep."""
+    command = ["du", "--summarize", "--one-file-system", "--block-size=1", "--exclude=./var/cache/apt"]
+    return int(subprocess.check_output(command, cwd=image.bare.root, text=True).split()[0]) / 1e9
+
+
+def on_the_page():
+    """The sizes of both images [GB]."""
+    return [float(size) for size in SIZES.search(PAGE.read_text(encoding="utf-8")).groups()]
+
+
+@BUILDS_IMAGES
+def test_the_runtime_image_is_as_small_as_the_page_says(image):
+    assert gigabytes(image) == pytest.approx(on_the_page()[0], abs=0.1)
+
+
 @BUILDS_IMAGES
 def test_a_container_draws_pictures_without_a_display(image):
     done = image.run(
@@ -80,6 +99,7 @@ def test_runtime_image_has_no_window_libraries_and_no_build_tools(image):
 @BUILDS_IMAGES
 def test_users_build_their_packages_in_the_development_image(image):
     image.build(stages_of(DOCKERFILE.read_text())["development"])
+    assert gigabytes(image) == pytest.approx(on_the_page()[1], abs=0.1)
     source = image.bare.root / "franka" / "ws" / "src"
     shutil.copytree(TOP / "tests" / "out_of_tree" / "my_arm", source / "my_arm")
     subprocess.run(["chown", "-R", "1000:1000", source.parent], check=True)
