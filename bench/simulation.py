@@ -43,7 +43,7 @@ def tick() -> None:
     print("One tick of 1 ms: physics, control unit, hardware, controller manager, impedance controller")
     for title, world, speed, ratio in (
         ("arm, hand and controller", "empty.xml", 80, 1.35),
-        ("pick-and-place scene", "stone.xml", 45, 1.2),
+        ("pick-and-place scene", "stone.xml", 50, 1.2),
     ):
         with (
             tempfile.TemporaryDirectory() as folder,
