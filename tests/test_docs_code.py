@@ -65,6 +65,15 @@ def test_python_can_be_read(block):
     ast.parse(textwrap.dedent(block.text))
 
 
+def test_python_has_no_undefined_name(tmp_path):
+    for block in of("python"):
+        name = f"{block}.py".replace("/", "_")
+        (tmp_path / name).write_text(textwrap.dedent(block.text))
+    ruff = [TOP / ".venv" / "bin" / "ruff", "check", "--isolated", "--no-cache", "--select", "F821", tmp_path]
+    found = subprocess.run([*ruff, "--output-format=concise"], text=True, capture_output=True, timeout=60)
+    assert found.returncode == 0, found.stdout + found.stderr
+
+
 def prints_without_output(text: str, page: str) -> list[str]:
     """Programs in Python that print, and are not files of the reader, before a block without their output."""
     lines = text.splitlines()

@@ -58,6 +58,9 @@ def test_every_program_answers_help():
         if status != 0 or not re.search("usage", text, re.IGNORECASE)
     }
     assert not wrong
+    # An option with nothing beside it, nor below it.
+    bare = re.compile(r"^( {1,4})(-\S+(?: \S+)*)\n(?!\1 )", re.MULTILINE)
+    assert not {path.name: found for path, (_, text) in answers.items() if (found := bare.findall(text))}
 
 
 @pytest.mark.parametrize(

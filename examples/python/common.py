@@ -20,7 +20,7 @@ def options(description, needs=(), episodes=100):
     """The command line, and the class of the robot that it selects. A notebook has the defaults. needs: names
     of packages that are not with pyfranka; if one is missing, a sentence ends the program."""
     parser = argparse.ArgumentParser(description=(description or "").partition("\n")[0])
-    parser.add_argument("--robot", choices=KINDS, default="panda")
+    parser.add_argument("--robot", choices=KINDS, default="panda", help="which arm (panda)")
     parser.add_argument("--output", type=Path, default=Path(), metavar="FOLDER", help="of what is written")
     parser.add_argument("--episodes", type=int, default=episodes, help="if the example has any")
     arguments = parser.parse_args([] if NOTEBOOK else None)

@@ -138,10 +138,12 @@ def heat_map(done, stiffnesses, scenes, path):
 
 def main(arguments=None):
     parser = argparse.ArgumentParser(description=(__doc__ or "").partition("\n")[0])
-    parser.add_argument("--robot", choices=["panda", "fr3"], default="panda")
-    parser.add_argument("--scenes", type=int, default=8)
-    parser.add_argument("--stiffnesses", type=int, nargs="+", default=STIFFNESSES, metavar="N/m")
-    parser.add_argument("--output", type=Path, default=Path())
+    parser.add_argument("--robot", choices=["panda", "fr3"], default="panda", help="which arm (panda)")
+    parser.add_argument("--scenes", type=int, default=8, help="how many random scenes (8)")
+    parser.add_argument(
+        "--stiffnesses", type=int, nargs="+", default=STIFFNESSES, metavar="N/m", help="each in all scenes"
+    )
+    parser.add_argument("--output", type=Path, default=Path(), metavar="FOLDER", help="of the picture")
     parser.add_argument("--cluster", help="a Dask scheduler; this machine's cores")
     options = parser.parse_args(arguments)
     scenes = range(1, options.scenes + 1)

@@ -70,7 +70,7 @@ def public_headers() -> tuple[Header, ...]:
     for package in packages():
         if package.name in WITHOUT:
             continue
-        for file in package.files("include/**/*.h"):
+        for file in [*package.files("include/**/*.h"), *package.files("include/**/*.hpp")]:
             inside = str(file.relative_to(package.folder))
             if re.search(r"/(internal|detail)/|_impl\.h$|hardware_interface_adapter\.h$", inside):
                 continue
@@ -84,7 +84,8 @@ def run_doxygen() -> None:
     """Writes the headers' descriptions as XML, unless they exist already for these headers."""
     folder = OUT / "doxygen"
     # Headers that are not public are read too: their base classes have comments.
-    files = [path for path in sorted(WORKSPACE.glob("**/include/**/*.h")) if "/test/" not in str(path)]
+    found = [*WORKSPACE.glob("**/include/**/*.h"), *WORKSPACE.glob("**/include/**/*.hpp")]
+    files = [path for path in sorted(found) if "/test/" not in str(path)]
     settings = SETTINGS.format(files=" ".join(map(str, files)), top=TOP, out=folder)
     stamp = hashlib.sha256(settings.encode() + b"".join(path.read_bytes() for path in files)).hexdigest()
     done = folder / "done"

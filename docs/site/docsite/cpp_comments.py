@@ -100,7 +100,7 @@ def names_in(folder: Path, public: set[str]) -> list[Name]:
     """The names in these headers, as a folder of Doxygen's XML has them."""
     found: dict[tuple[str, str], Name] = {}
     for file in sorted(folder.glob("*.xml")):
-        if not file.name.startswith(("class", "struct", "namespace")) and not file.name.endswith("_8h.xml"):
+        if not re.match(r"class|struct|namespace|.*_8h(pp)?\.xml$", file.name):
             continue
         for compound in ET.parse(file).getroot().iter("compounddef"):
             for each in names_of(compound):

@@ -27,8 +27,8 @@ class AsyncPositionControlHandler {
   };
   /// A handler, or the reason why there is none.
   struct ConfigurationResult {
-    std::shared_ptr<AsyncPositionControlHandler> handler;
-    std::optional<std::string> error_message;
+    std::shared_ptr<AsyncPositionControlHandler> handler;  ///< null on failure
+    std::optional<std::string> error_message;              ///< why there is none
   };
   /// The target.
   struct JointPositionTarget {
@@ -37,13 +37,13 @@ class AsyncPositionControlHandler {
   /// Whether a target was sent.
   struct CommandResult {
     std::string motion_uuid;  ///< identifies this target in logs; empty on failure
-    bool was_successful{false};
-    std::optional<std::string> error_message;
+    bool was_successful{false};                ///< whether it was sent
+    std::optional<std::string> error_message;  ///< why not
   };
   /// Progress towards the last target.
   struct TargetFeedback {
-    TargetStatus status{TargetStatus::kIdle};
-    std::optional<std::string> error_message;
+    TargetStatus status{TargetStatus::kIdle};  ///< how far the motion is
+    std::optional<std::string> error_message;  ///< why it was aborted
   };
 
   /// Joint velocities whose norm is below this count as rest [rad/s].

@@ -18,9 +18,12 @@ class LoggingSinkInterface {
   /// Name for removeLogger. Must not change while it is registered.
   virtual std::string getName() const = 0;
 
+  /// @name A message of each severity
+  /// @{
   virtual void logInfo(const std::string& message) = 0;
   virtual void logWarn(const std::string& message) = 0;
   virtual void logError(const std::string& message) = 0;
+  /// @}
 };
 
 }  // namespace franka
