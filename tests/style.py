@@ -51,6 +51,8 @@ LAYERS = "python/src/pyfranka/desk/__init__.py"
 READS_BY_LOCALE = (
     r"\b(strto(d|f|ld)|sto(d|f|ld)|atof|sscanf|Query(Double|Float)\w*|(Double|Float)(Text|Attribute|Value))\("
 )
+# They return the address of what another thread's call writes, too.
+SHARED_TIME = re.compile(r"\b(localtime|gmtime|ctime|asctime)\(")
 WRITES_BY_LOCALE = (
     r"\b(sn?printf|ROS_(DEBUG|INFO|WARN|ERROR|FATAL)\w*)"
     r"\((?:[^;\"]|\"[^\"]*\")*?\"[^\"]*%[-+#0-9.*]*[aefgAEFG]"
@@ -220,6 +222,13 @@ def locale_findings(name: str, text: str) -> Iterator[str]:
         yield f"{name}:{line}: '{match[0].split('(')[0]}' depends on the locale: use {instead}"
 
 
+def time_findings(name: str, text: str) -> Iterator[str]:
+    """Calls whose result all threads share."""
+    for match in SHARED_TIME.finditer(text):
+        line = text.count("\n", 0, match.start()) + 1
+        yield f"{name}:{line}: '{match[1]}' is not for several threads: use {match[1]}_r"
+
+
 def text_findings(path: Path) -> Iterator[str]:
     name = str(path.relative_to(TOP))
     try:
@@ -231,6 +240,7 @@ def text_findings(path: Path) -> Iterator[str]:
         yield f"{name}:1: the licence header is missing"
     if path.suffix in {".cpp", ".h"}:
         yield from include_findings(name, lines)
+        yield from time_findings(name, text)
         if not {"test", "tests", "bench"} & set(path.parts):
             yield from locale_findings(name, text)
         if path.suffix == ".h" and "#pragma once" not in lines:

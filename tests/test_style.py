@@ -90,6 +90,12 @@ def run(*arguments: str, monkeypatch) -> int:
             LICENCE + 'ROS_ERROR("%s: 5 % of %i", name, i);\n',
             LICENCE + 'ROS_WARN_NAMED(kLog,\n  "%s; " "%g", name, x);\n',
         ),
+        (
+            "text",
+            "a.cpp",
+            LICENCE + "localtime_r(&now, &parts);\n",
+            LICENCE + "parts = *std::localtime(&now);\n",
+        ),
         ("text", "a.md", "# The center of mass\n", "# The centre of mass\n"),
         ("ruff", "a.py", "import os\n\nprint(os.name)\n", "import os\n"),
         ("ruff", "program", "#!/usr/bin/env python3\nprint(1)\n", "#!/usr/bin/env python3\nprint( 1 )\n"),

@@ -72,8 +72,9 @@ class Environment:
     """A virtual environment with the wheel and what it requires, and nothing of this machine's packages."""
 
     def __init__(self, folder: Path, wheel: Path, lock: str = "wheel", extras: str = ""):
-        self.folder, self.wheel, self.bin = folder, wheel, folder / "venv" / "bin"
-        venv = ["/usr/bin/python3", "-m", "venv", "--without-pip", folder / "venv"]
+        self.folder, self.wheel, self.place = folder, wheel, folder / "venv of mine"
+        self.bin = self.place / "bin"
+        venv = ["/usr/bin/python3", "-m", "venv", "--without-pip", self.place]
         subprocess.run(venv, check=True, timeout=300)
         # What the wheel requires has to be in the lock.
         self.install(*files(lock))
@@ -456,7 +457,7 @@ def test_types_and_what_is_imported_have_no_difference(environment, archive, tmp
     (tmp_path / "_pyfranka-stubs").rename(tmp_path / "_pyfranka")
     settings = tmp_path / "mypy.ini"
     settings.write_text("[mypy]\nignore_missing_imports = True\n")
-    installed = next((environment.folder / "venv" / "lib").glob("python3*/site-packages"))
+    installed = next((environment.place / "lib").glob("python3*/site-packages"))
     variables = {name: value for name, value in os.environ.items() if name not in OF_A_WORKSPACE}
     options = ["--concise", "--mypy-config-file", settings]
     compared = subprocess.run(

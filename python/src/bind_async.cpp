@@ -28,12 +28,14 @@ void bindValues(py::class_<Handler, std::shared_ptr<Handler>>& handler) {
       .def_readwrite("maximum_joint_velocities", &Handler::Configuration::maximum_joint_velocities,
                      "7 limits [rad/s].")
       .def_readwrite("goal_tolerance", &Handler::Configuration::goal_tolerance,
-                     "A target is reached within this norm of joint angles [rad].");
+                     "A target is reached within this norm of joint angles [rad].")
+      .def("__repr__", shown({"maximum_joint_velocities", "goal_tolerance"}));
   py::class_<Handler::ConfigurationResult>(handler, "ConfigurationResult", py::module_local(),
                                            "A handler, or the reason why there is none.")
       .def_readwrite("handler", &Handler::ConfigurationResult::handler, "The handler, or None.")
       .def_readwrite("error_message", &Handler::ConfigurationResult::error_message,
-                     "The reason, or None.");
+                     "The reason, or None.")
+      .def("__repr__", shown({"error_message"}));
   py::class_<Handler::JointPositionTarget>(handler, "JointPositionTarget", py::module_local(),
                                            "Where to go.")
       .def(py::init([](std::vector<double> positions) {
@@ -41,7 +43,8 @@ void bindValues(py::class_<Handler, std::shared_ptr<Handler>>& handler) {
            }),
            py::arg("joint_positions"), "Of 7 joint positions [rad].")
       .def_readwrite("joint_positions", &Handler::JointPositionTarget::joint_positions,
-                     "7 joint positions [rad].");
+                     "7 joint positions [rad].")
+      .def("__repr__", shown({"joint_positions"}));
   py::class_<Handler::CommandResult>(handler, "CommandResult", py::module_local(),
                                      "Whether a target was sent.")
       .def_readwrite("motion_uuid", &Handler::CommandResult::motion_uuid,
@@ -49,12 +52,14 @@ void bindValues(py::class_<Handler, std::shared_ptr<Handler>>& handler) {
       .def_readwrite("was_successful", &Handler::CommandResult::was_successful,
                      "Whether it was sent.")
       .def_readwrite("error_message", &Handler::CommandResult::error_message,
-                     "Why it was not, or None.");
+                     "Why it was not, or None.")
+      .def("__repr__", shown({"was_successful", "error_message"}));
   py::class_<Handler::TargetFeedback>(handler, "TargetFeedback", py::module_local(),
                                       "Progress towards a target.")
       .def_readwrite("status", &Handler::TargetFeedback::status, "How far the robot is.")
       .def_readwrite("error_message", &Handler::TargetFeedback::error_message,
-                     "Why the motion was aborted, or None.");
+                     "Why the motion was aborted, or None.")
+      .def("__repr__", shown({"status", "error_message"}));
 }
 
 }  // namespace
@@ -76,7 +81,7 @@ void bindAsync(py::module_& module) {
       "handler.set_joint_position_target(Handler.JointPositionTarget(fr3_q)).was_"
       "successful\nTrue\n>>> handler.stop_control()");
   bindValues(handler);
-  handler
+  handler.def("__repr__", shown({}))
       .def_static(
           "configure",
           [](franka::Robot& robot, const Handler::Configuration& configuration) {

@@ -133,7 +133,8 @@ void bindVacuum(py::module_& module) {
       .def_readonly("vacuum", &VacuumGripperState::vacuum, "At the cups [mbar].")
       .def_property_readonly(
           "time", [](const VacuumGripperState& state) { return seconds(state.time); },
-          "Since the gripper started [s].");
+          "Since the gripper started [s].")
+      .def("__repr__", shown({"vacuum", "actual_power", "part_present", "device_status"}));
 
   py::class_<VacuumGripper> gripper(
       module, "VacuumGripper", py::module_local(),

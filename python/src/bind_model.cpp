@@ -174,11 +174,16 @@ std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const py::object& description
 void bindModelKdl(py::module_& module) {
   py::class_<franka_hw::ModelKDL> kdl(
       module, "ModelKDL", py::module_local(),
-      "The arm's model on KDL, from a URDF; no robot needed.\n\n>>> kdl = pyfranka.ModelKDL(urdf, "
+      "The arm's model on KDL, from a URDF; no robot needed. Its functions raise ValueError for an "
+      "array of another shape, and TypeError for what is neither a state nor an array.\n\n>>> kdl "
+      "= pyfranka.ModelKDL(urdf, "
       "\"panda_link0\", \"panda_link8\")\n>>> kdl.gravity(pyfranka.RobotState()).shape\n(7,)");
   kdl.def(py::init(&modelFromUrdf), py::arg("urdf"), py::arg("root"), py::arg("tip"),
           "Chain from link `root` to link `tip` of a URDF text. Raises ValueError for a text that "
           "is not a URDF, RuntimeError for a chain that is not an arm.");
+  kdl.def("__repr__", [](const franka_hw::ModelKDL&) {
+    return "<ModelKDL of a URDF: pose, Jacobians, mass, coriolis, gravity>";
+  });
   bindKinematics<RobotState>(kdl);
   bindDynamics<RobotState>(kdl);
 }
@@ -223,9 +228,14 @@ void bindModel(py::module_& module) {
 
   py::class_<franka::Model> model(
       module, "Model", py::module_local(),
-      "The model that the robot provides.\n\n>>> model, state = robot.load_model(), "
+      "The model that the robot provides. Its functions raise ValueError for an array of another "
+      "shape, and TypeError for what is neither a state nor an array.\n\n>>> model, state = "
+      "robot.load_model(), "
       "robot.read_once()\n>>> numpy.allclose(model.pose(pyfranka.Frame.EndEffector, state), "
       "state.O_T_EE, atol=1e-3)\nTrue");
+  model.def("__repr__", [](const franka::Model&) {
+    return "<Model of a connected robot: pose, Jacobians, mass, coriolis, gravity>";
+  });
   bindKinematics<RobotState>(model);
   bindDynamics<RobotState>(model);
 
@@ -235,7 +245,9 @@ void bindModel(py::module_& module) {
 void bindSimModel(py::module_& module) {
   py::class_<SimModel> model(
       module, "ArmModel", py::module_local(),
-      "The model of a simulated robot's own control.\n\n>>> arm = sim[\"panda\"]\n>>> "
+      "The model of a simulated robot's own control. Its functions raise ValueError for an array "
+      "of another shape, and TypeError for what is neither a state nor an array.\n\n>>> arm = "
+      "sim[\"panda\"]\n>>> "
       "arm.command(torque=arm.model.coriolis(arm.state))");
   model.def("__repr__", [](const SimModel&) {
     return "<ArmModel of a simulated robot: pose, Jacobians, mass, coriolis, gravity>";

@@ -223,7 +223,10 @@ void bindMotion(py::module_& module) {
             const py::gil_scoped_release release;
             self.close();
           },
-          "Ends the motion.");
+          "Ends the motion.")
+      .def("__repr__", [](const Motion& self) {
+        return self.closed() ? "<ActiveControl: closed>" : "<ActiveControl: a motion>";
+      });
   motion.def(
       "write_once", [](Motion& self, const Torques& torques) { self.get().writeOnce(torques); },
       py::call_guard<py::gil_scoped_release>(), py::arg("command"),

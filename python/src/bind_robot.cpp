@@ -348,7 +348,8 @@ void bindReading(py::module_& module, py::class_<Robot>& robot) {
             return view(self.cast<const VirtualWallCuboid&>().p_frame, Shape::kMatrix4, self);
           },
           "Pose of the box in O, 4x4.")
-      .def_readonly("active", &VirtualWallCuboid::active, "Whether the robot enforces it.");
+      .def_readonly("active", &VirtualWallCuboid::active, "Whether the robot enforces it.")
+      .def("__repr__", shown({"id", "object_world_size", "active"}));
   robot
       .def("get_virtual_wall", &Robot::getVirtualWall, py::call_guard<py::gil_scoped_release>(),
            py::arg("id"),
@@ -384,7 +385,12 @@ void bindRobot(py::module_& module) {
 
   py::class_<Robot> robot(module, "Robot", py::module_local(),
                           "A connection to a robot. Waiting calls let other Python threads run; "
-                          "one operation at a time, but stop() from any thread.\n\n>>> robot = "
+                          "one operation at a time, but stop() from any thread.\n\nAll calls raise "
+                          "NetworkException when the connection is lost, "
+                          "InvalidOperationException if they need states while another call reads "
+                          "them, "
+                          "CommandException with the robot's reason when it refuses, ValueError or "
+                          "TypeError for an argument that cannot be.\n\n>>> robot = "
                           "pyfranka.Robot(\"172.16.0.2\", pyfranka.RealtimeConfig.Ignore)\n>>> "
                           "robot.read_once().q.shape\n(7,)");
   withNames(

@@ -251,7 +251,11 @@ void bindState(py::module_& module) {
           [](const franka::Record& record) {
             return copy(record.command.torques.tau_J, Shape::kVector);
           },
-          "Torques, 7 [Nm].");
+          "Torques, 7 [Nm].")
+      .def("__repr__", [](const franka::Record& self) {
+        return "<Record of the state at " + franka_core::numberText(self.state.time.toSec(), 9) +
+               " s>";
+      });
   module.def("log_to_csv", &franka::logToCSV, py::arg("log"),
              "The records of a ControlException as comma separated values.\n\n>>> "
              "len(pyfranka.log_to_csv(error.log).splitlines()) > len(error.log)\nTrue");

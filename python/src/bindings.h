@@ -6,6 +6,9 @@
 #include <pyfranka/arrays.h>
 
 #include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 /// @file
 /// The parts of the module.
@@ -34,5 +37,18 @@ void bindSimulatedRobot(py::module_& module,
 void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation);
 void bindBatch(py::module_& module);
 void bindEpisode(py::module_& module);
+
+/// A __repr__ of the class and these attributes: "<VirtualWallCuboid: id 0, active False>".
+inline auto shown(std::vector<const char*> attributes) {
+  return [attributes = std::move(attributes)](const py::object& self) {
+    std::string text = "<" + py::type::of(self).attr("__name__").cast<std::string>();
+    const char* separator = ": ";
+    for (const char* name : attributes) {
+      text += separator + (name + (" " + py::str(self.attr(name)).cast<std::string>()));
+      separator = ", ";
+    }
+    return text + ">";
+  };
+}
 
 }  // namespace pyfranka

@@ -37,6 +37,7 @@ class Motion {
     }
     return *motion_;
   }
+  bool closed() const noexcept { return !motion_; }
   void close() noexcept {
     if (process_ == getpid()) {
       motion_.reset();

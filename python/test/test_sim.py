@@ -19,6 +19,7 @@ from pathlib import Path
 import numpy as np
 import page_output
 import pyfranka
+import pyfranka.plot
 import pyfranka.sim
 import pytest
 from pyfranka import libfranka
@@ -330,6 +331,22 @@ def test_everything_shows_itself_in_a_line(sim, arm, name):
         assert "The simulation is closed" in repr(thing)
     with pytest.raises(RuntimeError, match="is closed"), sim:
         pass
+
+
+def test_every_public_class_shows_itself():
+    classes = {
+        each
+        for module in (pyfranka, pyfranka.sim, pyfranka.plot)
+        for outer in (getattr(module, name) for name in module.__all__)
+        for each in (outer, *(vars(outer).values() if isinstance(outer, type) else ()))
+        if isinstance(each, type)
+    }
+    handler = pyfranka.AsyncPositionControlHandler
+    assert {handler, handler.CommandResult, pyfranka.Record, pyfranka.plot.Collector} <= classes
+    assert not [each.__qualname__ for each in classes if each.__repr__ is object.__repr__]
+    target = handler.JointPositionTarget([0.5] * 7)
+    assert repr(target) == "<JointPositionTarget: joint_positions [0.5, 0.5, 0.5, 0.5, 0.5, 0.5, 0.5]>"
+    assert repr(pyfranka.plot.Collector("arm")) == "<Collector of 'arm': 0 states>"
 
 
 def test_states_can_be_pickled(sim, arm):

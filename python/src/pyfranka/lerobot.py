@@ -15,7 +15,6 @@ converts recordings of `franka_info record`. Needs pyarrow, and for pictures the
 
 from __future__ import annotations
 
-import argparse
 import contextlib
 import csv
 import json
@@ -30,7 +29,7 @@ from typing import Any
 import numpy
 from numpy.typing import NDArray
 
-from pyfranka.command_line import missing_package
+from pyfranka.command_line import Parser, missing_package
 from pyfranka.sim.arguments import items, mapping, path, text, whole
 
 __all__ = ["Dataset", "convert_recording", "main"]
@@ -189,6 +188,9 @@ class Dataset:
         self._tasks: list[str] = []
         self.episodes, self.frames = 0, 0  # that are saved
         self._begin()
+
+    def __repr__(self) -> str:
+        return f"<Dataset {str(self.folder)!r}: {self.episodes} episodes>"
 
     def __enter__(self) -> Dataset:
         return self
@@ -429,7 +431,7 @@ def _restored_on_failure(folder: Path) -> Iterator[None]:
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """The program. @returns 0; 1 and no data set if a file cannot be converted; 2 for a wrong call"""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="python3 -m pyfranka.lerobot",
         description="Writes recordings of franka_info record as episodes of a data set of LeRobot.",
     )

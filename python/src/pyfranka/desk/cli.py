@@ -16,7 +16,7 @@ import sys
 import typing
 from collections.abc import Sequence
 
-from pyfranka.command_line import install_command
+from pyfranka.command_line import Parser, install_command
 from pyfranka.desk.profiles import PROFILES
 from pyfranka.desk.robot import PORT, DeskRobot
 from pyfranka.desk.settings import USER, Options, Settings
@@ -71,8 +71,8 @@ def _lower_priority() -> None:
         os.nice(NICE)
 
 
-def _parser() -> argparse.ArgumentParser:
-    parser = argparse.ArgumentParser(
+def _parser() -> Parser:
+    parser = Parser(
         prog="franka_desk",
         description="The web interface of Franka robots, for robots that franka_sim serves.",
         epilog=f"The password comes from the variable {PASSWORD}; without it a new one is printed.",

@@ -153,6 +153,9 @@ class Collector:
         self._fields = tuple(fields)
         self._rows: deque[tuple[float, int, tuple[str, ...], list[Array]]] = deque(maxlen=most)
 
+    def __repr__(self) -> str:
+        return f"<Collector of {self.name!r}: {len(self._rows)} states>"
+
     def add(self, state: Any, time: float | None = None) -> None:
         """Adds a state of pyfranka or a franka_msgs/FrankaState. @param time its own if not given [s]
 
