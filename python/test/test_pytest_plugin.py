@@ -87,6 +87,8 @@ def test_a_users_tests_get_robots_of_their_own(project):
             robot = franka_sim("fr3", name="me", realism="ideal", protocol=8, hand="none").robot
             assert robot.connect().server_version == 8
             assert robot.remote.where("me_link0") == pytest.approx([0, 0, 0])
+            with pytest.warns(DeprecationWarning, match="The option arm_id is now name"):
+                assert franka_sim(arm_id="old").robot.name == "old"
 
         def test_robot_that_cannot_start_is_reported_with_its_message(franka_sim):
             with pytest.raises(ValueError, match="There is no robot 'ur5'; there are: panda, fr3"):
@@ -211,7 +213,7 @@ def test_short_names_of_fixtures_can_be_left_to_the_project(project):
     assert "fixture 'panda' not found" in result.stdout.str()
 
 
-def test_a_session_without_our_fixtures_loads_neither_numpy_nor_the_simulation(project):
+def test_a_session_without_our_fixtures_loads_no_numpy_and_no_module_of_simulations(project):
     project.makepyfile(
         """
         import sys

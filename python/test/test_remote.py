@@ -130,6 +130,8 @@ def test_old_names_do_the_same_and_warn(remote):
         "brakes": lambda: remote.brakes(True) or remote.state().mode == "Other",
         "brakes()": lambda: remote.brakes(False) or remote.wait().mode == "Idle",
         "fci": lambda: remote.fci(True) is None,
+        "joints": lambda: remote.joints(False) is None,
+        "input": lambda: remote.input("guiding", False) is None,
     }
     for name, works in old.items():
         with pytest.warns(DeprecationWarning, match=rf"^Remote\.{name.rstrip('()')}\(\) is now ") as caught:

@@ -10,7 +10,8 @@ Each robot has a loopback address of its own, so that tests and sessions may run
 ended after the test; if the test fails, the report shows what the robot has written.
 
 The fixtures have the short names panda and fr3 too, unless `franka_short_fixtures = false` in the ini file
-leaves these to the project. A session without these fixtures loads neither numpy nor the simulation.
+leaves these to the project. A session without these fixtures loads pyfranka's library (30 to 50 ms), but
+not numpy.
 """
 
 from __future__ import annotations
