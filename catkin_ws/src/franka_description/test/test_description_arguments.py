@@ -107,16 +107,18 @@ def test_macro_mounts_the_arm_on_its_parent(gazebo):
     assert expand_text(ROBOT % f'xyz="0 0 0.95" gazebo="{gazebo}"').root() == "world"
 
 
+@pytest.mark.parametrize("left_y", [0.5, 0])
+@pytest.mark.parametrize("gazebo", ["true", "false"])
 @pytest.mark.parametrize("parent", ["world", "stand"])
-def test_two_arms_share_a_parent(parent):
+def test_two_arms_share_a_parent(parent, gazebo, left_y):
     arms = [
-        f'<xacro:franka_robot arm_id="{arm}" parent="{parent}" xyz="0 {y} 0" gazebo="true"'
+        f'<xacro:franka_robot arm_id="{arm}" parent="{parent}" xyz="0 {y} 0" gazebo="{gazebo}"'
         ' joint_limits="${panda_limits}"/>'
-        for arm, y in (("left", "0.5"), ("right", "-0.5"))
+        for arm, y in (("left", left_y), ("right", -0.5))
     ]
     robot = expand_text("".join(arms) + ('<link name="stand"/>' if parent == "stand" else ""))
     assert robot.root() == parent
-    assert robot.pose("left_link0")[1, 3] == 0.5 and robot.pose("right_link0")[1, 3] == -0.5
+    assert robot.pose("left_link0")[1, 3] == left_y and robot.pose("right_link0")[1, 3] == -0.5
 
 
 @pytest.mark.parametrize("name", [*(f"{robot}/{robot}" for robot in NAMES), "dual_panda/dual_panda_example"])
