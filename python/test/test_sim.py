@@ -673,6 +673,19 @@ def test_a_description_of_ones_own_keeps_its_hand(name, tmp_path):
         assert sim[name].gripper.width == pytest.approx(0.04, abs=1e-3)
 
 
+def test_a_rounded_inertia_of_a_description_is_repaired_with_a_warning(tmp_path):
+    robots = Path(__file__).resolve().parents[2] / "catkin_ws" / "src" / "franka_sim" / "robots"
+    disc = (
+        '<link name="disc"><inertial><mass value="0.3"/>'
+        '<inertia ixx="0.00042" iyy="0.00042" izz="0.00085" ixy="0" ixz="0" iyz="0"/></inertial></link>'
+        '<joint name="disc_joint" type="fixed"><parent link="panda_link8"/><child link="disc"/></joint>'
+    )
+    own = tmp_path / "own.urdf"
+    own.write_text((robots / "panda.urdf").read_text().replace("</robot>", disc + "</robot>"))
+    with Simulation("", [Panda(urdf=own)]) as sim, pytest.warns(RuntimeWarning, match="inertia.*disc"):
+        sim.step(1)
+
+
 @pytest.mark.filterwarnings("error")  # of exceptions in threads
 def test_the_examples_of_the_documentation_run(capsys):
     first, served, batch = page_output.examples("python.md")[:3]
