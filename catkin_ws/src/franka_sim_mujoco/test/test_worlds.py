@@ -68,6 +68,13 @@ BALL = "<body name='{0}'><freejoint/><geom type='sphere' size='0.05' mass='0.3'/
 FEATHER = """<body name='feather'><freejoint/><inertial pos='0 0 0' mass='1e-7' diaginertia='1e-7 1e-7 1e-7'/>
   <geom type='sphere' size='0.01'/></body>"""
 NONE = Vector3()
+# A box of 0.1 m with a camera that looks ahead.
+CRATE = """<robot name='any'><link name='body'><inertial><mass value='0.5'/><inertia ixx='0.001' iyy='0.001'
+  izz='0.001' ixy='0' ixz='0' iyz='0'/></inertial>
+  <collision><geometry><box size='0.1 0.1 0.1'/></geometry></collision></link>
+  <gazebo reference='body'><sensor name='eye' type='camera'><update_rate>20</update_rate><camera>
+  <horizontal_fov>1.0</horizontal_fov><image><width>32</width><height>24</height></image></camera></sensor>
+  </gazebo></robot>"""
 # A camera looks down on the floor from 2 m; a plate of 1 m in the middle of its view stands 0.5 m high.
 CAMERA = """<sdf version='1.6'><model name='eye'><static>true</static><link name='link'>
   <sensor name='cam' type='depth'><update_rate>20</update_rate><camera><horizontal_fov>1.0</horizontal_fov>
@@ -588,6 +595,28 @@ def test_gazebo_models_are_spawned_configured_and_deleted():
     gazebo("set_model_configuration", SetModelConfiguration, *configure, [before])
     answer = gazebo("set_model_configuration", SetModelConfiguration, *configure, [9.0], fails=True)
     assert "panda_2_joint1" in answer.status_message
+
+
+def test_gazebo_spawns_a_urdf_object_that_falls_and_sees():
+    gazebo("spawn_urdf_model", SpawnModel, "crate", CRATE, "", at(2, 2, 0.3), "")
+    near(gazebo("get_model_state", GetModelState, "crate", "").pose.position, 2, 2, 0.3)
+    gazebo("step", Step, 1000)
+    state = gazebo("get_model_state", GetModelState, "crate", "")
+    assert state.pose.position.z == pytest.approx(0.05, abs=1e-3)
+    assert state.twist.linear.z == pytest.approx(0, abs=1e-3)
+    image = latest("/gazebo/crate/body/eye/image_raw", Image)
+    assert (image.width, image.height, len(image.data)) == (32, 24, 3 * 32 * 24)
+    assert len(set(image.data)) > 1
+    gazebo("delete_model", DeleteModel, "crate")
+    assert "crate" not in model_names()
+
+
+def test_gazebo_reports_what_a_spawned_model_has_and_is_not_simulated():
+    bumper = "<sensor name='bumper' type='contact'/></link>"
+    answer = gazebo(
+        "spawn_sdf_model", SpawnModel, "lamp", LAMP.replace("</link>", bumper), "", at(0, 0, 3), ""
+    )
+    assert "bumper" in answer.status_message
 
 
 def test_states_come_from_both_robots():
