@@ -315,6 +315,7 @@ class Interruption:
             begin = new.sent
         self.outcome = running.result()
         self.seconds = running.at - begin
+        self.position = getattr(running.handle.get_result(), "position", None)
         if second in slow:
             new.until_active()
             hand.stop().result()
@@ -342,6 +343,8 @@ def test_a_new_goal_or_stop_ends_the_running_action(interruption, first, second)
     assert state == (ABORTED if second == "stop" else PREEMPTED), text
     assert not success
     assert "ended this one" in text
+    if first == "gripper_action":
+        assert 0.04 < seen.position < 0.0785, "the width"
     assert seen.new_state == {"stop": SUCCEEDED, "cancel": None}.get(second, ABORTED)
 
 
