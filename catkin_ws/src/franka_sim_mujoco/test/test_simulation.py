@@ -186,6 +186,22 @@ def test_a_new_goal_preempts_and_a_cancel_ends_a_motion():
     wait_for(lambda: comes_to(moving, actionlib.CommState.ACTIVE), "The second motion")
     moving.cancel()
     assert result(moving)[0] == GoalStatus.PREEMPTED
+    command = Action("/franka_gripper/gripper_action", GripperCommandAction)
+    closing = GripperCommandGoal()
+    for other in (False, True):
+        pause(False)
+        move.run(MoveGoal(width=0.08, speed=0.1))
+        pause()
+        moving = command.send(closing)
+        wait_for(lambda moving=moving: comes_to(moving, actionlib.CommState.ACTIVE), "The command")
+        if other:
+            command.send(closing)
+            wait_for(lambda moving=moving: comes_to(moving, actionlib.CommState.DONE), "The command's end")
+        else:
+            moving.cancel()
+        status, answer, _ = result(moving)
+        assert status == GoalStatus.PREEMPTED
+        assert answer.position == pytest.approx(0.08, abs=0.03), "the width"
 
 
 def test_gripper_action_moves_and_reports():
