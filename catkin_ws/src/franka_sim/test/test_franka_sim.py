@@ -438,6 +438,33 @@ def test_franka_info_ignores_lateness_of_a_robot_with_another_pace(pace):
     assert result.returncode == lost
 
 
+# Answers of the system, whatever the user may do.
+SCHEDULER = """#include <errno.h>
+#include <stdlib.h>
+int sched_setscheduler(int pid, int policy, const void* parameters) {
+  errno = EPERM;
+  return getenv("DENY_PRIORITY") ? -1 : 0;
+}
+int mlockall(int flags) { errno = ENOMEM; return -1; }
+"""
+
+
+@pytest.mark.parametrize(
+    ("denied", "words"), [("priority", ("SCHED_FIFO", "rtprio")), ("memory", ("mlockall", "memlock"))]
+)
+def test_denied_real_time_resources_are_reported(denied, words, tmp_path, monkeypatch):
+    source, library = tmp_path / "scheduler.c", tmp_path / "scheduler.so"
+    source.write_text(SCHEDULER)
+    subprocess.run(["cc", "-shared", "-fPIC", "-o", library, source], check=True)
+    monkeypatch.setenv("LD_PRELOAD", f"{os.environ.get('LD_PRELOAD', '')}:{library}")
+    if denied == "priority":
+        monkeypatch.setenv("DENY_PRIORITY", "1")
+    with FrankaSim("panda", pace="realtime") as server:
+        wait_for(lambda: words[0] in server.log(), "The sentence")
+        sentences = [line for line in server.log().splitlines() if "limits.conf" in line]
+        assert len(sentences) == 1 and all(word in sentences[0] for word in words), server.log()
+
+
 @pytest.fixture
 def lingering():
     """Starts a robot with a client, signals it to exit, and returns both."""

@@ -168,6 +168,17 @@ def test_moves_to_the_pack_pose_without_fci(robot):
         robot.remote.send("move 0 0 0 -1.5 0 1.5 0 2")
 
 
+def test_a_refused_move_lets_no_time_pass(robot):
+    remote = robot.remote
+    remote.send("joints unlock")
+    remote.wait()
+    before = (remote.time, remote.state_hash())
+    for words in ("9 0 0 -1.5 0 1.5 0", "0 0 0 -1.5 0 1.5 0 2", "1 2 3", "0 0 0 -1.5 0 1.5 x"):
+        with pytest.raises(LineRefused):
+            remote.send(f"move {words}")
+        assert (remote.time, remote.state_hash()) == before, words
+
+
 @both
 def test_moves_to_the_printed_end_of_its_reach(robot):
     """Within an FR3's limits, but out of its reach: there the joint's velocity limit is 0."""
@@ -248,7 +259,8 @@ def test_errors_are_acknowledged(robot):
 WRONG = [
     "input x5 on", "button circle", "operating_mode walk", "guiding_mode user on", "timing brakes -1",
      "timing lunch 3", "inject jointLimitViolation 8 on", "inject nothing on", "acknowledge nothing",
-     "self_test never", "move 1 2 3", "end_effector 1", "power maybe", "joints open", "navigation sea",
+     "inject jointLimitViolation 1.5 on", "self_test never", "move 1 2 3", "end_effector 1", "power maybe",
+     "joints open", "navigation sea",
 ]  # fmt: skip
 
 

@@ -37,6 +37,8 @@ class HandServer {
       : unit_(unit), slot_(address, port), datagrams_(address) {}
 
   std::uint16_t port() const noexcept { return slot_.port(); }
+  /// Whether clients can connect, since the last setOpen().
+  bool isOpen() const noexcept { return slot_.isOpen(); }
   bool hasClient() const noexcept { return slot_.confirmed(); }
   bool idle() const noexcept { return slot_.idle(); }
   /// See ClientSlot::onRefusal.

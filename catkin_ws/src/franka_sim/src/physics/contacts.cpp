@@ -4,24 +4,27 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
+#include <map>
 
 namespace franka_sim::physics {
 namespace {
 
 /// A box in a pile has four contacts with each of the four boxes below it, and as many with
-/// neighbors at two of its sides. A robot has enough for a grasp and several links in contact
-/// (chosen here).
+/// neighbors at two of its sides (chosen here).
 constexpr int kContactsOfMovingGeom = 24;
 /// Memory grows with the square of the rows: with fewer of them contacts share their friction,
 /// which needs 32 rows for a box on four others.
 constexpr int kContactsWithRowsOfMovingGeom = 11;
-constexpr int kContactsOfRobot = 40;
+/// A robot has enough for a grasp and several links in contact, each shape for a box on a table. An
+/// arm with a hand has 43 shapes, which rarely touch anything; several arms may be one robot, so
+/// its rows grow with the shapes, too, up to some 35 MB (chosen here).
+constexpr int kMinContactsOfRobot = 40;
+constexpr int kContactsOfRobotGeom = 4;
+constexpr int kContactsWithRowsOfRobotGeom = 1;
+constexpr int kMaxContactsWithRowsOfRobot = 300;
 constexpr int kMinContacts = 100;
 /// Pads of a gripper have torsional friction.
 constexpr int kRowsOfGraspContact = 4;
-/// Of the joints' friction.
-constexpr int kRowsOfRobot = 9;
 /// MuJoCo 2.2 counts the bytes of a state in an int. For r rows and v degrees of freedom, its
 /// matrices of constraints take 12 r^2 + 24 r v; the rest of it gets what remains of the int.
 constexpr double kMaxMatrixBytes = 2.08e9;
@@ -32,13 +35,14 @@ constexpr int kMaxContactsForNewton = 200;
 /// The stack is memory that is used where it is needed only; MuJoCo counts it in an int, too.
 constexpr double kMaxStack = 2.5e8;  // [numbers]
 
-int rowsWithoutContacts(const mjModel& model, int robots) {
-  int rows = 6 * model.neq + 3 * model.ntendon + kRowsOfRobot * robots;
+int rowsWithoutContacts(const mjModel& model, const std::vector<int>& robot_of_body) {
+  int rows = 6 * model.neq + 3 * model.ntendon;
   for (int j = 0; j < model.njnt; ++j) {
     rows += model.jnt_limited[j] != 0 ? 2 : 0;
   }
   for (int dof = 0; dof < model.nv; ++dof) {
-    rows += model.dof_frictionloss[dof] > 0 ? 1 : 0;
+    const bool of_robot = robot_of_body[model.dof_bodyid[dof]] >= 0;  // which sets friction later
+    rows += of_robot || model.dof_frictionloss[dof] > 0 ? 1 : 0;
   }
   return rows;
 }
@@ -109,25 +113,32 @@ void setContactCapacity(mjModel* model, const std::vector<int>& robot_of_body,
   for (int pair = 0; pair < model->npair; ++pair) {
     collides[model->pair_geom1[pair]] = collides[model->pair_geom2[pair]] = true;
   }
-  int geoms = 0;
+  std::map<int, int> shapes;  // that move and collide: per robot, and -1 of all objects
+  for (const int robot : robot_of_body) {
+    shapes.emplace(robot, 0);
+  }
   for (int geom = 0; geom < model->ngeom; ++geom) {
     const int body = model->geom_bodyid[geom];
-    const bool is_object = robot_of_body[body] < 0 && model->body_weldid[body] != 0;
-    geoms += is_object && collides[geom] ? 1 : 0;
+    shapes[robot_of_body[body]] += collides[geom] && model->body_weldid[body] != 0 ? 1 : 0;
   }
-  std::set<int> robots(robot_of_body.begin(), robot_of_body.end());
-  robots.erase(-1);
-  const int robot_count = static_cast<int>(robots.size());
+  const int geoms = shapes[-1];
+  shapes.erase(-1);
+  int contacts_of_robots = 0;
+  int contacts_with_rows_of_robots = 0;
+  for (const auto& [robot, count] : shapes) {
+    contacts_of_robots += std::max(kContactsOfRobotGeom * count, kMinContactsOfRobot);
+    contacts_with_rows_of_robots += std::clamp(kContactsWithRowsOfRobotGeom * count,
+                                               kMinContactsOfRobot, kMaxContactsWithRowsOfRobot);
+  }
   if (!given.nconmax) {
-    model->nconmax =
-        std::max(kContactsOfMovingGeom * geoms, kMinContacts) + kContactsOfRobot * robot_count;
+    model->nconmax = std::max(kContactsOfMovingGeom * geoms, kMinContacts) + contacts_of_robots;
   }
   if (!given.njmax) {
     const double v = model->nv;
     const double most = std::sqrt(v * v + kMaxMatrixBytes / 12) - v;
     const int contacts = std::max(kContactsWithRowsOfMovingGeom * geoms, kMinContacts);
-    const double rows = rowsWithoutContacts(*model, robot_count) + rows_of_contact * contacts +
-                        kRowsOfGraspContact * kContactsOfRobot * robot_count;
+    const double rows = rowsWithoutContacts(*model, robot_of_body) + rows_of_contact * contacts +
+                        kRowsOfGraspContact * contacts_with_rows_of_robots;
     model->njmax = static_cast<int>(std::min(rows, most));
   }
   if (!given.nstack) {

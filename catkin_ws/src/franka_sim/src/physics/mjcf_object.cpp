@@ -291,6 +291,7 @@ void readMjcf(const std::string& text, double angle_unit, const std::string& tit
         "URDF (<robot>) without an arm.");
   }
   object->unsupported = dropKeyframes(root);
+  object->unsupported.merge(noteAutolimits(*root));
   checkSections(*root, title);
   repairInertias(root, title, &object->unsupported);
   const double own_unit = readAngleUnit(*root, title);
@@ -318,6 +319,16 @@ void readMjcf(const std::string& text, double angle_unit, const std::string& tit
 }
 
 }  // namespace
+
+std::set<std::string> noteAutolimits(const XMLElement& root) {
+  for (auto* e = root.FirstChildElement("compiler"); e != nullptr;
+       e = e->NextSiblingElement("compiler")) {
+    if (optional(*e, "autolimits") == "false") {
+      return {"autolimits=\"false\" of <compiler> (a range limits; write limited=\"false\")"};
+    }
+  }
+  return {};
+}
 
 std::set<std::string> dropKeyframes(XMLElement* root) {
   std::set<std::string> notes;

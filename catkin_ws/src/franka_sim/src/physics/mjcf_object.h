@@ -36,6 +36,10 @@ std::shared_ptr<const MjcfObject> readObject(const std::string& name, const std:
 /// Removes the <keyframe> sections: their states lack those of robots. @returns a note about them
 std::set<std::string> dropKeyframes(tinyxml2::XMLElement* root);
 
+/// A note if the file sets autolimits="false": ranges limit all the same, as in MuJoCo 3. Empty
+/// otherwise. Call before that setting is replaced.
+std::set<std::string> noteAutolimits(const tinyxml2::XMLElement& root);
+
 /// Names unnamed geoms "<prefix>/geom_<n>".
 void nameGeoms(tinyxml2::XMLElement* body, const std::string& prefix, int* count);
 

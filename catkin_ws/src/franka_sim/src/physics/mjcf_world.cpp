@@ -218,6 +218,7 @@ void MjcfWorld::normalize(const std::string& folder) {
   angle_unit_ = angleUnit(*root);
   makeFilesAbsolute(root, folder);
   unsupported_.merge(dropKeyframes(root));
+  unsupported_.merge(noteAutolimits(*root));
   repairInertias(root, title_, &unsupported_);
   // As since MuJoCo 3; robots say of every joint whether it is limited.
   setEverywhere(root, "compiler", "autolimits", "true");

@@ -21,7 +21,9 @@
 namespace franka_sim {
 namespace {
 
-constexpr int kMaxGeoms = 4000;
+/// MuJoCo leaves out, without a word, what a scene has no room for. Besides its geoms a model has
+/// sites, tendons and skins (room chosen here).
+constexpr int kSpareGeoms = 1000;
 
 /// MuJoCo's free camera turns about the point it looks at.
 mjvCamera freeCamera(const Camera& camera) {
@@ -111,7 +113,7 @@ struct Renderer::Impl {
     mjModel* model = drawn.model();
     if (other_model) {
       mjv_freeScene(&scene);
-      mjv_makeScene(model, &scene, kMaxGeoms);
+      mjv_makeScene(model, &scene, model->ngeom + kSpareGeoms);
     }
     model->vis.global.offwidth = std::max(width, context.offWidth);
     model->vis.global.offheight = std::max(height, context.offHeight);

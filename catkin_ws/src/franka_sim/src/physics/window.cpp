@@ -176,7 +176,8 @@ using physics::glfw;
 namespace {
 
 constexpr int kWidth = 1200, kHeight = 900;  ///< [pixel]
-constexpr int kMaxWindowGeoms = 4000;
+/// For what is shown besides the model's geoms (chosen here).
+constexpr int kSpareWindowGeoms = 4000;
 constexpr double kZoomStep = 0.05;
 constexpr double kContactDot = 0.004;         ///< [m]
 constexpr double kMetersPerNewton = 0.005;    ///< length of contact force arrows
@@ -400,7 +401,7 @@ struct Window::Impl {
     mjr_freeContext(&context);
     mjr_makeContext(model, &context, mjFONTSCALE_150);
     mjv_freeScene(&scene);
-    mjv_makeScene(model, &scene, kMaxWindowGeoms);
+    mjv_makeScene(model, &scene, model->ngeom + kSpareWindowGeoms);
   }
 };
 

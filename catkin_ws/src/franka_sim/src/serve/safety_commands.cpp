@@ -226,9 +226,7 @@ void addErrors(LineServer& lines, fci::SimRobot& robot) {
 void addPower(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
   SafetyController& safety = robot.whole().safety();
   lines.add("power on|off", [&](const Words& words) {
-    robot.whole().setPower(toSwitch(words.at(0)));
-    robot.observe();  // a new control unit has no measurement yet
-    robot.serve(true);
+    setPower(robot, toSwitch(words.at(0)));
     host.runFree(kReaction);
     return "";
   });
@@ -254,10 +252,28 @@ void addEndEffector(LineServer& lines, fci::SimRobot& robot) {
     return require(answer == Status::kSuccess ? Refusal::kNone : Refusal::kMotionActive);
   });
   lines.add("end_effector_power on|off", [&](const Words& words) {
-    robot.whole().safety().setEndEffectorPower(toSwitch(words.at(0)));
-    robot.serve(true);
+    setEndEffectorPower(robot, toSwitch(words.at(0)));
     return "";
   });
+}
+
+[[noreturn]] void refuseTakenPort(const std::string& what, std::uint16_t port) {
+  throw std::runtime_error(what + " stays off, because its port " + std::to_string(port) +
+                           " cannot be opened: another program has taken it. End that program.");
+}
+
+// Ports open or close before the answer is sent.
+void servePorts(fci::SimRobot& robot) {
+  robot.serve(true);
+  SafetyController& safety = robot.whole().safety();
+  if (robot.unit().status().fci_active && !robot.server().isOpen()) {
+    safety.deactivateFci();
+    refuseTakenPort("The FCI", robot.server().port());
+  }
+  if (const std::optional<std::uint16_t> port = robot.takenToolPort()) {
+    safety.setEndEffectorPower(false);
+    refuseTakenPort("The end effector's power", *port);
+  }
 }
 
 fci::Reply startMotion(WholeRobot& robot, const std::array<double, 7>& q, double speed) {
@@ -333,13 +349,18 @@ void setFci(fci::SimRobot& robot, bool active) {
   } else {
     safety.deactivateFci();
   }
-  robot.serve(true);  // the port opens or closes before the answer is sent
-  if (active && !robot.server().isOpen()) {
-    safety.deactivateFci();
-    throw std::runtime_error("The FCI stays off, because its port " +
-                             std::to_string(robot.server().port()) +
-                             " cannot be opened: another program has taken it. End that program.");
-  }
+  servePorts(robot);
+}
+
+void setPower(fci::SimRobot& robot, bool on) {
+  robot.whole().setPower(on);
+  robot.observe();  // a new control unit has no measurement yet
+  servePorts(robot);
+}
+
+void setEndEffectorPower(fci::SimRobot& robot, bool on) {
+  robot.whole().safety().setEndEffectorPower(on);
+  servePorts(robot);
 }
 
 void addSafetyCommands(LineServer& lines, const OperatorContext& context) {

@@ -77,6 +77,19 @@ std::uint16_t SimRobot::gripperPort() const noexcept {
   return servers_->hand ? servers_->hand->port() : 0;
 }
 
+std::optional<std::uint16_t> SimRobot::takenToolPort() const noexcept {
+  if (!units_.safety().handServed()) {
+    return std::nullopt;
+  }
+  if (servers_->hand && !servers_->hand->isOpen()) {
+    return servers_->hand->port();
+  }
+  if (servers_->vacuum && !servers_->vacuum->isOpen()) {
+    return servers_->vacuum->port();
+  }
+  return std::nullopt;
+}
+
 bool SimRobot::hasPendingState() const { return servers_->arm.hasPendingState(); }
 
 bool SimRobot::receiveCommand() { return servers_->arm.receiveCommand(); }

@@ -88,7 +88,19 @@ TEST_F(MjcfWorldTest, RangesLimitJointsAsInMujoco3) {
       <body><joint name="j" range="0 90"/><geom size="0.1"/></body></worldbody></mujoco>)"));
     const auto model = physics::compile(world.mjcf(false), "limits");
     EXPECT_EQ(1, model->jnt_limited[0]) << compiler;
+    EXPECT_EQ("", world.unsupported());
   }
+}
+
+TEST_F(MjcfWorldTest, NotesThatRangesLimitDespiteTheFile) {
+  const std::string text = R"(<mujoco><compiler autolimits="false"/><worldbody>
+      <body><joint name="j" range="0 90"/><geom size="0.1"/></body></worldbody></mujoco>)";
+  const World of_file(write("limits.xml", text));
+  EXPECT_NE(std::string::npos, of_file.unsupported().find("autolimits")) << of_file.unsupported();
+  World world;
+  world.addObject("lever", text, Pose{});
+  EXPECT_NE(std::string::npos, world.unsupported("lever").find("autolimits"));
+  EXPECT_EQ(1, physics::compile(world.mjcf(false), "limits")->jnt_limited[0]);
 }
 
 TEST_F(MjcfWorldTest, BalancesInertiasOfTheWorldAlone) {

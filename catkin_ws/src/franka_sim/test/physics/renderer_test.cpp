@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "physics/gl_context.h"
+#include "temporary_folder.h"
 #include "test_support.h"
 
 namespace franka_sim::test {
@@ -139,6 +140,20 @@ TEST_F(RendererTest, ShowsANewRobot) {
   empty.addRobot(robot("fr3"));
   const Picture after = renderer_->render(captureScene(empty), Camera(), 200, 150);
   EXPECT_NE(before.rgb, after.rgb);
+}
+
+TEST_F(RendererTest, LeavesOutNoneOfManyGeoms) {
+  std::string geoms;
+  for (int i = 0; i < 4500; i++) {
+    geoms += "<geom type='box' size='.001 .001 .001' pos='0 0 -9' rgba='0 0 1 1'/>";
+  }
+  const franka_test::TemporaryFolder folder;
+  World many(folder.write("many.xml", "<mujoco><worldbody><light pos='0 0 3'/>" + geoms +
+                                          "<geom type='box' size='1 1 1' rgba='1 0 0 1'/>"
+                                          "</worldbody></mujoco>"));
+  const std::array<int, 3> center =
+      pixel(renderer_->render(captureScene(many), above(), 32, 24), 16, 12);
+  EXPECT_GT(center[0], 2 * center[2]) << "the last geom, red, fills the picture";
 }
 
 TEST_F(RendererTest, RefusesInvalidSizesAndCameras) {

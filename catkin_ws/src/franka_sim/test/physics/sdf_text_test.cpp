@@ -300,6 +300,16 @@ TEST_F(SdfTextTest, RefusesInvalidTexts) {
           {"'a'", "nan"});
   refuses(world("<model name='m'><link name='a'><pose>0 0 0</pose></link></model>", "1.6"),
           {"'a'", "6 numbers"});
+  for (const char* edge : {"width", "height"}) {
+    for (const char* pixels : {"0", "-1", "0.5", "1e+20", "nan"}) {
+      refuses(world("<model name='m'><link name='a'><sensor name='eye' type='camera'><camera>"
+                    "<image><" +
+                        std::string(edge) + ">" + pixels + "</" + edge +
+                        "></image></camera></sensor></link></model>",
+                    "1.6"),
+              {"eye", edge, pixels});
+    }
+  }
   write("loop/model.sdf",
         "<sdf version='1.6'><model name='loop'><include><uri>model://loop</uri></include></model>"
         "</sdf>");

@@ -11,6 +11,7 @@
 #include <string>
 #include <vector>
 
+#include "physics/world_impl.h"
 #include "temporary_folder.h"
 #include "test_support.h"
 
@@ -251,6 +252,61 @@ TEST(WorldContactCapacity, HoldsAThousandBoxesBesideARobot) {
   for (int i = 0; i < 1000; i++) {
     ASSERT_NEAR(0.02, bodyPose(world, "box" + std::to_string(i)).position[2], 5e-4) << i;
   }
+}
+
+/// Boxes of the robot's own description that lie on the ground, each on a joint of its own.
+TEST(WorldContactCapacity, HoldsARobotOfManyShapes) {
+  constexpr int kBoxes = 60;
+  RobotDescription description;
+  description.name = "rack";
+  description.urdf = "<robot name='rack'><link name='world'/>";
+  for (int i = 0; i < kBoxes; i++) {
+    const std::string n = std::to_string(i);
+    description.urdf +=
+        "<link name='box" + n +
+        "'><inertial><mass value='0.1'/><inertia ixx='1e-4' iyy='1e-4' izz='1e-4' ixy='0' ixz='0'"
+        " iyz='0'/></inertial><collision><geometry><box size='0.04 0.04 0.04'/></geometry>"
+        "</collision></link><joint name='joint" +
+        n + "' type='prismatic'><parent link='world'/><child link='box" + n + "'/><origin xyz='" +
+        franka_core::numberText(0.1 * (i % 10)) + " " + franka_core::numberText(0.1 * (i / 10)) +
+        " 0.02'/><axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='9' velocity='9'/></joint>";
+  }
+  description.urdf += "</robot>";
+  const franka_test::TemporaryFolder folder;
+  World world(folder.write("ground.xml", boxesOnTheGround(0, 1)));
+  world.addRobot(description);
+  for (int k = 0; k < 300; k++) {
+    world.step();
+  }
+  EXPECT_TRUE(world.takeWarnings().empty());
+  EXPECT_EQ(4u * kBoxes, contacts(world).size());
+  for (int i = 0; i < kBoxes; i++) {
+    ASSERT_NEAR(0.02, bodyPose(world, "box" + std::to_string(i)).position[2], 5e-4) << i;
+  }
+}
+
+/// Two arms of one description have as much room as two robots.
+TEST(WorldContactCapacity, OfTwoArmsInOneDescriptionIsThatOfTwoRobots) {
+  World apart;
+  RobotDescription both;
+  both.name = "both";
+  both.urdf = "<robot name='both'><link name='world'/>";
+  for (const std::string arm : {"left", "right"}) {
+    apart.addRobot(robot("panda", arm));
+    const std::string& urdf = robot("panda", arm).urdf;
+    const std::size_t begin = urdf.find("<link");
+    both.urdf += urdf.substr(begin, urdf.find("</robot>") - begin) + "<joint name='" + arm +
+                 "_base' type='fixed'><parent link='world'/><child link='" + arm +
+                 "_link0'/></joint>";
+  }
+  both.urdf += "</robot>";
+  World together;
+  together.addRobot(both);
+  const mjModel& expected = *implOf(apart).model;
+  const mjModel& found = *implOf(together).model;
+  EXPECT_GE(found.nconmax, expected.nconmax);
+  EXPECT_GE(found.njmax, expected.njmax);
+  EXPECT_LT(found.njmax, 2 * expected.njmax) << "its square is memory";
 }
 
 TEST(Overlaps, AreReportedForARobotThatStartsInTheTable) {

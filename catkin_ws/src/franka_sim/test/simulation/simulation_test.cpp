@@ -15,6 +15,7 @@
 
 #include "../physics/test_support.h"
 #include "../robot/arm_fixture.h"
+#include "../robot/fake_hand.h"
 #include "fci/robot_server.h"
 
 namespace franka_sim::test {
@@ -73,6 +74,41 @@ TEST(OperatorSwitches, FciStaysOffWhileAnotherProgramHasItsPort) {
   }
   setFci(robot, true);
   EXPECT_TRUE(robot.server().isOpen());
+  setPower(robot, false);
+  {
+    const fci::Listener other("127.0.0.1", robot.server().port());
+    expectSentence([&] { setPower(robot, true); },
+                   {"FCI", std::to_string(robot.server().port()).c_str()});
+    EXPECT_FALSE(robot.unit().status().fci_active);
+  }
+  setFci(robot, true);
+  EXPECT_TRUE(robot.server().isOpen());
+}
+
+TEST(OperatorSwitches, EndEffectorStaysOffWhileAnotherProgramHasItsPort) {
+  const franka_core::ArmModel model = pandaModel();
+  FakeArm arm(model, kReady);
+  FakeHand fingers;
+  ControlUnitParameters unit = pandaWithHand();
+  unit.rules = InterfaceRules::kFci;
+  fci::RobotServerParameters server = fci::makeServerParameters("127.0.0.1", {6, 10}, pandaModel());
+  server.port = 0;
+  fci::SimRobot robot(unit, arm, server, fci::SimRobot::Hand{&fingers, {}, 0});
+  robot.observe();
+  const auto power = [&robot] { return robot.whole().safety().state().end_effector_power; };
+  setEndEffectorPower(robot, false);
+  {
+    const fci::Listener other("127.0.0.1", robot.gripperPort());
+    const std::string port = std::to_string(robot.gripperPort());
+    expectSentence([&] { setEndEffectorPower(robot, true); }, {"end effector", port.c_str()});
+    EXPECT_FALSE(power());
+    setPower(robot, false);
+    expectSentence([&] { setPower(robot, true); }, {"end effector", port.c_str()});
+    EXPECT_TRUE(robot.server().isOpen());
+    EXPECT_FALSE(power());
+  }
+  setEndEffectorPower(robot, true);
+  EXPECT_TRUE(power());
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, SimulationTest, ::testing::Values("panda", "fr3"),

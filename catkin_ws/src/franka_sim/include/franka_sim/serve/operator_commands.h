@@ -35,13 +35,15 @@ void addOperatorCommands(fci::LineServer& lines, const OperatorContext& context)
 
 /// @name The switches of the operator
 /// By the rules that the robot has (SafetyRules).
-/// @throws std::runtime_error "CODE: Sentence." if a rule refuses it; setFci also when the port
-/// cannot be opened
+/// @throws std::runtime_error "CODE: Sentence." if a rule refuses it; those that open a
+/// port also when another program has taken it: what it belongs to is off then
 /// @{
 void setUserStop(WholeRobot& robot, bool pressed);
 void setGuiding(WholeRobot& robot, bool active);
 void setBrakes(WholeRobot& robot, bool closed);
 void setFci(fci::SimRobot& robot, bool active);
+void setPower(fci::SimRobot& robot, bool on);
+void setEndEffectorPower(fci::SimRobot& robot, bool on);
 /// @}
 
 /// The line `reset` of a world in which all robots are served.

@@ -68,6 +68,9 @@ class SimRobot : public HostedRobot {
   /// Protocol of the connected client; 0 without one.
   std::uint16_t clientVersion() const noexcept;
   std::uint16_t gripperPort() const noexcept;
+  /// The port of the tool if it is to be served, but another program has taken that port; since the
+  /// last serve().
+  std::optional<std::uint16_t> takenToolPort() const noexcept;
 
   /// Sets the function that reports a self-collision or a contact reflex, once each time the error
   /// appears. Its argument is the text after the robot's name and a colon. It is called within
