@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <locale>
 #include <sstream>
 #include <stdexcept>
 
@@ -47,6 +48,7 @@ double JointWall::depth(double q) const noexcept {
 void JointWall::begin(double q) {
   if (q < lower_ || q > upper_) {
     std::ostringstream text;
+    text.imbue(std::locale::classic());
     text << "JointWall: a joint stands at " << q << " rad, outside its soft limits " << lower_
          << " and " << upper_ << ". Guide it back between them first.";
     throw std::runtime_error(text.str());

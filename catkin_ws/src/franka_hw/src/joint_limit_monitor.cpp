@@ -8,6 +8,7 @@
 #include <cmath>
 #include <iomanip>
 #include <limits>
+#include <locale>
 #include <sstream>
 
 namespace franka_hw {
@@ -52,6 +53,7 @@ double JointLimitMonitor::distanceToLimit(std::size_t joint, double q) const noe
 
 void JointLimitMonitor::report(const ros::WallTimerEvent& /*event*/) {
   std::ostringstream joints;
+  joints.imbue(std::locale::classic());
   joints << std::fixed << std::setprecision(6);
   for (std::size_t i = 0; i < joint_names_.size(); i++) {
     const double q = near_limit_[i].load(std::memory_order_relaxed);

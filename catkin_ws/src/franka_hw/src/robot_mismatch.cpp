@@ -4,6 +4,7 @@
 #include <franka_hw/resource_helpers.h>
 #include <franka_hw/robot_mismatch.h>
 
+#include <locale>
 #include <optional>
 #include <set>
 #include <sstream>
@@ -89,6 +90,7 @@ std::string robotMismatch(const urdf::Model& description, const std::string& arm
   const bool describes_other = !tooWide(description, joint_names, limitsOf(!is_fr3));
   const auto& range = *description.getJoint(joint_names[*joint])->limits;
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   text << "the robot is " << (is_fr3 ? "an FR3" : "a Panda") << " (protocol " << protocol
        << "), but robot_description is "
        << (!describes_other ? "another robot's" : (is_fr3 ? "a Panda's" : "an FR3's"))

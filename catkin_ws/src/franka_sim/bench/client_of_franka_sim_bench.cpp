@@ -11,12 +11,12 @@
 #include <franka/active_control_base.h>
 #include <franka/exception.h>
 #include <franka/robot.h>
+#include <franka_core/numbers.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <cstdlib>
 #include <vector>
 
 namespace {
@@ -85,7 +85,7 @@ double percentile(std::vector<double>& values, double share) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const double seconds = argc == 3 ? std::strtod(argv[2], nullptr) : 0.0;
+  const double seconds = argc == 3 ? franka_core::readNumber(argv[2]).value_or(0.0) : 0.0;
   if (!(seconds > 0.0)) {
     std::fputs("Usage: client_of_franka_sim_bench ADDRESS SECONDS\n", stderr);
     return 2;

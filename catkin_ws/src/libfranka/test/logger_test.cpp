@@ -7,6 +7,7 @@
 #include <franka/logging/cout_logging_sink.hpp>
 #include <franka/logging/logger.hpp>
 #include <iostream>
+#include <locale>
 #include <sstream>
 #include <stdexcept>
 #include <vector>
@@ -132,6 +133,26 @@ TEST(Log, HasAColumnForEachValue) {
   EXPECT_EQ("6.5", value("state.tau_ext_hat_filtered[6]"));
   EXPECT_EQ("1", value("cmd.O_T_EE_d[15]"));
   EXPECT_EQ("7.25", value("cmd.tau_J_d[6]"));
+}
+
+/// As in a German locale, which need not be installed.
+class DecimalComma : public std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+TEST(Log, HasDecimalPointsInEveryLocale) {
+  franka::Record record;
+  record.state.time = franka::Duration(12345678);
+  record.state.control_command_success_rate = 0.5;
+  const std::string expected = franka::logToCSV({record});
+  const std::locale before =
+      std::locale::global(std::locale(std::locale::classic(), new DecimalComma));
+  const std::string found = franka::logToCSV({record});
+  std::locale::global(before);
+  EXPECT_NE(std::string::npos, expected.find("12345678,0.5,"));
+  EXPECT_EQ(expected, found);
 }
 
 }  // namespace

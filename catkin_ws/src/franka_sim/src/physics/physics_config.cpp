@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <locale>
 #include <random>
 #include <set>
 #include <sstream>
@@ -62,6 +63,7 @@ void readOne(const YAML::Node& parent, const std::string& key, const std::string
   double number;
   if (!YAML::convert<double>::decode(node, number) || !(number >= least && number <= most)) {
     std::ostringstream complaint;
+    complaint.imbue(std::locale::classic());
     complaint << where << "/" << key << " must be a number from " << least << " to " << most << ".";
     throw std::runtime_error(complaint.str());
   }

@@ -3,6 +3,7 @@
 #include <franka/log.h>
 
 #include <limits>
+#include <locale>
 #include <sstream>
 
 namespace franka {
@@ -46,6 +47,7 @@ std::string logToCSV(const std::vector<Record>& log) {
     return "";
   }
   std::ostringstream csv;
+  csv.imbue(std::locale::classic());
   // All digits: jerks can be computed from the positions.
   csv.precision(std::numeric_limits<double>::max_digits10);
   csv << "time,success_rate";

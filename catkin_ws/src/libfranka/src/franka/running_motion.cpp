@@ -5,6 +5,7 @@
 #include <franka/errors.h>
 #include <franka_core/fci/texts.h>
 
+#include <locale>
 #include <sstream>
 
 namespace franka {
@@ -20,6 +21,7 @@ namespace fci = franka_core::fci;
 std::string reflexText(const std::string& text, const franka_core::RobotState& state,
                        const std::vector<MotionLog::Entry>& log, std::uint16_t version) {
   std::ostringstream message;
+  message.imbue(std::locale::classic());
   message << text << " " << Errors(state.reflex_reason);
   if (log.size() >= 2) {
     // The last state shows the abort; its own rate is 0.

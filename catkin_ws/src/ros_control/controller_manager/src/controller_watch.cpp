@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <iomanip>
+#include <locale>
 #include <sstream>
 #include <utility>
 
@@ -117,6 +118,7 @@ std::string ControllerWatch::reason() const {
       return std::string("it commanded joint '") + text_.data() + "' a value that is not a number";
     case Fault::kTooSlow: {
       std::ostringstream text;
+      text.imbue(std::locale::classic());
       text << std::fixed << std::setprecision(3) << "its update took " << 1e3 * elapsed_
            << " ms, and controller_manager/max_update_time allows " << 1e3 * max_update_time_;
       return text.str();
