@@ -59,22 +59,26 @@ void setPhysics(Simulation& simulation, const gazebo_msgs::SetPhysicsProperties:
   simulation.setRealTimeFactor(factor);
 }
 
-/// Wrench and point are along the axes of the reference frame; in the world's frame the point 0 0
-/// 0, the message's default, is the link's origin.
-void applyWrench(Simulation& simulation, const gazebo_msgs::ApplyBodyWrench::Request& request) {
-  if (request.start_time > simulation.state().time) {
+/// The duration of a force [ticks]. @throws std::runtime_error if it begins later
+std::uint64_t ticksOf(Simulation& simulation, ros::Time start, ros::Duration duration) {
+  if (start > simulation.state().time) {
     throw std::runtime_error(
         "start_time is in the future of the simulated time; forces begin at once: call again then, "
         "or set it to 0.");
   }
+  const double ticks = std::max(1.0, std::round(duration.toSec() / World::kTick));
+  return duration < ros::Duration(0) ? franka_sim::sizes::kEndlessPush
+                                     : static_cast<std::uint64_t>(ticks);
+}
+
+/// Wrench and point are along the axes of the reference frame; in the world's frame the point 0 0
+/// 0, the message's default, is the link's origin.
+void applyWrench(Simulation& simulation, const gazebo_msgs::ApplyBodyWrench::Request& request) {
+  const std::uint64_t duration = ticksOf(simulation, request.start_time, request.duration);
   const Eigen::Vector3d given_force = franka_sim::vector(fromMessage(request.wrench.force));
   const Eigen::Vector3d given_torque = franka_sim::vector(fromMessage(request.wrench.torque));
   const auto& point = request.reference_point;
   checkFinite({point.x, point.y, point.z}, "reference_point");
-  const double ticks = std::max(1.0, std::round(request.duration.toSec() / World::kTick));
-  const std::uint64_t duration = request.duration < ros::Duration(0)
-                                     ? franka_sim::sizes::kEndlessPush
-                                     : static_cast<std::uint64_t>(ticks);
   simulation.withWorld([&](World& world) {
     const GazeboModels models(world);
     const std::string body = models.body(request.body_name);
@@ -95,6 +99,18 @@ void applyWrench(Simulation& simulation, const gazebo_msgs::ApplyBodyWrench::Req
 void clearWrenches(Simulation& simulation, const std::string& name) {
   simulation.withWorld(
       [&](World& world) { franka_sim::endPushes(world, GazeboModels(world).body(name)); });
+}
+
+void applyEffort(Simulation& simulation, const gazebo_msgs::ApplyJointEffort::Request& request) {
+  const std::uint64_t duration = ticksOf(simulation, request.start_time, request.duration);
+  simulation.withWorld([&](World& world) {
+    pushJoint(world, GazeboModels(world).joint(request.joint_name).name, request.effort, duration);
+  });
+}
+
+void clearEfforts(Simulation& simulation, const std::string& name) {
+  simulation.withWorld(
+      [&](World& world) { endJointPushes(world, GazeboModels(world).joint(name).name); });
 }
 
 void describeLink(Simulation& simulation, const std::string& name,
@@ -176,13 +192,12 @@ void SimServices::offerGazeboPhysics() {
       });
   services_.offer<ApplyJointEffort>("apply_joint_effort", [this](ApplyJointEffort::Request& request,
                                                                  ApplyJointEffort::Response&) {
-    refuseForJoint(simulation_, request.joint_name,
-                   "efforts are commanded by a controller of its robot (ros_control); to push "
-                   "its link, call apply_body_wrench.");
+    applyEffort(simulation_, request);
   });
-  // Nothing to end, since apply_joint_effort begins nothing.
   services_.offerEmpty<JointRequest>("clear_joint_forces",
-                                     [](const JointRequest::Request& /*request*/) {});
+                                     [this](const JointRequest::Request& request) {
+                                       clearEfforts(simulation_, request.joint_name);
+                                     });
 }
 
 }  // namespace franka_sim_mujoco

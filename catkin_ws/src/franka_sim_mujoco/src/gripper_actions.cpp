@@ -5,6 +5,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <locale>
 #include <sstream>
 #include <thread>
 
@@ -49,6 +50,7 @@ void abort(Server& server, Result result, const std::string& text, double width)
 
 std::string millimeters(double meters) {
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   text.precision(3);
   text << std::fixed << meters * 1e3 << " mm";
   return text.str();
@@ -139,6 +141,7 @@ std::string GripperActions::widthFault(double width) const {
     return "";
   }
   std::ostringstream text;
+  text.imbue(std::locale::classic());
   text << "The width " << width << " m is not possible: it must lie between 0 and "
        << parameters_.max_width << " m.";
   return text.str();
@@ -236,6 +239,7 @@ void GripperActions::gripperCommand(const control_msgs::GripperCommandGoal& goal
   const double effort = goal.command.max_effort;
   if (!widthFault(width).empty() || !std::isfinite(effort)) {
     std::ostringstream text;
+    text.imbue(std::locale::classic());
     text << "The goal is not possible: the position of a finger must lie between 0 and "
          << parameters_.max_width / 2.0 << " m and is " << goal.command.position
          << " m; max_effort must be finite and is " << effort << " N.";

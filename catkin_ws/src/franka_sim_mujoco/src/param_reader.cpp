@@ -26,6 +26,12 @@ std::string describe(const XmlRpcValue& value) {
                               " but is " + found + ".");
 }
 
+/// False for a name that ROS cannot have: an arm or a joint may have a hyphen.
+bool get(const ros::NodeHandle& node, const std::string& name, XmlRpcValue& value) {
+  std::string why;
+  return ros::names::validate(name, why) && node.getParam(name, value);
+}
+
 bool toNumber(const XmlRpcValue& value, double& number) {
   XmlRpcValue copy(value);
   if (value.getType() == XmlRpcValue::TypeInt) {
@@ -66,7 +72,7 @@ template <typename T>
 std::optional<T> readTyped(const ros::NodeHandle& node, const std::string& name,
                            XmlRpcValue::Type type, const char* expected) {
   XmlRpcValue value;
-  if (!node.getParam(name, value)) {
+  if (!get(node, name, value)) {
     return std::nullopt;
   }
   if (value.getType() != type) {
@@ -80,7 +86,7 @@ std::optional<T> readTyped(const ros::NodeHandle& node, const std::string& name,
 std::optional<std::vector<double>> readNumbers(const ros::NodeHandle& node, const std::string& name,
                                                std::size_t count) {
   XmlRpcValue value;
-  if (!node.getParam(name, value)) {
+  if (!get(node, name, value)) {
     return std::nullopt;
   }
   const std::string expected =
@@ -103,7 +109,7 @@ std::optional<std::vector<double>> readNumbers(const ros::NodeHandle& node, cons
 
 std::optional<double> readNumber(const ros::NodeHandle& node, const std::string& name) {
   XmlRpcValue value;
-  if (!node.getParam(name, value)) {
+  if (!get(node, name, value)) {
     return std::nullopt;
   }
   double number;

@@ -13,7 +13,8 @@
 
 namespace franka_sim_mujoco {
 
-/// Numbers of a parameter given as a YAML list or as a string "1 2 3"; empty if it is not set.
+/// Numbers of a parameter given as a YAML list or as a string "1 2 3"; empty if it is not set,
+/// as with a name that ROS cannot have.
 /// @param count required number of values
 /// @throws std::invalid_argument naming the parameter, its value and the expected form
 std::optional<std::vector<double>> readNumbers(const ros::NodeHandle& node, const std::string& name,

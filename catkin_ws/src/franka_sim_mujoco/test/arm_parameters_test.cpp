@@ -93,6 +93,14 @@ TEST_F(ArmParameters, LowerThresholdsAboveTheUpperOnesAreTakenWithAWarning) {
   }
 }
 
+TEST_F(ArmParameters, OfAnArmWhoseNameRosCannotHaveAreNotSet) {
+  const std::array<double, 7> stiffness{1, 2, 3, 4, 5, 6, 7};
+  EXPECT_EQ(stiffness, readJointStiffness(node_, "arm-1", stiffness));
+  EXPECT_EQ("", gainsWithoutEffect(node_, "arm-1"));
+  node_.setParam("motion_generators/position/gains/arm_joint2/p", 20.0);
+  EXPECT_EQ(20.0, readJointStiffness(node_, "arm", stiffness)[1]);
+}
+
 TEST(ThresholdRemark, NamesTheFirstLowerThresholdAboveItsUpperOne) {
   franka_sim::CollisionThresholds thresholds;
   thresholds.lower_torque.fill(10.0);

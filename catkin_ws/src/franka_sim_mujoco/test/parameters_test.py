@@ -91,6 +91,16 @@ PLATFORM = """
   </joint>
 """
 
+# The largest moment is above the sum of the others, as rounding made it.
+DISC = """
+  <link name="disc">
+    <inertial>
+      <mass value="0.3"/><inertia ixx="0.00042" iyy="0.00042" izz="0.00085" ixy="0" ixz="0" iyz="0"/>
+    </inertial>
+  </link>
+  <joint name="disc_joint" type="fixed"><parent link="panda_link8"/><child link="disc"/></joint>
+"""
+
 
 class ParametersTest(unittest.TestCase):
     @classmethod
@@ -203,6 +213,21 @@ class ParametersTest(unittest.TestCase):
             "'machine' is simulated as panda, as the parameter /believed/robot_type says, although it",
         )
         log.unregister()
+
+    def test_an_arm_may_have_a_name_that_no_parameter_can_have(self):
+        rospy.set_param("/hyphen/arm_id", "arm-1")
+        answer = self.spawn("panda", "/hyphen", self.panda.replace("panda_", "arm-1_"))
+        self.assertTrue(answer.success, answer.error)
+        self.assertTrue(self.delete("panda").success)
+
+    def test_a_rounded_inertia_is_repaired_with_a_warning(self):
+        messages, log = self.listen_to_log()
+        rospy.set_param("/disc/arm_id", "panda")
+        answer = self.spawn("panda", "/disc", self.panda.replace("</robot>", DISC + "</robot>"))
+        self.assertTrue(answer.success, answer.error)
+        self.assertIn("inertia", self.expect_warning(messages, "'disc'"))
+        log.unregister()
+        self.assertTrue(self.delete("panda").success)
 
     @staticmethod
     def publishers_of(topic):

@@ -501,6 +501,35 @@ def test_gazebo_properties_are_read_and_changes_are_refused_with_a_reason():
     gazebo("clear_joint_forces", JointRequest, joint)
 
 
+RAIL = """<sdf version='1.6'><model name='any'><static>false</static><link name='base'/>
+  <link name='cart'><inertial><mass>2</mass></inertial></link>
+  <joint name='world_joint' type='fixed'><parent>world</parent><child>base</child></joint>
+  <joint name='slide' type='prismatic'><parent>base</parent><child>cart</child><axis><xyz>1 0 0</xyz>
+  </axis></joint></model></sdf>"""
+
+
+def test_gazebo_efforts_act_on_joints_of_objects_until_they_are_cleared():
+    gazebo("spawn_object", SpawnObject, "rail", RAIL, at(2, 2, 3))
+    begin, unlimited = rospy.Time(0), rospy.Duration(-1)
+    gazebo("apply_joint_effort", ApplyJointEffort, "rail::slide", 2.0, begin, rospy.Duration(0.1))
+    gazebo("step", Step, 200)
+    joint = gazebo("get_joint_properties", GetJointProperties, "rail::slide")
+    assert joint.rate[0] == pytest.approx(0.1)
+    gazebo("apply_joint_effort", ApplyJointEffort, "rail::slide", -2.0, begin, unlimited)
+    gazebo("step", Step, 200)
+    gazebo("clear_joint_forces", JointRequest, "rail::slide")
+    gazebo("step", Step, 100)
+    joint = gazebo("get_joint_properties", GetJointProperties, "rail::slide")
+    assert joint.rate[0] == pytest.approx(-0.1)
+    for arguments, word in (
+        (("moon", 1.0, begin, unlimited), "'moon'"),
+        (("rail::slide", math.nan, begin, unlimited), "finite"),
+        (("rail::slide", 1.0, rospy.Time(2**31), unlimited), "start_time"),
+    ):
+        assert word in gazebo("apply_joint_effort", ApplyJointEffort, *arguments, fails=True).status_message
+    gazebo("delete_object", DeleteObject, "rail")
+
+
 LAMP = """<sdf version='1.6'><model name='any'><static>true</static><link name='link'>
   <light name='bulb' type='point'><diffuse>1 1 0.5 1</diffuse></light></link></model></sdf>"""
 

@@ -159,10 +159,13 @@ void World::Impl::index() {
     }
   }
   bindPlants();
-  const auto gone = [this](const Push& push) { return frames.count(push.body_name) == 0; };
+  const auto gone = [this](const Push& push) {
+    return push.joint.empty() ? frames.count(push.body_name) == 0 : !has(push.joint);
+  };
   pushes.erase(std::remove_if(pushes.begin(), pushes.end(), gone), pushes.end());
   for (Push& push : pushes) {
-    push.body = frames[push.body_name].body;
+    push.dof = push.joint.empty() ? -1 : slot(push.joint).dof;
+    push.body = push.dof < 0 ? frames[push.body_name].body : model->dof_bodyid[push.dof];
   }
 }
 
@@ -284,8 +287,12 @@ void World::Impl::addPush(const Push& push) {
 void World::Impl::applyPushes() noexcept {
   kinematics_fresh = false;
   updateKinematics();
-  mju_zero(data->xfrc_applied, 6 * model->nbody);
+  clearPushes();
   for (const Push& push : pushes) {
+    if (push.dof >= 0) {
+      data->qfrc_applied[push.dof] += push.effort;
+      continue;
+    }
     // MuJoCo applies forces at the center of mass.
     const Eigen::Vector3d point = poseOf(*data, push.body) * push.point;
     const Eigen::Map<const Eigen::Vector3d> com(data->xipos + 3 * push.body);
@@ -295,15 +302,22 @@ void World::Impl::applyPushes() noexcept {
   }
 }
 
+void World::Impl::clearPushes() noexcept {
+  mju_zero(data->xfrc_applied, 6 * model->nbody);
+  for (const Push& push : pushes) {
+    if (push.dof >= 0) {
+      data->qfrc_applied[push.dof] = 0.0;
+    }
+  }
+}
+
 void World::Impl::retirePushes() noexcept {
+  clearPushes();  // a tick applies those that remain
   for (Push& push : pushes) {
     --push.ticks_left;
   }
   const auto over = [](const Push& push) { return push.ticks_left == 0; };
   pushes.erase(std::remove_if(pushes.begin(), pushes.end(), over), pushes.end());
-  if (pushes.empty()) {
-    mju_zero(data->xfrc_applied, 6 * model->nbody);
-  }
 }
 
 void World::Impl::stop(const physics::EngineError& error) noexcept {

@@ -36,6 +36,10 @@ struct Push {
   Eigen::Vector3d point;          ///< MuJoCo body frame [m]
   Eigen::Vector3d force, torque;  ///< world axes [N] [Nm]
   std::uint64_t ticks_left;
+  /// A push along a joint of an object, instead of at a point.
+  std::string joint{};  ///< empty: none
+  double effort{0};     ///< [Nm] or [N]
+  int dof{-1};
 };
 
 /// A link or body by its name: a MuJoCo body and a fixed pose in it.
@@ -163,6 +167,8 @@ struct World::Impl {
   Eigen::Isometry3d pose(const Frame& frame);
   void updateKinematics() noexcept;
   void addPush(const Push& push);
+  /// Takes the forces of all pushes away until a tick applies them.
+  void clearPushes() noexcept;
   /// Call after a change of the state from outside.
   void disturb() noexcept;
   bool has(const std::string& joint) const noexcept;

@@ -41,14 +41,15 @@ namespace {
 /// Penetration of bodies that rest on each other is smaller (chosen here).
 constexpr double kOverlap = 1e-3;  // [m]
 
-void checkPush(std::size_t others, const std::string& body, std::uint64_t ticks) {
+/// @param what for example "body 'stone'"
+void checkPush(std::size_t others, const std::string& what, std::uint64_t ticks) {
   if (ticks > sizes::kMaxPushTicks && ticks != sizes::kEndlessPush) {
-    throw std::runtime_error("The push on body '" + body + "' lasts " + std::to_string(ticks) +
+    throw std::runtime_error("The push on " + what + " lasts " + std::to_string(ticks) +
                              " ms; give at most " + std::to_string(sizes::kMaxPushTicks) + ".");
   }
   if (others >= sizes::kMaxPushes) {
-    throw std::runtime_error("The push on body '" + body +
-                             "' is refused: " + std::to_string(sizes::kMaxPushes) +
+    throw std::runtime_error("The push on " + what +
+                             " is refused: " + std::to_string(sizes::kMaxPushes) +
                              " pushes act already. Wait until they end.");
   }
 }
@@ -222,7 +223,7 @@ void pushBody(World& world, const std::string& body, const std::array<double, 3>
   }
   sizes::check(force, sizes::kMaxForce, "N", "The force on body '" + body + "'");
   sizes::check(torque, sizes::kMaxForce, "Nm", "The torque on body '" + body + "'");
-  checkPush(impl.pushes.size(), body, ticks);
+  checkPush(impl.pushes.size(), "body '" + body + "'", ticks);
   if (ticks == 0) {
     return;
   }
@@ -254,10 +255,35 @@ BodyInertia bodyInertia(const World& world, const std::string& body) {
 void endPushes(World& world, const std::string& body) {
   World::Impl& impl = implOf(world);
   impl.frame(body);  // throws for an unknown one
-  impl.pushes.erase(std::remove_if(impl.pushes.begin(), impl.pushes.end(),
-                                   [&](const Push& push) { return push.body_name == body; }),
+  const auto ends = [&](const Push& push) { return push.joint.empty() && push.body_name == body; };
+  impl.pushes.erase(std::remove_if(impl.pushes.begin(), impl.pushes.end(), ends),
                     impl.pushes.end());
-  mju_zero(impl.data->xfrc_applied, 6 * impl.model->nbody);  // a tick sets those that remain
+  impl.disturb();
+}
+
+void pushJoint(World& world, const std::string& joint, double effort, std::uint64_t ticks) {
+  World::Impl& impl = implOf(world);
+  const int dof = impl.slot(joint).dof;
+  const int body = impl.model->dof_bodyid[dof];
+  if (!impl.isObject(body)) {
+    throw std::runtime_error("Joint '" + joint +
+                             "' belongs to a robot, whose controller commands its efforts. Push "
+                             "its link instead (a Gazebo client: apply_body_wrench).");
+  }
+  impl.requireRuns();
+  sizes::check(effort, sizes::kMaxForce, "N or Nm", "The effort on joint '" + joint + "'");
+  checkPush(impl.pushes.size(), "joint '" + joint + "'", ticks);
+  if (ticks > 0) {
+    impl.addPush({"", body, {}, {}, {}, ticks, joint, effort, dof});
+  }
+}
+
+void endJointPushes(World& world, const std::string& joint) {
+  World::Impl& impl = implOf(world);
+  impl.slot(joint);  // throws for an unknown one
+  impl.pushes.erase(std::remove_if(impl.pushes.begin(), impl.pushes.end(),
+                                   [&](const Push& push) { return push.joint == joint; }),
+                    impl.pushes.end());
   impl.disturb();
 }
 

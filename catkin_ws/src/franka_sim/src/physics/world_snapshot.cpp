@@ -186,6 +186,7 @@ std::uint64_t World::Impl::hash() const noexcept {
     hash.add(push.force.data(), 3);
     hash.add(push.torque.data(), 3);
     hash.add(push.point.data(), 3);
+    hash.add(&push.effort, 1);
   }
   return hash.value();
 }

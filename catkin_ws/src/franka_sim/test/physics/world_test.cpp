@@ -156,6 +156,32 @@ TEST(WorldTest, PushAtAPointTurnsTheBody) {
   EXPECT_NEAR(0.5 * 1e-5 / 1.407e-5 * 0.01, 2 * turn[3], 5e-5);
 }
 
+/// 1 kg on a slide, pushed by 1 N for 1 s.
+TEST(WorldTest, EffortsOnJointsOfObjectsActForExactlyTheirTicks) {
+  World world;
+  world.addRobot(robot("panda"));
+  world.addObject("rail",
+                  "<body><body name='cart'><joint name='slide' type='slide' axis='1 0 0'/><geom "
+                  "type='box' size='.1 .1 .1' mass='1'/></body></body>",
+                  at(0, 3, 1));
+  run(&world, 100);  // at rest
+  pushJoint(world, "slide", 1.0, 1000);
+  run(&world, 1000);
+  EXPECT_NEAR(0.5, jointState(world, "slide").position, 1e-3);
+  run(&world, 100);
+  EXPECT_NEAR(1.0, jointState(world, "slide").velocity, 1e-9);
+  pushJoint(world, "slide", -1.0, sizes::kEndlessPush);
+  run(&world, 100);
+  world.addObject("other", "<body pos='0 -3 9'><geom size='.1'/></body>", Pose{});
+  run(&world, 900);
+  EXPECT_NEAR(0.0, jointState(world, "slide").velocity, 1e-9);
+  endJointPushes(world, "slide");
+  run(&world, 100);
+  EXPECT_NEAR(0.0, jointState(world, "slide").velocity, 1e-9);
+  expectSentence([&] { pushJoint(world, "panda_joint4", 1.0, 1); }, {"panda_joint4", "controller"});
+  expectSentence([&] { pushJoint(world, "moon", 1.0, 1); }, {"moon"});
+}
+
 /// A push on the hand acts on the joints as J^T F.
 TEST(WorldTest, PushOnTheHandIsCarriedByTheArm) {
   World world;

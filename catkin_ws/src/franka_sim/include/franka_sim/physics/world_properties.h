@@ -118,6 +118,11 @@ JointMeasurement jointState(const World& world, const std::string& joint);  ///<
 /// Teleports; velocity becomes 0.
 void setJointPosition(World& world, const std::string& joint, double position);
 void setJointVelocity(World& world, const std::string& joint, double velocity);  ///< [rad/s], [m/s]
+/// A torque [Nm] or force [N] on a joint of an object, for `ticks` ticks from now. @throws
+/// std::runtime_error also for a joint of a robot
+void pushJoint(World& world, const std::string& joint, double effort, std::uint64_t ticks);
+/// Ends all pushes of a joint.
+void endJointPushes(World& world, const std::string& joint);
 /// @}
 
 std::vector<Contact> contacts(const World& world);  ///< at this tick
@@ -166,7 +171,8 @@ constexpr double kMaxPosition = 1e3;  ///< from the world's origin [m]; of a joi
 constexpr double kMaxVelocity = 1e3;  ///< [m/s] or [rad/s]
 constexpr double kMaxForce = 1e4;     ///< [N] or [Nm]
 constexpr std::uint64_t kMaxPushTicks = 1000000;  ///< duration of a push [ticks]
-/// Duration of a push that lasts until it is ended (World::reset, endPushes) [ticks].
+/// Duration of a push that lasts until it is ended (World::reset, endPushes,
+/// endJointPushes) [ticks].
 constexpr std::uint64_t kEndlessPush = std::numeric_limits<std::uint64_t>::max();
 constexpr std::size_t kMaxPushes = 1000;  ///< at a time
 constexpr double kMaxGravity = 1e2;       ///< [m/s^2]
