@@ -3,6 +3,7 @@
 #include "param_reader.h"
 
 #include <franka_core/numbers.h>
+#include <ros/names.h>
 #include <xmlrpcpp/XmlRpcValue.h>
 
 #include <cmath>

@@ -8,6 +8,7 @@
 #include <transmission_interface/transmission_parser.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <iterator>
 #include <optional>
@@ -112,6 +113,13 @@ void readServing(const ros::NodeHandle& node, RobotPlan* plan) {
 }
 
 /// @param name in the log
+/// An arm's services are below its name, in which ROS does not take all that a URDF does.
+std::string namespaceOf(std::string arm_id) {
+  const auto is_refused = [](unsigned char c) { return std::isalnum(c) == 0; };
+  std::replace_if(arm_id.begin(), arm_id.end(), is_refused, '_');
+  return arm_id;
+}
+
 void addArm(const ros::NodeHandle& node, const std::string& arm_id, const std::string& name,
             const std::string& service_namespace, RobotPlan* plan) {
   SimulatedArm arm{arm_id, "", {}, service_namespace};
@@ -175,7 +183,7 @@ RobotPlan planRobot(const SpawnOrder& order) {
   plan.description.initial_positions = knownPositions(order, plan.urdf);
   if (plugin.arms.size() > 1) {
     for (const std::string& arm_id : plugin.arms) {
-      addArm(node, arm_id, arm_id, arm_id, &plan);
+      addArm(node, arm_id, arm_id, namespaceOf(arm_id), &plan);
     }
   } else {
     addArm(node, readArmId(node, plan.robot_namespace, order.name), order.name, "", &plan);

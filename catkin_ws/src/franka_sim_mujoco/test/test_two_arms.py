@@ -11,8 +11,8 @@ import rospy
 from actionlib_msgs.msg import GoalStatus
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
 from franka_sim_mujoco.pick_and_place import Arm, Gripper, PickAndPlace, Scene, wait_until
-from franka_sim_mujoco.srv import SpawnRobot
-from geometry_msgs.msg import Pose, Quaternion
+from franka_sim_mujoco.srv import DeleteRobot, SpawnRobot
+from geometry_msgs.msg import Point, Pose, Quaternion
 from ros_client import Action, Controllers, call, follow, launched
 from std_srvs.srv import SetBool
 from waiting import wait_for
@@ -104,6 +104,21 @@ def test_one_controller_commands_both_arms_and_excludes_those_of_each(arms):
         "The pose of both arms",
     )
     assert all(sides[side].state.robot_mode == MOVE and sides[side].errors == set() for side in SIDES)
+
+
+def test_arms_may_have_names_that_ros_cannot_have(arms):
+    urdf = rospy.get_param("/duo/robot_description").replace("left_", "arm-1_").replace("right_", "arm-2_")
+    answer = call(
+        "/gazebo/spawn_robot",
+        SpawnRobot,
+        name="hyphens",
+        robot_namespace="/hyphens",
+        urdf=urdf,
+        pose=Pose(position=Point(x=5), orientation=Quaternion(w=1)),
+    )
+    assert answer.success, answer.error
+    rospy.wait_for_service("/hyphens/arm_1/franka_control/set_load", 30)
+    assert call("/gazebo/delete_robot", DeleteRobot, name="hyphens").success
 
 
 def test_arms_of_one_description_are_not_served_at_one_address(arms):

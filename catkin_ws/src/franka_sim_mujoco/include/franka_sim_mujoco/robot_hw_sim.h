@@ -30,7 +30,8 @@ struct SimulatedArm {
   std::string arm_id;                ///< prefix of its joints
   std::string type;                  ///< "panda" or "fr3"; empty if the URDF has no such arm
   franka_sim::RobotPhysics physics;  ///< rotor inertia, friction and so on of the world's joints
-  /// Of its services, below the robot's namespace: empty for the only arm of a robot, else arm_id.
+  /// Of its services, below the robot's namespace: empty for the only arm of a robot, else arm_id,
+  /// with _ for characters that ROS does not take.
   std::string service_namespace;
 };
 
