@@ -262,13 +262,14 @@ TEST(WorldContactCapacity, HoldsARobotOfManyShapes) {
   description.urdf = "<robot name='rack'><link name='world'/>";
   for (int i = 0; i < kBoxes; i++) {
     const std::string n = std::to_string(i);
+    const int row = i / 10;
     description.urdf +=
         "<link name='box" + n +
         "'><inertial><mass value='0.1'/><inertia ixx='1e-4' iyy='1e-4' izz='1e-4' ixy='0' ixz='0'"
         " iyz='0'/></inertial><collision><geometry><box size='0.04 0.04 0.04'/></geometry>"
         "</collision></link><joint name='joint" +
         n + "' type='prismatic'><parent link='world'/><child link='box" + n + "'/><origin xyz='" +
-        franka_core::numberText(0.1 * (i % 10)) + " " + franka_core::numberText(0.1 * (i / 10)) +
+        franka_core::numberText(0.1 * (i % 10)) + " " + franka_core::numberText(0.1 * row) +
         " 0.02'/><axis xyz='0 0 1'/><limit lower='-1' upper='1' effort='9' velocity='9'/></joint>";
   }
   description.urdf += "</robot>";
