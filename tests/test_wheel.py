@@ -26,6 +26,8 @@ SUPPORT = TOP / "tests" / "support"
 PICK_AND_PLACE = SUPPORT / "wheel_pick_and_place.py"
 GENUINE_CLIENT = SUPPORT / "wheel_genuine_client.py"
 PACKAGE = TOP / "python" / "src" / "pyfranka"
+# The build of the wheel has a limit of its own: from an empty compiler cache it takes minutes.
+pytestmark = pytest.mark.timeout(func_only=True)
 with_extras = pytest.mark.long_form("downloads the packages of all extras")
 # What the wheel takes from the machine: libraries of every Debian that has Python.
 OF_THE_SYSTEM = {
