@@ -250,7 +250,9 @@ def test_libraries_of_a_sourced_workspace_are_not_used(environment):
     variables = {"LD_LIBRARY_PATH": f"{TOP}/catkin_ws/devel/lib:/usr/lib/x86_64-linux-gnu"}
     result = environment.run("python", "-c", code, variables=variables)
     loaded = {
-        line.split()[-1] for line in result.stdout.splitlines() if "libfranka" in line or "libmujoco" in line
+        line.split(maxsplit=5)[5]
+        for line in result.stdout.splitlines()
+        if "libfranka" in line or "libmujoco" in line
     }
     assert any("libmujoco" in path for path in loaded) and any("libfranka_core" in path for path in loaded)
     assert [path for path in loaded if not Path(path).is_relative_to(environment.folder)] == []
