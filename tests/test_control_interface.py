@@ -30,8 +30,8 @@ def client(sim):
         assert client.connect() == (0, sim.protocol)
         yield client
     sim.remote.activate_fci()
-    sim.remote.user_stop(False)
-    sim.remote.guiding(False)
+    sim.remote.set_user_stop(False)
+    sim.remote.set_guiding(False)
     sim.remote.loss(0)
     sim.remote.delay(0)
 
@@ -44,7 +44,7 @@ def test_loss_lowers_the_success_rate_and_repeats_with_its_seed(sim, client):
         state = drive(client, state, hold(first), 150)[-1]
         assert state.rate == 1.0
         with pytest.raises(LineRefused, match="The load was refused"):
-            sim.remote.load(0.8)
+            sim.remote.set_load(0.8)
         sim.remote.loss(0.2, seed)
         states = drive(client, state, hold(first), 2000)
         runs.append([round(100 * s.rate) for s in states])
@@ -91,14 +91,14 @@ def test_the_user_stop_aborts_and_the_brakes_hold(sim, client):
     state, first = begin(client)
     state = drive(client, state, ramp(first), 300)[-1]
     assert max(map(abs, state.joints("dq"))) > 0.1
-    sim.remote.user_stop(True)
+    sim.remote.set_user_stop(True)
     state = drive(client, state, lambda k: ramp(first)(k + 300), 10)[-1]
     assert state.mode == USER_STOPPED
     status = client.reply()[1][0]
     assert status not in (0, LAYOUTS[client.version].reflex)
     stopped = client.state_until(lambda s: max(map(abs, s.joints("dq"))) < 1e-3)
     assert abs(stopped.joints("q")[3] - state.joints("q")[3]) < 0.02
-    sim.remote.user_stop(False)
+    sim.remote.set_user_stop(False)
     client.state_until(lambda s: s.mode == IDLE)
     state, first = begin(client)
     finish(client, state, first)
@@ -107,7 +107,7 @@ def test_the_user_stop_aborts_and_the_brakes_hold(sim, client):
 def test_guiding_ends_a_motion_and_leaves_the_arm_free(sim, client):
     state, first = begin(client)
     state = drive(client, state, hold(first), 50)[-1]
-    sim.remote.guiding(True)
+    sim.remote.set_guiding(True)
     state = drive(client, state, hold(first), 10)[-1]
     assert state.mode == GUIDING
     assert client.reply()[1][0] not in (0, LAYOUTS[client.version].reflex)
@@ -115,7 +115,7 @@ def test_guiding_ends_a_motion_and_leaves_the_arm_free(sim, client):
     sim.remote.push(f"{sim.name}_hand", (0, 5, 0), 500)
     moved = client.state_until(lambda s: max(abs(a - b) for a, b in zip(s.joints("q"), before)) > 0.02)
     assert moved.mode == GUIDING
-    sim.remote.guiding(False)
+    sim.remote.set_guiding(False)
     client.state_until(lambda s: s.mode == IDLE)
 
 

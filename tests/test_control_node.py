@@ -402,11 +402,11 @@ def test_diagnostics_report_the_state(robot, resting):
     finally:
         operator.loss(0)
     resting.stop()
-    operator.guiding(True)
+    operator.set_guiding(True)
     try:
         assert resting.diagnosis.shows("Robot", NO_COMMANDS, Mode="Guiding")[0] == WARN
     finally:
-        operator.guiding(False)
+        operator.set_guiding(False)
 
 
 def offered():

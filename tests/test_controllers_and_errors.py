@@ -178,7 +178,7 @@ def test_they_are_stopped_when_the_user_stop_is_released(ready):
     (arm,) = ready.arms
     ready.start("good")
     ready.wait_until_all_are("moving")
-    arm.operator.user_stop(True)
+    arm.operator.set_user_stop(True)
     wait_for(lambda: arm.has_error, "The error of the user stop")
-    arm.operator.user_stop(False)
+    arm.operator.set_user_stop(False)
     check_that_all_stay_at_rest(ready)

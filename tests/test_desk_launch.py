@@ -74,9 +74,9 @@ def test_desk_serves_a_robot_of_a_ros_world(world):
 def test_a_robot_of_a_ros_world_has_a_control_interface(remote):
     report = remote.report()
     assert (report.type, report.arm_id, report.mode, report.rules) == ("panda", "panda", "Idle", "open")
-    remote.user_stop(True)
+    remote.set_user_stop(True)
     assert remote.report().mode == "User stopped"
-    remote.user_stop(False)
+    remote.set_user_stop(False)
     scene = remote.scene()
     assert scene.robots == {"panda": "panda"}
     assert remote.poses().shape == (len(scene.bodies), 7)

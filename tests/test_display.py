@@ -119,13 +119,13 @@ def test_the_viewer_shows_texts_and_pushes_by_mouse(screen, franka_sim, tmp_path
     wait_for(lambda: viewer.corner(*help_corner) > without_help + 1000, "the help", PATIENCE)
     press("h")
     wait_for(lambda: viewer.corner(*help_corner) < without_help + 300, "no help", PATIENCE)
-    remote.user_stop(True)
+    remote.set_user_stop(True)
     wait_for(lambda: viewer.corner(0, 0, 500, 80) > texts + 50, "a longer text about the mode", PATIENCE)
-    stone = np.array(remote.where("stone")[:3])
+    stone = np.array(remote.body_position("stone")[:3])
     x, y = viewer.pixel(stone)
     assert viewer.corner(WIDTH - 300, 0, WIDTH, 40) < 50
     with dragged(x, y, x + 250, y - 300, hold="Control_L"):
-        wait_for(lambda: np.linalg.norm(remote.where("stone")[:3] - stone) > 0.05, "a push", PATIENCE)
+        wait_for(lambda: np.linalg.norm(remote.body_position("stone")[:3] - stone) > 0.05, "a push", PATIENCE)
         wait_for(lambda: viewer.corner(WIDTH - 300, 0, WIDTH, 40) > 50, "the force", PATIENCE)
     wait_for(lambda: viewer.corner(WIDTH - 300, 0, WIDTH, 40) < 50, "no force", PATIENCE)
     assert not sim.stopped

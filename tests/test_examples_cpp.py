@@ -197,7 +197,7 @@ def test_force_control(programs, kind, tmp_path):
     (tmp_path / "table.xml").write_text(TABLE)
     with FrankaSim(kind, world=tmp_path / "table.xml") as sim:
         (pressed,) = numbers(Program(programs / "force_control", sim.robot.address).end())
-        touching = sim.robot.remote.where(f"{kind}_hand")
+        touching = sim.robot.remote.body_position(f"{kind}_hand")
     assert pressed == pytest.approx(10, rel=0.03)
     assert 0.3 < touching[2] < 0.5, "the hand is above the table"
 
@@ -209,7 +209,7 @@ def test_grasp(programs, kind, tmp_path, something):
         program = Program(programs / "grasp", sim.robot.address)
         assert numbers([program.line()])[0] == pytest.approx(0.08, abs=1e-3)
         if something:
-            sim.robot.remote.place("cube", [0.307, 0, 0.48])
+            sim.robot.remote.place_body("cube", [0.307, 0, 0.48])
         held, released = program.end()
     assert held.split()[0] == ("holds" if something else "empty")
     assert numbers([held])[0] == pytest.approx(0.04 if something else 0.0, abs=2e-3)

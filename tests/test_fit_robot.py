@@ -145,7 +145,7 @@ def test_a_recording_that_the_user_stop_ends_is_kept(tmp_path):
         wait_for(lambda: sim.remote.state().mode == "Move" or process.poll() is not None, "The motion")
         end = sim.remote.time + 0.5
         wait_for(lambda: sim.remote.time > end, "Half a second of it")
-        sim.remote.user_stop(True)
+        sim.remote.set_user_stop(True)
         _, printed = process.communicate(timeout=60)
     assert process.returncode != 0 and str(recording) in printed and "User" in printed
     rows = recording.read_text().splitlines()

@@ -218,11 +218,11 @@ except Exception as error:
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as client:
         try:
             assert client.stdout.readline().strip() == "moving"
-            robot.remote.user_stop(True)
+            robot.remote.set_user_stop(True)
             output, _ = client.communicate(timeout=200)
         finally:
             client.kill()
-            robot.remote.user_stop(False)
+            robot.remote.set_user_stop(False)
     assert "libfranka: Move command aborted: User Stop pressed!" in output
     assert "kUserStopped" in output
     assert 'not possible in the current mode ("User stopped")' in output

@@ -93,7 +93,7 @@ class Robot:
 
     @staticmethod
     def _height():
-        return Remote(ADDRESS).where("panda_link7")[2]
+        return Remote(ADDRESS).body_position("panda_link7")[2]
 
     @staticmethod
     def push():

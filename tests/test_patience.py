@@ -76,11 +76,11 @@ def test_a_second_robot_and_the_control_ports_work_meanwhile():
 
 def test_the_user_stop_ends_the_wait():
     with waiting() as (client, one, _):
-        one.remote.user_stop(True)
+        one.remote.set_user_stop(True)
         wait_for(lambda: one.remote.state().mode == "User stopped")
         os.kill(client.process.pid, signal.SIGCONT)
         assert "ControlException" in client.result()["outcome"]
-        one.remote.user_stop(False)
+        one.remote.set_user_stop(False)
         assert client.run_task("recover")["mode"] == "Idle"
         assert client.run_task("move", seconds=0.1, amplitude=0.0)["outcome"] == "ok"
 

@@ -142,13 +142,13 @@ def test_all_arms_recover_at_once(moving):
 
 def test_the_user_has_to_release_the_user_stop(moving):
     arm, *others = moving.arms
-    arm.operator.user_stop(True)
+    arm.operator.set_user_stop(True)
     wait_for(lambda: arm.is_in("user-stopped") and arm.has_error, "The user stop")
     status, text = moving.recover()
     assert status == GoalStatus.ABORTED
     assert ("user stop" if moving.alone else f"{arm.name}: ") in text.lower()
     assert arm.is_in("user-stopped")
-    arm.operator.user_stop(False)
+    arm.operator.set_user_stop(False)
     if others:  # Several arms wait for a recovery.
         wait_for(lambda: arm.is_in("idle"), "The release")
         assert moving.recover() == SUCCEEDED

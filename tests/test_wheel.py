@@ -174,9 +174,9 @@ def test_entry_points_lead_to_modules_of_the_wheel(archive):
     declared = {(group, *point) for group in points.sections() for point in points[group].items()}
     modules = {module for module in OF_MODULES if list(PACKAGE.glob(f"{module}*"))}
     assert declared == {
-        ("console_scripts", "franka_sim", "pyfranka_programs:franka_sim"),
-        ("console_scripts", "franka_info", "pyfranka_programs:franka_info"),
-        ("console_scripts", "pyfranka-examples", "pyfranka_programs:examples"),
+        ("console_scripts", "franka_sim", "pyfranka._programs:franka_sim"),
+        ("console_scripts", "franka_info", "pyfranka._programs:franka_info"),
+        ("console_scripts", "pyfranka-examples", "pyfranka._programs:examples"),
         *(OF_MODULES[module] for module in modules),
     }
     for _, _, value in declared:
@@ -377,7 +377,7 @@ import pyfranka
 def test_of_a_project(panda):
     robot = panda.connect()
     assert robot.read_once().robot_mode == pyfranka.RobotMode.Idle
-    panda.remote.user_stop(True)
+    panda.remote.set_user_stop(True)
     assert panda.remote.state().mode == "User stopped"
 """
 

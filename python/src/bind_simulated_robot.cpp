@@ -400,7 +400,7 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
 
 void bindSimulatedRobot(py::module_& module,
                         py::class_<Shared, std::shared_ptr<Shared>>& simulation) {
-  py::class_<Robot> robot(module, "Robot", py::module_local(), "A robot of a simulation.");
+  py::class_<Robot> robot(module, "SimulatedRobot", py::module_local(), "A robot of a simulation.");
   robot
       .def(
           "require_open", [](const Robot& self) { self.simulated(); },

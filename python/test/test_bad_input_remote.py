@@ -41,12 +41,12 @@ REMOTE = {
         "dance": lambda x: x.send("dance"),
         "A time limit": lambda x: x.send("time", -1),
     },
-    "user_stop": {
-        "Give True or False, not 1": lambda x: x.user_stop(1),
-        "Give True or False, not 'on'": lambda x: x.user_stop("on"),
-        "A time limit": lambda x: x.user_stop(True, NAN),
+    "set_user_stop": {
+        "Give True or False, not 1": lambda x: x.set_user_stop(1),
+        "Give True or False, not 'on'": lambda x: x.set_user_stop("on"),
+        "A time limit": lambda x: x.set_user_stop(True, NAN),
     },
-    "guiding": {"Give True or False, not nan": lambda x: x.guiding(NAN)},
+    "set_guiding": {"Give True or False, not nan": lambda x: x.set_guiding(NAN)},
     "close_brakes": {"A time limit": lambda x: x.close_brakes(0)},
     "open_brakes": {"A time limit": lambda x: x.open_brakes("soon")},
     "activate_fci": {"A time limit": lambda x: x.activate_fci([])},
@@ -58,6 +58,13 @@ REMOTE = {
     "joints": {"Give True or False": lambda x: x.joints("locked")},
     "input": {"": lambda x: x.input("x99", True)},
     "hash": {"A time limit": lambda x: x.hash(0)},
+    "user_stop": {"Give True or False": lambda x: x.user_stop(1)},
+    "guiding": {"Give True or False": lambda x: x.guiding(1)},
+    "end_effector_power": {"Give True or False": lambda x: x.end_effector_power(1)},
+    "power": {"Give True or False": lambda x: x.power(1)},
+    "load": {"takes numbers": lambda x: x.load("heavy")},
+    "place": {"nothing": lambda x: x.place("nothing", ZERO)},
+    "where": {"nothing": lambda x: x.where("nothing")},
     "help": {"A time limit": lambda x: x.help(0)},
     "operating_mode": {
         "The mode is one word, not 5": lambda x: x.operating_mode(5),
@@ -111,8 +118,8 @@ REMOTE = {
         "The transform is 4x4": lambda x: x.end_effector(1, ZERO, np.eye(3), None),
         "": lambda x: x.end_effector(NAN, ZERO, np.eye(3), EYE),
     },
-    "end_effector_power": {"Give True or False": lambda x: x.end_effector_power(1)},
-    "power": {"Give True or False, not 'off'": lambda x: x.power("off")},
+    "set_end_effector_power": {"Give True or False": lambda x: x.set_end_effector_power(1)},
+    "set_power": {"Give True or False, not 'off'": lambda x: x.set_power("off")},
     "timing": {
         "The name is one word": lambda x: x.timing(5, 1.0),
         "": lambda x: x.timing("lunch", 1.0),
@@ -120,12 +127,12 @@ REMOTE = {
         "not a finite number": lambda x: x.timing("brakes", NAN),
     },
     "report": {"A time limit": lambda x: x.report(-1)},
-    "load": {
-        "'load' takes numbers, not 'heavy'": lambda x: x.load("heavy"),
-        "The center of mass must have 3 numbers, not 2": lambda x: x.load(0.5, (0, 0)),
-        "": lambda x: x.load(NAN),
-        "-1": lambda x: x.load(-1.0),
-        "not a finite number": lambda x: x.load(0.5, (NAN, 0, 0)),
+    "set_load": {
+        "'load' takes numbers, not 'heavy'": lambda x: x.set_load("heavy"),
+        "The center of mass must have 3 numbers, not 2": lambda x: x.set_load(0.5, (0, 0)),
+        "": lambda x: x.set_load(NAN),
+        "-1": lambda x: x.set_load(-1.0),
+        "not a finite number": lambda x: x.set_load(0.5, (NAN, 0, 0)),
     },
     "wall": {
         "The number of a wall is a whole number": lambda x: x.wall(1.5, ZERO, (1, 1, 1)),
@@ -168,17 +175,17 @@ REMOTE = {
         "The duration is a whole number": lambda x: x.push("stone", ZERO, 0.5),
         "": lambda x: x.push("stone", (NAN, 0, 0)),
     },
-    "place": {
-        "nothing": lambda x: x.place("nothing", ZERO),
-        "The position must have 3 numbers, not 'high'": lambda x: x.place("stone", "high"),
-        "The position must have 3 numbers": lambda x: x.place("stone", (0, 0)),
-        "The orientation must have 4 numbers": lambda x: x.place("stone", ZERO, [1]),
-        "": lambda x: x.place("stone", (0, 0, NAN)),
+    "place_body": {
+        "nothing": lambda x: x.place_body("nothing", ZERO),
+        "The position must have 3 numbers, not 'high'": lambda x: x.place_body("stone", "high"),
+        "The position must have 3 numbers": lambda x: x.place_body("stone", (0, 0)),
+        "The orientation must have 4 numbers": lambda x: x.place_body("stone", ZERO, [1]),
+        "": lambda x: x.place_body("stone", (0, 0, NAN)),
     },
-    "where": {
-        "one word, not 'stone\\nquit'": lambda x: x.where("stone\nquit"),
-        "nothing": lambda x: x.where("nothing"),
-        "one word": lambda x: x.where("\t"),
+    "body_position": {
+        "one word, not 'stone\\nquit'": lambda x: x.body_position("stone\nquit"),
+        "nothing": lambda x: x.body_position("nothing"),
+        "one word": lambda x: x.body_position("\t"),
     },
     "scene": {"A time limit": lambda x: x.scene(0)},
     "mesh": {"nothing": lambda x: x.mesh("nothing"), "one word": lambda x: x.mesh(None)},
@@ -291,7 +298,7 @@ with Remote({address!r}, timeout=30.0) as remote:
     entered.wait(60)
     child = os.fork()
     if child == 0:
-        same = all(remote.where("stone").shape == (3,) for _ in range(200))
+        same = all(remote.body_position("stone").shape == (3,) for _ in range(200))
         remote.close()
         os._exit(0 if same else 3)
     ended.set()

@@ -30,7 +30,7 @@ WITHOUT = {
     "pyfranka.set_current_thread_to_highest_scheduler_priority": "no test runs at real-time priority",
     **{
         f"pyfranka.sim.Remote.{name}": CHANGES_ALL
-        for name in ("deactivate_fci", "operating_mode", "power", "quit", "inject")
+        for name in ("deactivate_fci", "operating_mode", "set_power", "quit", "inject")
     },
     **{f"pyfranka.sim.Remote.{name}": OF_DESK for name in ("lock_joints", "unlock_joints", "acknowledge")},
     "pyfranka.plot.read_bag": "needs a bag of ROS",

@@ -31,8 +31,9 @@ OTHER_LINES = {
     **dict.fromkeys(("close_brakes", "open_brakes"), "brakes"),
     **dict.fromkeys(("activate_fci", "deactivate_fci"), "fci"),
     **dict.fromkeys(("lock_joints", "unlock_joints"), "joints"),
-    "set_input": "input",
     "commands": "help",
+    "place_body": "place",
+    "body_position": "where",
     "state_hash": "hash",
 }
 
@@ -86,8 +87,9 @@ def test_each_line_of_the_program_is_a_method_and_each_method_a_line(server):
         for name, each in vars(Remote).items()
         if not (name.startswith("_") or each.__doc__.startswith("Deprecated"))
     }
-    # hand_move(), for example, is the line `hand move`.
-    line_of = {name: name if name in lines else name.partition("_")[0] for name in methods - HELPERS}
+    # hand_move(), for example, is the line `hand move`, set_user_stop() the line `user_stop`.
+    words = {name: name.removeprefix("set_") for name in methods - HELPERS}
+    line_of = {name: word if word in lines else word.partition("_")[0] for name, word in words.items()}
     assert {OTHER_LINES.get(name, line) for name, line in line_of.items()} == lines
     added = [
         usage for source in SOURCES for usage in re.findall(r'lines\.add\(\s*"([^"]+)"', source.read_text())
@@ -108,12 +110,12 @@ def test_the_example_of_the_documentation_works(franka_panda, capsys):
 
 def test_switches_show_in_the_state_at_once(remote):
     assert remote.state().mode == "Idle"
-    remote.user_stop(True)
+    remote.set_user_stop(True)
     assert remote.state().mode == "User stopped"
-    remote.user_stop(False)
-    remote.guiding(True)
+    remote.set_user_stop(False)
+    remote.set_guiding(True)
     assert remote.state().mode == "Guiding"
-    remote.guiding(False)
+    remote.set_guiding(False)
     remote.close_brakes()
     assert remote.state().mode == "Other"
     remote.open_brakes()
@@ -132,6 +134,13 @@ def test_old_names_do_the_same_and_warn(remote):
         "fci": lambda: remote.fci(True) is None,
         "joints": lambda: remote.joints(False) is None,
         "input": lambda: remote.input("guiding", False) is None,
+        "user_stop": lambda: remote.user_stop(False) is None,
+        "guiding": lambda: remote.guiding(False) is None,
+        "end_effector_power": lambda: remote.end_effector_power(True) is None,
+        "power": lambda: remote.power(True) is None,
+        "load": lambda: remote.load(0.0) is None,
+        "place": lambda: remote.place("stone", (0.1, 0.2, 0.7)) is None,
+        "where": lambda: remote.where("stone").shape == (3,),
     }
     for name, works in old.items():
         with pytest.warns(DeprecationWarning, match=rf"^Remote\.{name.rstrip('()')}\(\) is now ") as caught:
@@ -171,11 +180,11 @@ def test_the_interface_for_clients_can_be_switched_off(robot, remote):
 
 
 def test_load_and_walls(robot, remote):
-    remote.load(0.5, (0, 0, 0.05))
+    remote.set_load(0.5, (0, 0, 0.05))
     client = robot.connect()
     state = client.read_once()
     assert state.m_load == pytest.approx(0.5) and state.F_x_Cload == pytest.approx([0, 0, 0.05])
-    remote.load(0)
+    remote.set_load(0)
     assert client.read_once().m_load == 0
     remote.wall(2, (0.3, 0, 0.2), (1, 1, 0.5), numpy.array([0, 0, 0, 2.0]))
     if robot.kind == "panda":  # protocol 10 cannot ask for walls
@@ -219,12 +228,12 @@ def test_lost_and_delayed_commands(server):
 def test_places_and_pushes_in_the_world(server):
     panda, left = server["panda"], server["left"]
     panda.remote.reset()
-    assert left.remote.where("left_link0") == pytest.approx([0, 2, 0])
-    panda.remote.place("stone", (0.3, -0.6, 0.5), (0, 1, 0, 0))
+    assert left.remote.body_position("left_link0") == pytest.approx([0, 2, 0])
+    panda.remote.place_body("stone", (0.3, -0.6, 0.5), (0, 1, 0, 0))
     # A second remote sees the same world. The stone falls to the ground.
     panda.remote.wait()
-    assert left.remote.where("stone")[:2] == pytest.approx([0.3, -0.6], abs=0.02)
-    assert 0 < left.remote.where("stone")[2] < 0.1
+    assert left.remote.body_position("stone")[:2] == pytest.approx([0.3, -0.6], abs=0.02)
+    assert 0 < left.remote.body_position("stone")[2] < 0.1
     before = panda.remote.wait().q
     panda.remote.push("panda_hand", numpy.array([0, 8.0, 0]), 1000000)  # time runs as fast as possible
     pushed = panda.remote.wait(lambda state: abs(state.q - before).max() > 1e-4)
@@ -234,7 +243,7 @@ def test_places_and_pushes_in_the_world(server):
     assert panda.remote.wait().q == pytest.approx(before, abs=1e-4)
     left.remote.reset()
     left.remote.wait()
-    assert left.remote.where("stone") == pytest.approx(panda.remote.where("stone"))
+    assert left.remote.body_position("stone") == pytest.approx(panda.remote.body_position("stone"))
 
 
 def test_the_scene_describes_the_world_to_draw(server):
@@ -260,13 +269,13 @@ def test_poses_follow_the_bodies(server):
     before = remote.poses()
     assert before.shape == (len(bodies), 7)
     assert numpy.linalg.norm(before[:, 3:], axis=1) == pytest.approx(1.0, abs=1e-6)
-    remote.place("stone", (0.1, 0.2, 0.7), (0.6, 0, 0.8, 0))
+    remote.place_body("stone", (0.1, 0.2, 0.7), (0.6, 0, 0.8, 0))
     remote.wait()
     poses = remote.poses()
     stone = bodies.index("stone")
     assert numpy.abs(poses[stone] - before[stone])[3:].max() > 0.1, "It has been turned."
     for body in ("stone", "panda_hand", "left_link7", "panda_link8"):
-        assert poses[bodies.index(body)][:3] == pytest.approx(remote.where(body), abs=1e-6)
+        assert poses[bodies.index(body)][:3] == pytest.approx(remote.body_position(body), abs=1e-6)
     remote.reset()
 
 
@@ -339,7 +348,9 @@ def test_the_hand_works_for_the_operator(franka_sim):
     remote = franka_sim("panda", pace="lockstep", realism="ideal").robot.remote
 
     def width():
-        return numpy.linalg.norm(remote.where("panda_leftfinger") - remote.where("panda_rightfinger"))
+        return numpy.linalg.norm(
+            remote.body_position("panda_leftfinger") - remote.body_position("panda_rightfinger")
+        )
 
     with remote:
         begin = remote.time
@@ -363,10 +374,10 @@ def test_one_command_of_the_hand_ends_another(franka_sim):
             Remote(remote.address).hand_move(0.08, 0.001)  # takes more than a minute
         failures.append(str(failure.value))
 
-    before = remote.where("panda_leftfinger")
+    before = remote.body_position("panda_leftfinger")
     thread = threading.Thread(target=open_slowly)
     thread.start()
-    wait_for(lambda: numpy.linalg.norm(remote.where("panda_leftfinger") - before) > 1e-4, "A motion")
+    wait_for(lambda: numpy.linalg.norm(remote.body_position("panda_leftfinger") - before) > 1e-4, "A motion")
     remote.hand_stop()
     thread.join(60)
     assert failures == ["Another command or a reset has ended this one."]
@@ -460,7 +471,7 @@ def test_steps_pass_in_real_time_too(franka_sim):
     remote.step(300)
     assert remote.time - before >= 0.3
     assert time.monotonic() - wall >= 0.25
-    remote.user_stop(True)
+    remote.set_user_stop(True)
     assert remote.wait().mode == "User stopped"
 
 
@@ -540,11 +551,11 @@ def test_a_ninth_client_is_refused_and_waits_for_its_turn(server, clock):
 def test_threads_share_a_remote(server):
     with server["panda"].remote as remote:
         bodies = ["stone", "panda_link0"] * 20
-        expected = {body: remote.where(body) for body in set(bodies)}
+        expected = {body: remote.body_position(body) for body in set(bodies)}
         found = {}
 
         def look(index):
-            found[index] = remote.where(bodies[index])
+            found[index] = remote.body_position(bodies[index])
 
         threads = [threading.Thread(target=look, args=(index,)) for index in range(len(bodies))]
         for thread in threads:

@@ -186,7 +186,7 @@ class ControlNode:
     def prepare(self, controller: str) -> None:
         """All arms move without an error under one controller, whatever happened before."""
         for arm in self.arms:
-            arm.operator.user_stop(False)
+            arm.operator.set_user_stop(False)
         wait_for(lambda: not any(arm.is_in("user-stopped") for arm in self.arms), "The end of the user stop")
         if controller not in self.controllers.running():
             self.controllers.start(controller)

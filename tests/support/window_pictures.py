@@ -94,11 +94,11 @@ def viewer() -> None:
             press("h")
             from test_display import Viewer  # where the stone is drawn
 
-            seen, stone = Viewer(picture), np.array(sim.robot.remote.where("stone")[:3])
+            seen, stone = Viewer(picture), np.array(sim.robot.remote.body_position("stone")[:3])
             x, y = seen.pixel(stone)
 
             def moved() -> float:  # [m]
-                return float(np.linalg.norm(np.array(sim.robot.remote.where("stone")[:3]) - stone))
+                return float(np.linalg.norm(np.array(sim.robot.remote.body_position("stone")[:3]) - stone))
 
             with dragged(x, y, x + 250, y - 300, hold="Control_L"):
                 wait_for(lambda: moved() > 0.1, "The stone")

@@ -13,26 +13,28 @@ Arrays of a RobotState are numpy views of it; matrices have two dimensions and a
     Python threads run; errors are pyfranka.Exception and derived classes.
 """
 
-import builtins as _builtins
-
-from _pyfranka import *  # noqa: F401, F403
-
-from pyfranka import _public_names
-
-_public_names.publish()
-
-# `from pyfranka import *` does not hide Python's own Exception; FrankaException is another name of ours.
-__all__ = [name for name in globals() if not name.startswith("_") and not hasattr(_builtins, name)]
-
 
 def __getattr__(name: str) -> object:
-    """Imports pyfranka.sweep when it is used: robots and simulations do not need Dask."""
+    """Loads what is in C++, and pyfranka.sweep with Dask, when a name of it is used: programs and pytest
+    import pyfranka without."""
     if name == "sweep":
         from pyfranka.sweeps import sweep
 
         return sweep
+    if name == "__all__":
+        from pyfranka._native import STARRED
+
+        return STARRED
+    if not name.startswith("_"):
+        from pyfranka._native import NAMES
+
+        if name in NAMES:
+            globals()[name] = NAMES[name]
+            return NAMES[name]
     raise AttributeError(f"module 'pyfranka' has no attribute '{name}'")
 
 
 def __dir__() -> list[str]:
-    return sorted({*globals(), "sweep"})
+    from pyfranka._native import NAMES
+
+    return sorted({*globals(), *NAMES, "sweep"})

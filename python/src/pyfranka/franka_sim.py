@@ -106,7 +106,7 @@ class ServedRobot:
         self.remote = Remote(robot.address)  # its control interface
         if robot.load is not None:
             mass, center, _ = typing.cast("tuple[float, ArrayLike, ArrayLike]", robot.load)
-            self.remote.load(mass, center)
+            self.remote.set_load(mass, center)
 
     def __repr__(self) -> str:
         return f"<{self.kind} '{self.name}' at {self.address}>"

@@ -9,7 +9,6 @@ Names are those of pyfranka. Values are lists and may be changed; matrices are f
 state.O_T_EE[14] is the height of the end effector. Frames, units, errors and threads are as in pyfranka.
 """
 
-import builtins
 import functools
 import typing
 
@@ -17,8 +16,9 @@ import _pyfranka
 import numpy
 from _pyfranka import *  # noqa: F403
 
-# `from pyfranka.libfranka import *` does not hide Python's own Exception.
-__all__ = [name for name in vars(_pyfranka) if not name.startswith("_") and not hasattr(builtins, name)]
+from pyfranka._native import STARRED
+
+__all__ = [*STARRED]
 
 
 def _plain(value: typing.Any) -> typing.Any:

@@ -21,7 +21,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from _pyfranka import _sim
+from pyfranka._native import _sim
 
 __all__ = ["install", "urdf"]
 

@@ -10,8 +10,7 @@ Each robot has a loopback address of its own, so that tests and sessions may run
 ended after the test; if the test fails, the report shows what the robot has written.
 
 The fixtures have the short names panda and fr3 too, unless `franka_short_fixtures = false` in the ini file
-leaves these to the project. A session without these fixtures loads pyfranka's library (30 to 50 ms), but
-not numpy.
+leaves these to the project. A session without these fixtures loads this module only.
 """
 
 from __future__ import annotations

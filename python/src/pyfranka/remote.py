@@ -5,7 +5,7 @@
     from pyfranka.remote import Remote
 
     remote = Remote("127.0.0.1")
-    remote.user_stop(True)
+    remote.set_user_stop(True)
     print(remote.state().mode)
 
 Each line of the interface (docs/franka_sim.md) is a method. It needs sockets and numpy only.
@@ -230,29 +230,31 @@ class Remote:
         """
         return self.send("help", timeout).split("; ")
 
-    @renamed("Remote.help()", "commands()")
-    def help(self, timeout: float | None = None) -> list[str]:
-        return self.commands(timeout)
+    help = renamed("Remote.help()", "commands()")(commands)
 
     # ---- the robot ---------------------------------------------------------------------------------------
 
-    def user_stop(self, pressed: bool, timeout: float | None = None) -> None:
+    def set_user_stop(self, pressed: bool, timeout: float | None = None) -> None:
         """Presses or releases the user stop, which aborts a motion.
 
-        >>> remote.user_stop(True)
+        >>> remote.set_user_stop(True)
         >>> remote.state().mode
         'User stopped'
-        >>> remote.user_stop(False)
+        >>> remote.set_user_stop(False)
         """
         self.send(f"user_stop {words.switch(pressed)}", timeout)
 
-    def guiding(self, active: bool, timeout: float | None = None) -> None:
+    user_stop = renamed("Remote.user_stop()", "set_user_stop()")(set_user_stop)
+
+    def set_guiding(self, active: bool, timeout: float | None = None) -> None:
         """Begins or ends guiding by hand.
 
-        >>> remote.guiding(True)
-        >>> remote.guiding(False)
+        >>> remote.set_guiding(True)
+        >>> remote.set_guiding(False)
         """
         self.send(f"guiding {words.switch(active)}", timeout)
+
+    guiding = renamed("Remote.guiding()", "set_guiding()")(set_guiding)
 
     def close_brakes(self, timeout: float | None = None) -> None:
         """Closes the brakes, which ends a motion.
@@ -424,16 +426,22 @@ class Remote:
             words.line("end_effector", [mass], *parts, words.matrix(F_T_NE, 4, "The transform")), timeout
         )
 
-    def end_effector_power(self, on: bool, timeout: float | None = None) -> None:
+    def set_end_effector_power(self, on: bool, timeout: float | None = None) -> None:
         """Off: the hand is not reachable.
 
-        >>> server["fr3"].remote.end_effector_power(True)
+        >>> server["fr3"].remote.set_end_effector_power(True)
         """
         self.send(f"end_effector_power {words.switch(on)}", timeout)
 
-    def power(self, on: bool, timeout: float | None = None) -> None:
+    end_effector_power = renamed("Remote.end_effector_power()", "set_end_effector_power()")(
+        set_end_effector_power
+    )
+
+    def set_power(self, on: bool, timeout: float | None = None) -> None:
         """Off: the robot is not reachable. On: it starts, with Desk's rules locked."""
         self.send(f"power {words.switch(on)}", timeout)
+
+    power = renamed("Remote.power()", "set_power()")(set_power)
 
     def timing(
         self, what: typing.Literal["brakes", "self_test"], seconds: float, timeout: float | None = None
@@ -452,13 +460,15 @@ class Remote:
         """
         return report_of(self.send("report", timeout))
 
-    def load(self, mass: float, center: ArrayLike = (0, 0, 0), timeout: float | None = None) -> None:
+    def set_load(self, mass: float, center: ArrayLike = (0, 0, 0), timeout: float | None = None) -> None:
         """The load that the robot assumes: mass [kg], center of mass in the flange's frame, 3 [m].
 
-        >>> remote.load(0.5, (0.0, 0.0, 0.05))
-        >>> remote.load(0.0)
+        >>> remote.set_load(0.5, (0.0, 0.0, 0.05))
+        >>> remote.set_load(0.0)
         """
         self.send(words.line("load", [mass], words.numbers(center, 3, "The center of mass")), timeout)
+
+    load = renamed("Remote.load()", "set_load()")(set_load)
 
     def wall(
         self,
@@ -557,9 +567,7 @@ class Remote:
         """
         return int(self.send("hash", timeout), 16)
 
-    @renamed("Remote.hash()", "state_hash()")
-    def hash(self, timeout: float | None = None) -> int:
-        return self.state_hash(timeout)
+    hash = renamed("Remote.hash()", "state_hash()")(state_hash)
 
     # ---- the link to the client --------------------------------------------------------------------------
 
@@ -600,27 +608,31 @@ class Remote:
         )
         self.send(f"{parts} {words.whole(ticks, 'The duration')}", timeout)
 
-    def place(
+    def place_body(
         self, body: str, position: ArrayLike, orientation: ArrayLike = NO_TURN, timeout: float | None = None
     ) -> None:
         """Puts a free body to a position, 3 [m], and a quaternion w, x, y, z of the world, at rest.
 
-        >>> remote.place("stone", (0.0, 0.3, 0.5))
-        >>> remote.where("stone").round(1).tolist()
+        >>> remote.place_body("stone", (0.0, 0.3, 0.5))
+        >>> remote.body_position("stone").round(1).tolist()
         [0.0, 0.3, 0.5]
         """
         pose = [words.numbers(position, 3, "The position"), words.numbers(orientation, 4, "The orientation")]
         self.send(words.line(f"place {words.word(body, 'The name of a body')}", *pose), timeout)
 
-    def where(self, body: str, timeout: float | None = None) -> Array:
+    place = renamed("Remote.place()", "place_body()")(place_body)
+
+    def body_position(self, body: str, timeout: float | None = None) -> Array:
         """Position of a body in the world, 3 [m].
 
-        >>> remote.where("stone").shape
+        >>> remote.body_position("stone").shape
         (3,)
         """
         return numpy.array(
             self.send(f"where {words.word(body, 'The name of a body')}", timeout).split(), float
         )
+
+    where = renamed("Remote.where()", "body_position()")(body_position)
 
     def scene(self, timeout: float | None = None) -> RemoteScene:
         """Bodies and shapes of the world, for programs that draw it. The first call may take seconds.

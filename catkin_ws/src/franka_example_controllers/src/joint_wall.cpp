@@ -1,12 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_example_controllers/joint_wall.h>
 #include <ros/console.h>
 
 #include <algorithm>
 #include <cmath>
-#include <locale>
-#include <sstream>
 #include <stdexcept>
 
 namespace franka_example_controllers {
@@ -47,11 +46,10 @@ double JointWall::depth(double q) const noexcept {
 
 void JointWall::begin(double q) {
   if (q < lower_ || q > upper_) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text << "JointWall: a joint stands at " << q << " rad, outside its soft limits " << lower_
-         << " and " << upper_ << ". Guide it back between them first.";
-    throw std::runtime_error(text.str());
+    throw std::runtime_error("JointWall: a joint stands at " + franka_core::numberText(q) +
+                             " rad, outside its soft limits " + franka_core::numberText(lower_) +
+                             " and " + franka_core::numberText(upper_) +
+                             ". Guide it back between them first.");
   }
   begun_ = true;
   scale_ = 1.0 - depth(q);

@@ -170,7 +170,7 @@ class Hand:
 
     def place_stone(self, between_fingers):
         place = STONE if between_fingers else (1.0, 1.0, 0.031)
-        self.server.robot.remote.place("stone", place)
+        self.server.robot.remote.place_body("stone", place)
 
 
 @pytest.fixture(scope="module")

@@ -2,14 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "joint_limit_monitor.h"
 
+#include <franka_core/numbers.h>
 #include <ros/console.h>
 
 #include <algorithm>
 #include <cmath>
-#include <iomanip>
 #include <limits>
-#include <locale>
-#include <sstream>
 
 namespace franka_hw {
 
@@ -52,22 +50,21 @@ double JointLimitMonitor::distanceToLimit(std::size_t joint, double q) const noe
 }
 
 void JointLimitMonitor::report(const ros::WallTimerEvent& /*event*/) {
-  std::ostringstream joints;
-  joints.imbue(std::locale::classic());
-  joints << std::fixed << std::setprecision(6);
+  using franka_core::fixedText;
+  std::string joints;
   for (std::size_t i = 0; i < joint_names_.size(); i++) {
     const double q = near_limit_[i].load(std::memory_order_relaxed);
     if (std::isnan(q)) {
       continue;
     }
-    joints << "\n\t" << joint_names_[i] << ": " << distanceToLimit(i, q) * kDegreesPerRadian
-           << " degrees to the end of its range (q = " << q << ", limits " << ranges_[i][0]
-           << " and " << ranges_[i][1] << " rad)";
+    joints += "\n\t" + joint_names_[i] + ": " +
+              fixedText(distanceToLimit(i, q) * kDegreesPerRadian, 6) +
+              " degrees to the end of its range (q = " + fixedText(q, 6) + ", limits " +
+              fixedText(ranges_[i][0], 6) + " and " + fixedText(ranges_[i][1], 6) + " rad)";
   }
-  if (!joints.str().empty()) {
-    ROS_WARN_STREAM_THROTTLE(kLimitReportPeriod, "FrankaHW: joints of '"
-                                                     << arm_id_
-                                                     << "' near their limits:" << joints.str());
+  if (!joints.empty()) {
+    ROS_WARN_STREAM_THROTTLE(
+        kLimitReportPeriod, "FrankaHW: joints of '" << arm_id_ << "' near their limits:" << joints);
   }
 }
 

@@ -1,13 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/limits.h>
+#include <franka_core/numbers.h>
 #include <franka_hw/resource_helpers.h>
 #include <franka_hw/robot_mismatch.h>
 
-#include <locale>
 #include <optional>
 #include <set>
-#include <sstream>
 
 namespace franka_hw {
 
@@ -89,16 +88,18 @@ std::string robotMismatch(const urdf::Model& description, const std::string& arm
   }
   const bool describes_other = !tooWide(description, joint_names, limitsOf(!is_fr3));
   const auto& range = *description.getJoint(joint_names[*joint])->limits;
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << "the robot is " << (is_fr3 ? "an FR3" : "a Panda") << " (protocol " << protocol
-       << "), but robot_description is "
-       << (!describes_other ? "another robot's" : (is_fr3 ? "a Panda's" : "an FR3's"))
-       << ": it lets '" << joint_names[*joint] << "' move from " << range.lower << " to "
-       << range.upper << " rad, the robot can from " << limits.q_min[*joint] << " to "
-       << limits.q_max[*joint] << " rad. Load the description of this robot (launch files: robot:="
-       << (is_fr3 ? "fr3" : "panda") << ").";
-  return text.str();
+  const auto from_to = [](double lower, double upper) {
+    return "from " + franka_core::numberText(lower) + " to " + franka_core::numberText(upper) +
+           " rad";
+  };
+  const std::string described =
+      !describes_other ? "another robot's" : (is_fr3 ? "a Panda's" : "an FR3's");
+  return std::string("the robot is ") + (is_fr3 ? "an FR3" : "a Panda") + " (protocol " +
+         std::to_string(protocol) + "), but robot_description is " + described + ": it lets '" +
+         joint_names[*joint] + "' move " + from_to(range.lower, range.upper) + ", the robot can " +
+         from_to(limits.q_min[*joint], limits.q_max[*joint]) +
+         ". Load the description of this robot (launch files: robot:=" +
+         (is_fr3 ? "fr3" : "panda") + ").";
 }
 
 }  // namespace franka_hw

@@ -235,7 +235,7 @@ def test_robots_of_one_world_have_their_own_addresses_and_names():
         assert hand == pytest.approx([0.5 - first[1], 1 + first[0], first[2]], abs=2e-3)
         # A switch concerns one robot, the world all.
         second, third = server["panda_2"].remote, server["fr3"].remote
-        second.user_stop(True)
+        second.set_user_stop(True)
         assert second.state().mode == "User stopped"
         assert send("state").startswith("ok Idle")
         assert third.state().mode == "Idle"

@@ -73,13 +73,13 @@ def test_the_hand_is_homed_once_after_each_start(robot):
     assert remote.report().hand.homed
     remote.hand_move(0.02, 0.1)
     assert remote.report().hand.width == pytest.approx(0.02, abs=1e-3)
-    remote.end_effector_power(False)
+    remote.set_end_effector_power(False)
     assert refusal(robot, "hand move 0.03 0.1") == "NotReady"
-    remote.end_effector_power(True)
+    remote.set_end_effector_power(True)
     remote.hand_move(0.03, 0.1)
-    remote.power(False)
+    remote.set_power(False)
     assert refusal(robot, "hand homing") == "NotReady"
-    remote.power(True)
+    remote.set_power(True)
     assert not remote.report().hand.homed
     assert refusal(robot, "hand move 0.02 0.1") == "NotHomed"
 

@@ -1,12 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim_mujoco/gripper_actions.h>
 #include <ros/init.h>
 
 #include <chrono>
 #include <cmath>
-#include <locale>
-#include <sstream>
 #include <thread>
 
 namespace franka_sim_mujoco {
@@ -48,13 +47,7 @@ void abort(Server& server, Result result, const std::string& text, double width)
   server.setAborted(result, text);
 }
 
-std::string millimeters(double meters) {
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text.precision(3);
-  text << std::fixed << meters * 1e3 << " mm";
-  return text.str();
-}
+std::string millimeters(double meters) { return franka_core::fixedText(meters * 1e3, 3) + " mm"; }
 
 }  // namespace
 
@@ -140,11 +133,9 @@ std::string GripperActions::widthFault(double width) const {
   if (std::isfinite(width) && width >= 0.0 && width <= parameters_.max_width) {
     return "";
   }
-  std::ostringstream text;
-  text.imbue(std::locale::classic());
-  text << "The width " << width << " m is not possible: it must lie between 0 and "
-       << parameters_.max_width << " m.";
-  return text.str();
+  return "The width " + franka_core::numberText(width) +
+         " m is not possible: it must lie between 0 and " +
+         franka_core::numberText(parameters_.max_width) + " m.";
 }
 
 std::string GripperActions::speedFault(double speed) {
@@ -238,12 +229,12 @@ void GripperActions::gripperCommand(const control_msgs::GripperCommandGoal& goal
   const double width = 2.0 * goal.command.position;  // the message names one finger's position
   const double effort = goal.command.max_effort;
   if (!widthFault(width).empty() || !std::isfinite(effort)) {
-    std::ostringstream text;
-    text.imbue(std::locale::classic());
-    text << "The goal is not possible: the position of a finger must lie between 0 and "
-         << parameters_.max_width / 2.0 << " m and is " << goal.command.position
-         << " m; max_effort must be finite and is " << effort << " N.";
-    abort(command_server_, result, text.str(), view_.width);
+    const std::string text =
+        "The goal is not possible: the position of a finger must lie between 0 and " +
+        franka_core::numberText(parameters_.max_width / 2.0) + " m and is " +
+        franka_core::numberText(goal.command.position) + " m; max_effort must be finite and is " +
+        franka_core::numberText(effort) + " N.";
+    abort(command_server_, result, text, view_.width);
     return;
   }
   const bool moves = std::abs(effort) < kNoEffort || width > view_.width;

@@ -112,7 +112,6 @@ void readServing(const ros::NodeHandle& node, RobotPlan* plan) {
   plan->locked = start == "locked";
 }
 
-/// @param name in the log
 /// An arm's services are below its name, in which ROS does not take all that a URDF does.
 std::string namespaceOf(std::string arm_id) {
   const auto is_refused = [](unsigned char c) { return std::isalnum(c) == 0; };
@@ -120,8 +119,16 @@ std::string namespaceOf(std::string arm_id) {
   return arm_id;
 }
 
+/// @param name in the log. @throw std::runtime_error if another arm has its services there.
 void addArm(const ros::NodeHandle& node, const std::string& arm_id, const std::string& name,
             const std::string& service_namespace, RobotPlan* plan) {
+  for (const SimulatedArm& other : plan->arms) {
+    if (other.service_namespace == service_namespace) {
+      throw std::runtime_error("The services of the arms '" + other.arm_id + "' and '" + arm_id +
+                               "' would both be below '" + service_namespace +
+                               "': ROS takes letters, digits and _ only. Rename one of them.");
+    }
+  }
   SimulatedArm arm{arm_id, "", {}, service_namespace};
   if (plan->urdf.getJoint(arm_id + "_joint1")) {
     const bool served = !plan->fci_ip.empty();

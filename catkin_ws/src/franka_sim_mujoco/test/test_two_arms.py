@@ -119,6 +119,16 @@ def test_arms_may_have_names_that_ros_cannot_have(arms):
     assert answer.success, answer.error
     rospy.wait_for_service("/hyphens/arm_1/franka_control/set_load", 30)
     assert call("/gazebo/delete_robot", DeleteRobot, name="hyphens").success
+    answer = call(
+        "/gazebo/spawn_robot",
+        SpawnRobot,
+        name="same",
+        robot_namespace="/hyphens",
+        urdf=urdf.replace("arm-2_", "arm_1_"),
+        pose=Pose(position=Point(x=5), orientation=Quaternion(w=1)),
+    )
+    assert not answer.success
+    assert "'arm-1' and 'arm_1'" in answer.error
 
 
 def test_arms_of_one_description_are_not_served_at_one_address(arms):

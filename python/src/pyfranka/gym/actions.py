@@ -10,8 +10,9 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from _pyfranka import _sim
 from numpy.typing import NDArray
+
+from pyfranka._native import _sim
 
 __all__ = ["CONTROLS", "Control"]
 

@@ -8,9 +8,10 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy
-from _pyfranka import ArmLimits, _sim
+from _pyfranka import ArmLimits
 from numpy.typing import NDArray
 
+from pyfranka._native import _sim
 from pyfranka.sim import Action, SimulatedRobot, Simulation
 from pyfranka.sim.arguments import mapping, numbers
 from pyfranka.sim.simulation import NO_TURN

@@ -17,8 +17,8 @@ from typing import Any
 from xml.etree import ElementTree
 
 import numpy
-from _pyfranka import _sim
 
+from pyfranka._native import _sim
 from pyfranka.sim import KINDS, Simulation
 from pyfranka.sim.arguments import items, mapping
 from pyfranka.sim.setups import _Setup

@@ -9,13 +9,13 @@ from copy import deepcopy
 from typing import Any
 
 import numpy
-from _pyfranka import _sim
 from gymnasium import spaces
 from gymnasium.error import ClosedEnvironmentError, ResetNeeded
 from gymnasium.vector import AutoresetMode, VectorEnv
 from gymnasium.vector.utils import batch_space, concatenate, create_empty_array
 from numpy.typing import NDArray
 
+from pyfranka._native import _sim
 from pyfranka.sim import SimulationBatch
 from pyfranka.sim.arguments import mapping, seed_of, whole
 

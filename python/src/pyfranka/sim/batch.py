@@ -10,8 +10,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 
 import numpy
-from _pyfranka import _sim
 from numpy.typing import ArrayLike
+
+from pyfranka._native import _sim
 
 from .arguments import items, seed_of, text, whole
 from .robot import Array

@@ -5,11 +5,11 @@
 from __future__ import annotations
 
 import numpy
-from _pyfranka import _sim
 from _pyfranka._sim import ArmModel, GripperOutcome, LiveState
 from numpy.typing import ArrayLike, NDArray
 
 from pyfranka._deprecation import renamed
+from pyfranka._native import _sim
 
 from .setups import _Setup
 
@@ -25,7 +25,7 @@ class Action:
     True
     """
 
-    def __init__(self, robot: _sim.Robot, ticket: int, what: str):
+    def __init__(self, robot: _sim.SimulatedRobot, ticket: int, what: str):
         self._robot, self._ticket, self._what = robot, ticket, what
         self._outcome = GripperOutcome.Running
 
@@ -63,7 +63,7 @@ class Gripper:
     <Action grasp: Running>
     """
 
-    def __init__(self, robot: _sim.Robot):
+    def __init__(self, robot: _sim.SimulatedRobot):
         self._robot = robot
         robot.hand_state()  # raises without a hand
 
@@ -152,7 +152,7 @@ class SimulatedRobot:
     <Panda 'panda': moving>
     """
 
-    def __init__(self, native: _sim.Robot, setup: _Setup):
+    def __init__(self, native: _sim.SimulatedRobot, setup: _Setup):
         self._native, self.setup = native, setup
         self._state, self._model = native.state, native.model
         self._gripper: Gripper | None = None

@@ -11,8 +11,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy
-from _pyfranka import _sim
 from numpy.typing import ArrayLike
+
+from pyfranka._native import _sim
 
 from .arguments import inertia, items, numbers, path, text, whole
 

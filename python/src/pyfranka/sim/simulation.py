@@ -15,11 +15,11 @@ import weakref
 from collections.abc import ItemsView, Iterator, KeysView, Mapping, Sequence, ValuesView
 
 import numpy
-from _pyfranka import _sim
 from _pyfranka._sim import Snapshot
 from numpy.typing import ArrayLike, NDArray
 
 from pyfranka._deprecation import renamed
+from pyfranka._native import _sim
 
 from .arguments import items, mapping, no_robot, numbers, path, seed_of, text
 from .robot import Array, SimulatedRobot

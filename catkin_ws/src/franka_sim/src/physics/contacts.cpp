@@ -16,11 +16,10 @@ constexpr int kContactsOfMovingGeom = 24;
 /// which needs 32 rows for a box on four others.
 constexpr int kContactsWithRowsOfMovingGeom = 11;
 /// A robot has enough for a grasp and several links in contact, each shape for a box on a table. An
-/// arm with a hand has 43 shapes, which rarely touch anything; several arms may be one robot, so
-/// its rows grow with the shapes, too, up to some 35 MB (chosen here).
+/// arm with a hand has 43 shapes, which rarely touch anything, so there are rows for one contact of
+/// each: several arms may be one robot. The most takes some 35 MB (chosen here).
 constexpr int kMinContactsOfRobot = 40;
 constexpr int kContactsOfRobotGeom = 4;
-constexpr int kContactsWithRowsOfRobotGeom = 1;
 constexpr int kMaxContactsWithRowsOfRobot = 300;
 constexpr int kMinContacts = 100;
 /// Pads of a gripper have torsional friction.
@@ -127,8 +126,8 @@ void setContactCapacity(mjModel* model, const std::vector<int>& robot_of_body,
   int contacts_with_rows_of_robots = 0;
   for (const auto& [robot, count] : shapes) {
     contacts_of_robots += std::max(kContactsOfRobotGeom * count, kMinContactsOfRobot);
-    contacts_with_rows_of_robots += std::clamp(kContactsWithRowsOfRobotGeom * count,
-                                               kMinContactsOfRobot, kMaxContactsWithRowsOfRobot);
+    contacts_with_rows_of_robots +=
+        std::clamp(count, kMinContactsOfRobot, kMaxContactsWithRowsOfRobot);
   }
   if (!given.nconmax) {
     model->nconmax = std::max(kContactsOfMovingGeom * geoms, kMinContacts) + contacts_of_robots;

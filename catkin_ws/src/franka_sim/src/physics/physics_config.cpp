@@ -1,14 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/physics_config.h>
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
 #include <cmath>
-#include <locale>
 #include <random>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 namespace franka_sim {
@@ -62,10 +61,9 @@ void readOne(const YAML::Node& parent, const std::string& key, const std::string
   }
   double number;
   if (!YAML::convert<double>::decode(node, number) || !(number >= least && number <= most)) {
-    std::ostringstream complaint;
-    complaint.imbue(std::locale::classic());
-    complaint << where << "/" << key << " must be a number from " << least << " to " << most << ".";
-    throw std::runtime_error(complaint.str());
+    throw std::runtime_error(where + "/" + key + " must be a number from " +
+                             franka_core::numberText(least) + " to " +
+                             franka_core::numberText(most) + ".");
   }
   value = number;
 }

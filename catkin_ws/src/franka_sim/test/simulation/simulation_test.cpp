@@ -64,25 +64,18 @@ TEST(OperatorSwitches, FciStaysOffWhileAnotherProgramHasItsPort) {
   server.port = 0;
   fci::SimRobot robot(unit, arm, server, std::nullopt);
   robot.observe();
-  setFci(robot, false);
-  EXPECT_FALSE(robot.server().isOpen());
-  {
-    const fci::Listener other("127.0.0.1", robot.server().port());
-    expectSentence([&] { setFci(robot, true); },
-                   {"port", std::to_string(robot.server().port()).c_str()});
-    EXPECT_FALSE(robot.unit().status().fci_active);
+  for (const auto switch_to : {&setFci, &setPower}) {
+    switch_to(robot, false);
+    EXPECT_FALSE(robot.server().isOpen());
+    {
+      const fci::Listener other("127.0.0.1", robot.server().port());
+      expectSentence([&] { switch_to(robot, true); },
+                     {"FCI", std::to_string(robot.server().port()).c_str()});
+      EXPECT_FALSE(robot.unit().status().fci_active);
+    }
+    setFci(robot, true);
+    EXPECT_TRUE(robot.server().isOpen());
   }
-  setFci(robot, true);
-  EXPECT_TRUE(robot.server().isOpen());
-  setPower(robot, false);
-  {
-    const fci::Listener other("127.0.0.1", robot.server().port());
-    expectSentence([&] { setPower(robot, true); },
-                   {"FCI", std::to_string(robot.server().port()).c_str()});
-    EXPECT_FALSE(robot.unit().status().fci_active);
-  }
-  setFci(robot, true);
-  EXPECT_TRUE(robot.server().isOpen());
 }
 
 TEST(OperatorSwitches, EndEffectorStaysOffWhileAnotherProgramHasItsPort) {

@@ -1,11 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The commands of the wheel: they become the programs that it contains.
+"""The commands of the wheel: they become the programs that it contains."""
 
-Not a part of the package pyfranka, whose import takes longer than the programs need to start.
-"""
-
-import importlib.util
 import os
 import sys
 import sysconfig
@@ -14,9 +10,7 @@ from pathlib import Path
 
 def path(name: str) -> Path:
     """The file of a program, such as franka_sim."""
-    package = importlib.util.find_spec("pyfranka")
-    assert package is not None and package.origin is not None
-    return Path(package.origin).parent / "bin" / name
+    return Path(__file__).parent / "bin" / name
 
 
 def _become(name: str) -> None:

@@ -2,11 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """The module in C++ under the names that users import: classes, docstrings and sentences for wrong arguments.
 
-Done when pyfranka is imported and not in C++, because the type stubs of _pyfranka are made without pyfranka.
+Everything in pyfranka imports _pyfranka through this module. The names are not given in C++, because the type
+stubs of _pyfranka are made without pyfranka.
 """
 
 from __future__ import annotations
 
+import builtins
 import datetime
 import inspect
 import numbers
@@ -16,6 +18,7 @@ from collections.abc import Iterable, Iterator, Sequence
 from types import ModuleType
 
 import _pyfranka
+from _pyfranka import _sim as _sim
 
 MODULES = {"_pyfranka": "pyfranka", "_pyfranka._sim": "pyfranka.sim"}
 WRONG_ARGUMENTS = re.compile(r"(\w*)\(\): incompatible (?:function|constructor) arguments\. ")
@@ -35,13 +38,6 @@ PLAIN: dict[str, tuple[tuple[type, ...], str]] = {
 
 # "Robot.stop" by the identity of what C++ knows of the function; those live as long as the module.
 _names: dict[int, str] = {}
-
-
-def publish() -> None:
-    """Gives classes, functions and errors of _pyfranka their public names."""
-    _pyfranka._explain_with(explain)
-    for module in (_pyfranka, _pyfranka._sim):
-        _publish_in(module, "")
 
 
 def public(text: str) -> str:
@@ -208,3 +204,11 @@ def _unlike(kind: str, value: object) -> str:
     values = [f"{cls.__qualname__}.{name}" for name in getattr(cls, "__members__", ())]
     chosen = f" ({', '.join(values[:-1])} or {values[-1]})" if values else ""
     return f"{article} {cls.__qualname__}{chosen}"
+
+
+_pyfranka._explain_with(explain)
+for _module in (_pyfranka, _sim):
+    _publish_in(_module, "")
+NAMES = {name: value for name, value in vars(_pyfranka).items() if not name.startswith("_")}
+# `from pyfranka import *` does not hide Python's own Exception; FrankaException is another name of ours.
+STARRED = [name for name in NAMES if not hasattr(builtins, name)]
