@@ -246,7 +246,7 @@ def test_pick_and_place_has_the_bits_of_the_workspace(environment, carried):
 
 
 def test_libraries_of_a_sourced_workspace_are_not_used(environment):
-    code = "import pyfranka; print(open('/proc/self/maps').read())"
+    code = "import pyfranka.sim; print(open('/proc/self/maps').read())"
     variables = {"LD_LIBRARY_PATH": f"{TOP}/catkin_ws/devel/lib:/usr/lib/x86_64-linux-gnu"}
     result = environment.run("python", "-c", code, variables=variables)
     loaded = {
