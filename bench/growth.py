@@ -5,15 +5,18 @@
 import tempfile
 import time
 from collections.abc import Callable
+from contextlib import closing
 from pathlib import Path
 
 import numpy
 import pyfranka.sim
+from pyfranka.gym import VectorEnvironment
 from report import figure
 
 ARMS = (1, 2, 4, 8, 16)
 BODIES = (1, 10, 30, 100, 300, 1000)
 WORLDS = (1, 2, 4, 8, 16, 32, 64)
+ENVIRONMENTS = (1, 4, 16, 64)
 SPENT = 1.0  # [s] on each row
 TRIES = 3
 SPACING = 2.0  # [m] between arms, which do not reach each other
@@ -65,12 +68,26 @@ def worlds(count: int) -> float:
         return microseconds(batch.step, *batch)
 
 
-def table(what: str, counts: tuple[int, ...], measure: Callable[[int], float]) -> None:
+def environments(count: int) -> float:
+    """A step of pick-and-place environments with random actions, new episodes among them [us]."""
+    with closing(VectorEnvironment(count, 100, threads=1, task="PickAndPlace")) as vector:
+        vector.reset(seed=1)
+        vector.action_space.seed(1)
+        steps, begin = 0, time.perf_counter()
+        while time.perf_counter() - begin < SPENT or steps < 100:
+            vector.step(vector.action_space.sample())
+            steps += 1
+        return 1e6 * (time.perf_counter() - begin) / steps
+
+
+def table(
+    what: str, counts: tuple[int, ...], measure: Callable[[int], float], unit_of_work: str = "tick"
+) -> None:
     times = []
     for count in counts:
         times.append(measure(count))
-        figure(f"{count} {what}: tick", times[-1], "us")
-        figure(f"{count} {what}: tick of each", times[-1] / count, "us")
+        figure(f"{count} {what}: {unit_of_work}", times[-1], "us")
+        figure(f"{count} {what}: {unit_of_work} of each", times[-1] / count, "us")
     exponent, _ = numpy.polyfit(numpy.log(counts), numpy.log(times), 1)
     figure(f"exponent of the growth with {what}", exponent, "")
 
@@ -80,3 +97,4 @@ def growth() -> None:
     table("arms with impedance laws", ARMS, arms)
     table("boxes on the floor beside an arm", BODIES, bodies)
     table("worlds of a batch, with an arm, a hand and an impedance law each", WORLDS, worlds)
+    table("environments of Gymnasium", ENVIRONMENTS, environments, "step")

@@ -74,12 +74,13 @@ def read_packages(sources: Path) -> list[RosPackage]:
     for file in sorted([*sources.glob("*/package.xml"), *sources.glob("ros_control/*/package.xml")]):
         root = ElementTree.parse(file).getroot()
         maintainer = root.find("maintainer")
-        keys = sorted({key.text for kind in DEPENDENCIES for key in root.findall(kind)})
+        assert maintainer is not None
+        keys = sorted({key.text or "" for kind in DEPENDENCIES for key in root.findall(kind)})
         packages.append(
             RosPackage(
-                name=root.findtext("name"),
-                version=root.findtext("version"),
-                description=" ".join(root.findtext("description").split()),
+                name=root.findtext("name", ""),
+                version=root.findtext("version", ""),
+                description=" ".join(root.findtext("description", "").split()),
                 maintainer=f"{maintainer.text} <{maintainer.get('email')}>",
                 folder=str(file.parent.relative_to(sources)),
                 everywhere=root.find("export/architecture_independent") is not None,

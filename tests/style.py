@@ -88,8 +88,8 @@ REPLACED_WORDS = [
     ),
     (re.compile(r"\b(?i:whoever|whomever)\b"), "the caller, the client or the user"),
 ]
-# Python that mypy does not read: tests, and what only the build runs.
-UNTYPED = re.compile(r"(^|/)(setup|conftest)\.py$|(^|/)tests?/|^(ci|docs|packaging)/")
+# Python that mypy does not read: tests, and the files that setuptools, pytest and Sphinx run.
+UNTYPED = re.compile(r"(^|/)(setup|conftest|conf)\.py$|(^|/)tests?/")
 MACHINE_PATH = re.compile(r"(?<![\w.$}/-])/(work|home|root|Users)/\w+")
 
 

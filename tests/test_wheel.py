@@ -488,6 +488,21 @@ def test_the_plugin_is_found_by_its_entry_point(environment):
 # ---- long form -------------------------------------------------------------------------------------------
 
 
+# Prints how often the page of a robot of its own is there, and whether it has a text.
+DESK_PAGE = """
+import ssl, subprocess, sys, urllib.request
+program = [sys.prefix + "/bin/franka_sim", "--ip", "127.0.61.10", "--desk"]
+with subprocess.Popen(program, stdout=subprocess.PIPE, text=True) as served:
+    try:
+        while "https://" not in (line := served.stdout.readline()):
+            assert line, "franka_sim has ended"
+        trusting = ssl._create_unverified_context()
+        address = next(word for word in line.split() if word.startswith("https://"))
+        page = urllib.request.urlopen(address.rstrip(".,"), context=trusting, timeout=30).read()
+        print(page.count(b"<html"), len(page) > 500)
+    finally:
+        served.terminate()
+"""
 ON_BARE_DEBIAN = pytest.mark.long_form("makes a bare Debian")
 
 
@@ -541,6 +556,11 @@ def check_meshes_on(bare: BareDebian):
     assert with_meshes == without, "meshes change no motion"
 
 
+def check_desk_on(bare: BareDebian, wheel: Path):
+    bare.must("/env/bin/pip", "install", "--quiet", f"/root/{wheel.name}[desk]")
+    assert bare.must("/env/bin/python", "-c", DESK_PAGE).split() == ["1", "True"]
+
+
 def check_genuine_client_on(bare: BareDebian):
     bare.must("python3", "-m", "venv", "/genuine")
     bare.must(
@@ -553,6 +573,11 @@ def check_genuine_client_on(bare: BareDebian):
 @ON_BARE_DEBIAN
 def test_simulations_run_on_a_bare_debian(bare, quick_start, carried):
     assert check_simulation_on(bare, quick_start) == carried["hash"]
+
+
+@ON_BARE_DEBIAN
+def test_desk_serves_its_page_on_a_bare_debian(bare, wheel):
+    check_desk_on(bare, wheel)
 
 
 @ON_BARE_DEBIAN
@@ -668,21 +693,7 @@ def test_a_plot_is_drawn_with_its_extra(complete):
 
 @with_extras
 def test_desk_serves_its_page_with_its_extra(complete):
-    code = """
-        import ssl, subprocess, sys, urllib.request
-        program = [sys.prefix + "/bin/franka_sim", "--ip", "127.0.61.10", "--desk"]
-        with subprocess.Popen(program, stdout=subprocess.PIPE, text=True) as served:
-            try:
-                while "https://" not in (line := served.stdout.readline()):
-                    assert line, "franka_sim has ended"
-                trusting = ssl._create_unverified_context()
-                address = next(word for word in line.split() if word.startswith("https://"))
-                page = urllib.request.urlopen(address.rstrip(".,"), context=trusting, timeout=30).read()
-                print(page.count(b"<html"), len(page) > 500)
-            finally:
-                served.terminate()
-    """
-    assert complete.python(code).split() == ["1", "True"]
+    assert complete.python(DESK_PAGE).split() == ["1", "True"]
 
 
 @pytest.mark.long_form("downloads the meshes")

@@ -104,7 +104,9 @@ def name_files_by_their_paths() -> None:
     index = ET.parse(XML / "index.xml")
     for compound in index.getroot().findall("compound[@kind='file']"):
         file = ET.parse(XML / f"{compound.get('refid')}.xml").getroot()
-        compound.find("name").text = file.find("compounddef/location").get("file")
+        name, location = compound.find("name"), file.find("compounddef/location")
+        assert name is not None and location is not None
+        name.text = location.get("file")
     index.write(XML / "index.xml")
 
 

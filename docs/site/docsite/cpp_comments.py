@@ -44,13 +44,13 @@ def belongs_to(member: ET.Element, scope: str) -> bool:
     definition = re.sub("<.*>", "", member.findtext("definition") or "")
     definition = re.sub(r"\s*=\s.*", "", definition)  # of a type, what it stands for
     scope = re.sub("<.*>", "", scope)
-    name = f"{scope}::{member.findtext('name')}" if scope else member.findtext("name")
+    name = f"{scope}::{member.findtext('name')}" if scope else member.findtext("name", "")
     return not definition or definition.endswith(name)
 
 
 def explains_itself(member: ET.Element, scope: str) -> bool:
     """Whether the member needs no comment."""
-    name, arguments = member.findtext("name"), member.findtext("argsstring") or ""
+    name, arguments = member.findtext("name", ""), member.findtext("argsstring", "")
     own = re.sub("<.*", "", scope).rsplit("::", 1)[-1].strip()
     return (
         name in ("", own)
@@ -66,14 +66,15 @@ def explains_itself(member: ET.Element, scope: str) -> bool:
 
 def place(element: ET.Element) -> tuple[str, int]:
     location = element.find("location")
-    return location.get("file"), int(location.get("line"))
+    assert location is not None
+    return location.attrib["file"], int(location.attrib["line"])
 
 
 def names_of(compound: ET.Element) -> Iterator[Name]:
     """A class, a namespace or a file: it itself, and its public functions, enumerations, fields, constants,
     types and macros. Of a file those that belong to no namespace."""
     is_file = compound.get("kind") == "file"
-    scope = "" if is_file else compound.findtext("compoundname")
+    scope = "" if is_file else compound.findtext("compoundname", "")
     if compound.get("prot", "public") != "public":
         return
     if compound.get("kind") in ("class", "struct"):
@@ -87,7 +88,7 @@ def names_of(compound: ET.Element) -> Iterator[Name]:
             if is_file and "::" in (member.findtext("qualifiedname") or ""):
                 continue
             if not explains_itself(member, scope):
-                name = f"{scope}::{member.findtext('name')}" if scope else member.findtext("name")
+                name = f"{scope}::{member.findtext('name')}" if scope else member.findtext("name", "")
                 yield Name(*place(member), name, described or is_described(member))
 
 

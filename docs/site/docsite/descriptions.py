@@ -25,7 +25,7 @@ class Description(typing.NamedTuple):
 
     path: Path
     comment: str
-    arguments: list[tuple[str, str, str]]
+    arguments: list[tuple[str, str | None, str]]
 
 
 def parsed(path: Path) -> ET.Element:
@@ -39,7 +39,8 @@ def parsed(path: Path) -> ET.Element:
 
 
 def comments_of(root: ET.Element) -> list[str]:
-    texts = [element.text for element in root.iter(ET.Comment)]
+    # Comments have a function in the place of a tag.
+    texts = [element.text or "" for element in root.iter(typing.cast(str, ET.Comment))]
     return [text for text in texts if not text.strip().startswith(LICENCE)]
 
 
@@ -83,7 +84,7 @@ def read_description(path: Path) -> Description:
     for comment in comments:
         meanings |= meanings_in(comment)
     arguments = [
-        (each.get("name"), each.get("default"), meanings.get(each.get("name"), ""))
+        (each.get("name", ""), each.get("default"), meanings.get(each.get("name", ""), ""))
         for each in root.iter(f"{XACRO}arg")
     ]
     first = re.split(r"\n\s+\w+(?:, \w+)*\s{2,}\S", comments[0])[0] if comments else ""

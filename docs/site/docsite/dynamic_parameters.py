@@ -43,22 +43,31 @@ class Generator:
     def __init__(self, parameters: list[Parameter]):
         self._parameters = parameters
 
-    def add(self, name, paramtype, level, description, default=None, min=None, max=None, **_):  # noqa: A002
+    def add(
+        self,
+        name: str,
+        paramtype: str,
+        level: int,
+        description: str,
+        default: typing.Any = None,
+        min: typing.Any = None,  # noqa: A002
+        max: typing.Any = None,  # noqa: A002
+        **_: typing.Any,
+    ) -> None:
         self._parameters.append(Parameter(name, paramtype, description, default, min, max))
 
-    def add_group(self, *_, **__) -> "Generator":
+    def add_group(self, *_: typing.Any, **__: typing.Any) -> "Generator":
         return self
 
-    def generate(self, *_) -> int:
+    def generate(self, *_: typing.Any) -> int:
         return 0
 
 
 def read_config(path: Path) -> Config:
     parameters: list[Parameter] = []
     module = types.ModuleType(MODULE)
-    module.ParameterGenerator = lambda: Generator(parameters)
-    for name, shown in TYPES.items():
-        setattr(module, name, shown)
+    for name, value in {**TYPES, "ParameterGenerator": lambda: Generator(parameters)}.items():
+        setattr(module, name, value)
     names: dict[str, typing.Any] = {"__name__": "__main__", "exit": sys.exit}
     replaced = {MODULE.partition(".")[0]: types.ModuleType("dynamic_reconfigure"), MODULE: module}
     with patch.dict(sys.modules, replaced), suppress(SystemExit):

@@ -50,9 +50,8 @@ def condition_of(element: ET.Element) -> str:
 def first_comment(root: ET.Element) -> str:
     """The comment at the start of the launch element, before other elements; empty if there is none."""
     for element in root:
-        if element.tag is ET.Comment:
-            return " ".join(element.text.split())
-        return ""
+        is_comment = typing.cast(typing.Any, element.tag) is ET.Comment
+        return " ".join((element.text or "").split()) if is_comment else ""
     return ""
 
 
@@ -64,11 +63,11 @@ def read_launch_file(path: Path) -> LaunchFile:
         # An argument with a value is for the file itself, or for an included file.
         if element not in list(root) or element.get("value") is not None:
             continue
-        name = element.get("name")
+        name, doc = element.get("name", ""), element.get("doc", "")
         entry = found.setdefault(name, Argument(name, [], ""))
         entry.defaults.append((condition_of(element), element.get("default")))
-        if element.get("doc"):
-            found[name] = entry._replace(doc=" ".join(element.get("doc").split()))
+        if doc:
+            found[name] = entry._replace(doc=" ".join(doc.split()))
     return LaunchFile(path, first_comment(root), list(found.values()))
 
 

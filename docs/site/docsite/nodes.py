@@ -7,6 +7,7 @@ them with the names that the sources use.
 """
 
 import typing
+from pathlib import Path
 
 import yaml
 
@@ -50,7 +51,7 @@ def nodes_of(package: str) -> list[Node]:
     return found
 
 
-def interface_file(type_name: str):
+def interface_file(type_name: str) -> Path | None:
     """The definition of a type of ours such as franka_msgs/SetLoad, or None."""
     package, _, name = type_name.partition("/")
     for each in packages():

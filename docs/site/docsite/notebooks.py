@@ -11,6 +11,7 @@ programs import are copied beside the notebooks.
 import ast
 import shutil
 import sys
+import typing
 from pathlib import Path
 
 import jupytext
@@ -27,10 +28,10 @@ def programs() -> list[Path]:
     return [path for path in sorted(EXAMPLES.glob("*.py")) if CELL in path.read_text(encoding="utf-8")]
 
 
-def notebook(program: Path) -> nbformat.NotebookNode:
+def notebook(program: Path) -> typing.Any:
     """A program as a notebook without outputs."""
     text = program.read_text(encoding="utf-8")
-    title, _, rest = ast.get_docstring(ast.parse(text)).partition("\n")
+    title, _, rest = (ast.get_docstring(ast.parse(text)) or "").partition("\n")
     cells = text[text.index(f"\n{CELL}") + 1 :]
     made = jupytext.reads(cells, fmt="py:percent")
     heading = nbformat.v4.new_markdown_cell(f"# {title.rstrip('.')}\n{rest}".strip())

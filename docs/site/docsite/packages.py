@@ -30,7 +30,8 @@ class Package(typing.NamedTuple):
 
 def read_package(file: Path) -> Package:
     root = ET.parse(file).getroot()
-    return Package(root.findtext("name").strip(), file.parent, " ".join(root.findtext("description").split()))
+    name, description = root.findtext("name", "").strip(), root.findtext("description", "")
+    return Package(name, file.parent, " ".join(description.split()))
 
 
 @lru_cache(maxsize=1)

@@ -69,10 +69,10 @@ class Pages:
             lines.append(line)
         return "\n".join(lines) + "\n"
 
-    def _link(self, found: re.Match, path: Path, place: str) -> str:
+    def _link(self, found: re.Match[str], path: Path, place: str) -> str:
         opening, target, closing = found.groups()
         if re.match(r"[a-z]+:|#", target):
-            return found.group(0)
+            return str(found[0])
         name, _, anchor = target.partition("#")
         file = Path(os.path.normpath(path.parent / name))
         if file == DOCS or DOCS in file.parents:

@@ -20,20 +20,18 @@ class Plugin(typing.NamedTuple):
 def exported_files(package: Package) -> list[str]:
     """The plugin descriptions that package.xml names."""
     export = ET.parse(package.folder / "package.xml").getroot().find("export")
-    return [each.get("plugin") for each in (export if export is not None else []) if each.get("plugin")]
+    named = [each.get("plugin", "") for each in (export if export is not None else [])]
+    return [name for name in named if name]
 
 
 def plugins_of(package: Package) -> list[Plugin]:
     found = []
-    for name in exported_files(package):
-        file = package.folder / name.replace("${prefix}/", "")
+    for exported in exported_files(package):
+        file = package.folder / exported.replace("${prefix}/", "")
         for element in ET.parse(file).getroot().iter("class"):
             description = " ".join((element.findtext("description") or "").split())
-            found.append(
-                Plugin(
-                    element.get("name") or element.get("type"), element.get("base_class_type"), description
-                )
-            )
+            name = element.get("name", element.get("type", ""))
+            found.append(Plugin(name, element.get("base_class_type", ""), description))
     return found
 
 

@@ -127,7 +127,8 @@ def with_tables(page: str, tables: dict[str, str]) -> str:
     for name, text in tables.items():
         mark = BEGIN.format(name)
         pattern = re.escape(mark) + r"\n.*?" + re.escape(END)
-        page = re.sub(pattern, lambda _, mark=mark, text=text: f"{mark}\n{text}{END}", page, flags=re.S)
+        (now,) = re.findall(pattern, page, flags=re.S)
+        page = page.replace(now, f"{mark}\n{text}{END}")
     return page
 
 
