@@ -9,7 +9,9 @@ workspace, which `./franka bench` provides.
 """
 
 # ruff: noqa: E402
+import os
 import sys
+import time
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parents[1] / "tests"
@@ -24,6 +26,15 @@ import python_simulation
 import python_sweep
 import simulation
 from report import failures
+from stalls import Stalls
+
+
+def conditions() -> None:
+    """Prints what else the machine does before a benchmark."""
+    with Stalls() as stalls:
+        time.sleep(2.0)
+    late = f"a bare thread was woken up late {stalls.late} times in 2 s, by up to {1e3 * stalls.worst:.1f} ms"
+    print(f"\nLoad {os.getloadavg()[0]:.1f}; {late}")
 
 
 def python() -> None:
@@ -56,6 +67,7 @@ def main() -> int:
         )
         return 2
     for name in names:
+        conditions()
         BENCHMARKS[name]()
     for text in failures:
         print(f"MISSED: {text}")
