@@ -9,7 +9,8 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from bare_debian import BareDebian, bare_debian, copy_project, possible
+from bare_debian import TOP, BareDebian, bare_debian, copy_project, possible
+from tutorial import check_picture, read
 
 HOUR = 3600.0  # [s]
 PROJECT = "/project"
@@ -40,7 +41,7 @@ def clone(tmp_path_factory):
 
 
 def in_project(bare: BareDebian, command: str, timeout: float) -> str:
-    return bare.must("sh", "-c", f"export CCACHE_DIR=/ccache; cd {PROJECT} && {command}", timeout=timeout)
+    return bare.must("sh", "-ec", f"export CCACHE_DIR=/ccache; cd {PROJECT}\n{command}", timeout=timeout)
 
 
 def test_the_documentation_is_built_in_a_new_clone(clone):
@@ -57,6 +58,26 @@ def test_the_documentation_is_built_in_a_new_clone(clone):
     assert len(names) > 150
     # Only what the reference needs was compiled.
     assert not (clone.root / PROJECT[1:] / "catkin_ws/devel/lib/libfranka_example_controllers.so").exists()
+
+
+def test_the_demo_is_built_and_shown_in_a_new_clone(clone):
+    page = read(TOP / "docs/get_started/ros.md")
+    in_project(clone, page.block_with("./franka build"), 4 * HOUR)
+    said = in_project(clone, page.block_with("./franka demo"), HOUR)
+    assert "rests in the red tray" in said
+    for name in ("1-before", "2-grasped", "3-placed"):
+        check_picture(clone.root / PROJECT[1:] / "out/demo" / f"{name}.png")
+
+
+def test_the_wheel_of_a_new_clone_runs_the_first_program(clone):
+    page = read(TOP / "docs/get_started/python.md")
+    in_project(clone, page.block_with("./franka wheel"), HOUR)
+    program = next(step for step in page.of("file") if step.path.endswith("/first.py"))
+    output = next(step for step in page.of("text") if step.line > program.line)
+    (clone.root / "root/first.py").write_text(program.text, encoding="utf-8")
+    said = clone.must("sh", "-ec", "cd\n~/env/bin/python first.py")
+    assert said == output.text
+    check_picture(clone.root / "root/first.png")
 
 
 def test_the_pages_are_typed_in_a_new_clone(clone):

@@ -21,17 +21,11 @@ pytestmark = [
 ]
 
 
-def block_with(text: str) -> str:
-    """The block of commands of the page that contains this text."""
-    (block,) = (step.text for step in read(PAGE).of("bash") if text in step.text)
-    return block
-
-
 def install_packages(bare: BareDebian) -> None:
     names = re.findall(r"lib[\w-]+", NEEDED_BY_TESTS.search(PAGE.read_text(encoding="utf-8"))[1])
     assert len(names) >= 3
     install = "apt-get install -y --no-install-recommends"
-    command = block_with("apt-get install").replace("apt-get install", install).rstrip()
+    command = read(PAGE).block_with("apt-get install").replace("apt-get install", install).rstrip()
     bare.must("sh", "-c", f"apt-get update && {command} {' '.join(names)}", timeout=HOUR)
 
 
@@ -41,7 +35,7 @@ def test_franka_sim_builds_and_passes_its_tests_by_cmake_alone(tmp_path):
         installed = bare.must("dpkg-query", "--show", "--showformat", "${Package}\\n").split()
         assert "cmake" in installed and not [name for name in installed if OF_ROS.match(name)]
         copy_project(bare.root / "project")
-        build = block_with("cmake -S catkin_ws/src/franka_sim")
+        build = read(PAGE).block_with("cmake -S catkin_ws/src/franka_sim")
         assert " -B ~/franka_sim\n" in build
         build = build.replace(" -B ~/franka_sim\n", " -B ~/franka_sim -DFRANKA_BUILD_TESTS=ON\n")
         said = bare.must("sh", "-ec", f"cd /project\n{build}", timeout=2 * HOUR)

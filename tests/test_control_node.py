@@ -3,6 +3,7 @@
 """Each service, each topic and each report of franka_control_node."""
 
 import csv
+import subprocess
 from pathlib import Path
 
 import numpy as np
@@ -10,15 +11,16 @@ import pytest
 import rigid_arm
 import rospy
 import tf2_ros
+import yaml
 from control_nodes import ERROR, OK, SUCCEEDED, WARN, ControlNode, Diagnosis
 from fci_session import simulated
 from franka_msgs.msg import FrankaState
 from pyfranka.plot import read_log
-from ros_client import call, latest, launched
+from ros_client import call, launched
 from rosgraph_msgs.msg import Log
 from scipy.spatial.transform import Rotation
 from setters import SETTERS
-from std_msgs.msg import String
+from tutorial import TOP, read
 from waiting import wait_for
 
 CONTROLLER = "position_joint_trajectory_controller"
@@ -344,7 +346,9 @@ def test_a_reflex_is_published_and_logged(robot, resting):
     assert level == ERROR and values["Mode"] == "Reflex"
     assert "cartesian_reflex" in values["Current errors"]
     # Latched: late subscribers get it too.
-    abort = latest("/franka_control/abort", String).data
+    echo = read(TOP / "docs/how_to/recording.md").block_with("/franka_control/abort")
+    printed = subprocess.check_output(["bash", "-c", echo], text=True, timeout=60)
+    abort = next(yaml.safe_load_all(printed))["data"]
     assert "cartesian_reflex" in abort.splitlines()[0]
     check_log(abort, arm.state, NEWEST[robot])
     assert resting.recover() == SUCCEEDED

@@ -15,6 +15,8 @@ from pathlib import Path
 import pytest
 import yaml
 from bare_debian import BareDebian, bare_debian
+from franka_sim_mujoco.session import free_port
+from tutorial import read
 
 TOP = Path(__file__).resolve().parent.parent
 SOURCES = TOP / "catkin_ws" / "src"
@@ -246,31 +248,33 @@ def test_lintian_error_fails_the_command(tmp_path):
 BUILDS_DEBS = pytest.mark.long_form("builds the Debian packages, for a bare Debian")
 # Folders whose contents are not part of packages: logs, caches and lists of apt and dpkg, other file systems.
 OUTSIDE = ("dev", "proc", "sys", "tmp", "run", "root", "var/cache", "var/log", "var/lib/apt", "var/lib/dpkg")
-MOVES = r"""
-set -e
+PAGE = read(TOP / "docs/how_to/packages.md")
+REPOSITORY = "/srv/franka"  # as the page says
+# The launch ends with the commands' namespace of processes. The network is this machine's.
+MOVES = """
+export ROS_HOSTNAME=localhost ROS_MASTER_URI=http://localhost:{port}
+(
+{launch}) >/tmp/launch.log 2>&1 &
 source /opt/franka_ros/setup.bash
-export ROS_HOSTNAME=localhost
-robot='franka_gazebo panda.launch headless:=true controller:=joint_position_example_controller'
-pyfranka-run --launch "$robot" --log /tmp/launch.log -- /usr/bin/python3 /tmp/moves.py
+timeout 400 /usr/bin/python3 /tmp/moves.py || {{ cat /tmp/launch.log; exit 1; }}
 """
 MOVES_PY = """
 import rospy
 from sensor_msgs.msg import JointState
 
 rospy.init_node("moves")
-positions = []
-begin = rospy.wait_for_message("/joint_states", JointState, 60).position[0]
-deadline = rospy.Time.now() + rospy.Duration(30)
-while rospy.Time.now() < deadline:
-    away = abs(rospy.wait_for_message("/joint_states", JointState, 60).position[0] - begin)
-    positions.append(away)
-    if away > 0.05:  # the controller swings by up to 0.0785 rad
+first = rospy.wait_for_message("/joint_states", JointState, 300)
+moved, end = 0.0, first.header.stamp + rospy.Duration(30)
+while moved < 0.06:  # more than the fingers, whose strokes are 0.04 m
+    now = rospy.wait_for_message("/joint_states", JointState, 60)
+    moved = max(abs(one - other) for one, other in zip(now.position, first.position))
+    if now.header.stamp > end:
         break
-print("moved", max(positions))
+print("moved", moved)
 """
 
 
-INSTALLED = ("ros-franka-franka-ros", "ros-franka-sweep")
+INSTALLED = ("franka-ros", "ros-franka-sweep")
 
 
 def deb_of(repository: Path, name: str) -> Path:
@@ -330,26 +334,36 @@ def files_of(bare: BareDebian) -> set[str]:
 
 def install_dependencies(bare: BareDebian) -> None:
     """Installs what the packages need from Debian, so that later changes are those of the packages."""
-    apt = ["env", "DEBIAN_FRONTEND=noninteractive", "apt-get", "install", "-y", "--no-install-recommends"]
-    (bare.root / "etc/apt/sources.list.d/franka-ros.list").write_text("deb [trusted=yes] file:/packages ./\n")
+    (bare.root / "etc/apt/apt.conf.d/90tests").write_text('APT::Get::Assume-Yes "true";\n')
+    sources = bare.root / "etc/apt/sources.list.d/franka-ros.list"
+    sources.write_text(f"deb [trusted=yes] file:{REPOSITORY} ./\n")
     bare.must("apt-get", "update")
-    planned = bare.must(*apt, "--simulate", *INSTALLED)
+    planned = bare.must("apt-get", "install", "--simulate", *INSTALLED)
     needed = [name for name in re.findall(r"^Inst (\S+)", planned, re.MULTILINE) if "ros-franka" not in name]
     assert len(needed) > 100
-    bare.must(*apt, *needed, timeout=1800)
+    type_in(bare, f"apt-get install {' '.join(needed)}")
+    sources.unlink()
+
+
+def type_in(bare: BareDebian, commands: str) -> str:
+    """Runs commands as root, whom packages ask nothing. Returns what they print."""
+    return bare.must("bash", "-ec", f"export DEBIAN_FRONTEND=noninteractive\n{commands}", timeout=1800)
 
 
 @BUILDS_DEBS
 def test_installed_packages_simulate_and_leave_nothing(repository, tmp_path_factory):
     with bare_debian(tmp_path_factory.mktemp("deb")) as bare:
-        shutil.copytree(repository, bare.root / "packages")
+        assert PAGE.block_with("./franka deb") == "./franka deb\n"  # which has made the repository
+        shutil.copytree(repository, bare.root / REPOSITORY[1:])
         shutil.copy(TOP / "ci" / "install", bare.root / "tmp")
         install_dependencies(bare)
         before = files_of(bare)
 
-        bare.must("/tmp/install", "/packages", *INSTALLED, timeout=1800)
+        type_in(bare, PAGE.block_with("apt-get install franka-ros"))
+        type_in(bare, f"/tmp/install {REPOSITORY} ros-franka-sweep")
         (bare.root / "tmp" / "moves.py").write_text(MOVES_PY)
-        printed = bare.must("bash", "-c", MOVES)
+        launch = PAGE.block_with("roslaunch franka_gazebo panda.launch")
+        printed = type_in(bare, MOVES.format(launch=launch, port=free_port()))
         assert float(re.search(r"moved (\S+)", printed)[1]) > 0.05
         demo = (
             f"source {PREFIX}/setup.bash && ROS_HOSTNAME=localhost rosrun franka_sim_mujoco pick_and_place "
@@ -366,7 +380,6 @@ def test_installed_packages_simulate_and_leave_nothing(repository, tmp_path_fact
         assert ",9" in (bare.root / "tmp" / "squares.csv").read_text()
         assert {f"{PREFIX[1:]}/setup.bash", f"{PREFIX[1:]}/lib/libfranka_hw.so"} <= files_of(bare) - before
 
-        installed = bare.must("dpkg-query", "-W", "-f", "${Package}\n", "ros-franka-*").split()
-        bare.must("apt-get", "purge", "-y", *installed)
-        # dpkg removes /opt too, as no other package has anything there.
-        assert files_of(bare) | {"opt"} == before | {"opt"}
+        type_in(bare, PAGE.block_with("apt-get purge"))
+        # dpkg removes /opt too, as no other package has anything there. The list is the reader's.
+        assert files_of(bare) - {"etc/apt/sources.list.d/franka-ros.list"} | {"opt"} == before | {"opt"}

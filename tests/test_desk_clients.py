@@ -2,13 +2,13 @@
 # SPDX-License-Identifier: Apache-2.0
 """Genuine clients of Desk start a robot, move it over the FCI and lock it again."""
 
+import page_output
 import pytest
 from desk_clients import (
     AIOFRANKA,
     DESKAPI,
     FRANKA_DESK,
     LOGIN,
-    PANDA,
     fails,
     franky,
     is_locked,
@@ -36,9 +36,11 @@ PANDA_MOTION = """
 )
 def test_panda_python_starts_the_robot(desk_client, profile):
     with desk_client("panda", profile) as (desk, client):
-        client.run(PANDA)
+        (example,) = page_output.examples("desk.md")
+        words = '"127.0.0.1", "franka", input("Password: ")'
+        assert words in example.code
+        client.run(example.code.replace(words, f"HOST, {LOGIN}"))
         assert client.value("desk.has_control()")
-        client.run("desk.unlock(); desk.activate_fci()")
         desk.wait(is_ready)
         client.run("events = []; desk.listen(events.append); wait_for(lambda: events)")
         with desk.held("button check"):

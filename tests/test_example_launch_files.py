@@ -14,9 +14,17 @@ import pytest
 from franka_sim_mujoco.session import Session
 from pyfranka.remote import Remote
 from ros_client import Controllers, in_session
+from tutorial import read
 from waiting import wait_for
 
-EXAMPLES = Path(__file__).resolve().parent.parent / "catkin_ws/src/franka_example_controllers/launch"
+TOP = Path(__file__).resolve().parent.parent
+EXAMPLES = TOP / "catkin_ws/src/franka_example_controllers/launch"
+PAGE = read(TOP / "docs/how_to/example_controllers.md")
+# The page's commands by their launch files, as words after roslaunch.
+COMMANDS = {
+    words[2]: words[1:]
+    for words in map(str.split, PAGE.block_with("teleop_joint_pd_example_controller.launch").splitlines())
+}
 # These need two arms: test_two_arm_controllers.
 TWO_ARMS = {
     "dual_arm_cartesian_impedance_example_controller.launch",
@@ -37,11 +45,11 @@ ROBOTS = ["panda", "fr3"]
 AGAIN = pytest.mark.long_form("the same with other controllers or robots")
 
 
-def launch(name: str, robot: str, folder: Path) -> Session:
-    given = ["sim:=true", f"robot:={robot}", f"robot_ip:={ADDRESS}", "rviz:=false", "rqt:=false"]
-    if name.startswith("python_"):  # a machine's stall is not an error of the script
+def launch(command: list[str], robot: str, folder: Path) -> Session:
+    given = [f"robot:={robot}", f"robot_ip:={ADDRESS}", "rviz:=false", "rqt:=false"]
+    if command[1].startswith("python_"):  # a machine's stall is not an error of the script
         given += ["max_update_time:=30.0", "max_starting_time:=60.0"]
-    return Session("franka_example_controllers", name, *given, log=folder / "launch.log")
+    return Session(*command, *given, log=folder / "launch.log")
 
 
 def errors(session: Session) -> list[str]:
@@ -55,6 +63,10 @@ def launches():
         marks = () if name.removesuffix("_example_controller.launch") in IN_SHORT else AGAIN
         yield pytest.param(name, ROBOTS[index % 2], marks=marks)
         yield pytest.param(name, ROBOTS[1 - index % 2], marks=AGAIN)
+
+
+def test_the_page_launches_every_example():
+    assert set(COMMANDS) == {*ONE_ARM, *TWO_ARMS}
 
 
 @pytest.mark.parametrize("name", ONE_ARM)
@@ -71,7 +83,7 @@ def test_a_launch_file_loads_and_spawns_its_controller(name):
 @pytest.mark.parametrize("name, robot", list(launches()))
 def test_a_launched_example_runs(name, robot, tmp_path):
     expected = {name.removesuffix(".launch"), "franka_state_controller"}
-    with in_session(launch(name, robot, tmp_path)) as session:
+    with in_session(launch(COMMANDS[name], robot, tmp_path)) as session:
         controllers, robot = Controllers(), Remote(ADDRESS)
         controllers.wait_for(*expected)
         end = robot.time() + 1.0
@@ -83,7 +95,8 @@ def test_a_launched_example_runs(name, robot, tmp_path):
 
 @pytest.mark.parametrize("robot", ["panda", pytest.param("fr3", marks=AGAIN)])
 def test_the_arm_moves_to_its_start_pose(robot, tmp_path):
-    with launch("move_to_start.launch", robot, tmp_path) as session:
+    command = PAGE.block_with("move_to_start.launch sim:=true").split()[1:]
+    with launch(command, robot, tmp_path) as session:
         wait_for(lambda: not session.running(), lambda: f"{session.tail(60)}\nThe end", WAIT)
         assert session.returncode() == 0, session.tail(60)
     assert errors(session) == []

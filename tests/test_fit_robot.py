@@ -14,8 +14,10 @@ import pyfranka.sim
 import pytest
 import yaml
 from fci_session import simulated
+from tutorial import TOP, read
 from waiting import wait_for
 
+PAGE = read(TOP / "docs/sim_to_real.md")
 HIDDEN = {
     "friction": {
         "amplitude": [0.8, 1.1, 0.5, 0.9, 0.7, 0.5, 0.4],
@@ -30,8 +32,15 @@ HIDDEN = {
 }
 
 
-def call(*command):
-    return subprocess.run(list(map(str, command)), text=True, capture_output=True, timeout=600)
+def call(*command, **options):
+    return subprocess.run(list(map(str, command)), text=True, capture_output=True, timeout=600, **options)
+
+
+def type_in(folder, block, address=""):
+    """Types a block of the page, with another robot's address."""
+    command = PAGE.block_with(block).replace("172.16.0.2", address)
+    result = call("bash", "-ec", command, cwd=folder)
+    assert result.returncode == 0, result.stderr
 
 
 def fit(recording, robot):
@@ -67,16 +76,15 @@ LONG = [(robot, seed) for robot in ("panda", "fr3") for seed in range(1, 7)]
 
 @pytest.mark.parametrize("robot, seed", LONG if os.environ.get("FRANKA_TEST_LONG") else [("fr3", 5)])
 def test_the_fit_finds_hidden_friction_and_payload(robot, seed, tmp_path):
-    hidden, recording, fitted = (tmp_path / name for name in ("hidden.yaml", "recording.csv", "fitted.yaml"))
+    hidden, fitted = tmp_path / "hidden.yaml", tmp_path / "my_panda.yaml"
     hidden.write_text(yaml.safe_dump(HIDDEN))
     realism = f"recorded,seed={seed},file={hidden}"
     with simulated(robot, "lockstep", "--realism", realism) as sim:
-        recorded = call("franka_info", "record", sim.address, recording, 30, "--move")
-        assert recorded.returncode == 0, recorded.stderr
-    result = fit(recording, fitted)
-    assert result.returncode == 0, result.stderr
-    found = yaml.safe_load(fitted.read_text())
+        type_in(tmp_path, "franka_info record", sim.address)
+    type_in(tmp_path, "fit_robot")
+    found, shown = yaml.safe_load(fitted.read_text()), yaml.safe_load(PAGE.block_with("payload:"))
     print(found)
+    assert found.keys() == shown.keys() and found["friction"].keys() >= shown["friction"].keys()
     for speed in (0.1, 0.3, -0.3):
         assert friction_at(found, speed) == pytest.approx(friction_at(HIDDEN, speed), rel=0.1)
         assert motor_friction_at(found, speed) == pytest.approx(motor_friction_at(HIDDEN, speed), rel=0.1)

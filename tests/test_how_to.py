@@ -13,6 +13,7 @@ import page_output
 import pytest
 import yaml
 from fci_session import simulated
+from tutorial import read
 
 TOP = Path(__file__).resolve().parent.parent
 HOW_TO = TOP / "docs/how_to"
@@ -88,11 +89,11 @@ def test_control_unit_uses_the_own_tool(tmp_path):
 
 def test_the_rate_of_states_can_be_set(tmp_path):
     """The line of the page, behind the line that includes a robot."""
-    launch = tmp_path / "faster.launch"
+    launch, line = tmp_path / "faster.launch", read(TOP / "docs/how_to/recording.md").block_with("<param")
     for package, name in (("franka_control", "franka_control"), ("franka_gazebo", "panda")):
         include = f'<include file="$(find {package})/launch/{name}.launch" pass_all_args="true"/>'
         arg = '<arg name="robot_ip" value="127.0.0.1"/>'
-        text = f"<launch>{arg}{include}{blocks('recording', 'xml')[0]}</launch>"
+        text = f"<launch>{arg}{include}{line}</launch>"
         launch.write_text(text)
         result = subprocess.run(
             ["roslaunch", "--dump-params", str(launch)], text=True, capture_output=True, timeout=60

@@ -13,6 +13,7 @@ import pyfranka
 import pytest
 from fci_session import simulated
 from overlay import Overlay
+from tutorial import read
 from waiting import wait_for
 
 TOP = Path(__file__).resolve().parent.parent
@@ -101,12 +102,13 @@ def test_table_of_dependencies_matches_the_packages():
 def test_the_ported_package_builds_and_runs(tmp_path):
     overlay = Overlay(DEVEL, PACKAGE, tmp_path)
     overlay.build()
-    for snippet in re.findall(r"^```xml\n(.*?)^```", page("porting_from_noetic"), re.S | re.M):
-        launch = " ".join((PACKAGE / "launch/from_noetic.launch").read_text().split())
-        assert " ".join(snippet.split()) in launch
-    for snippet in re.findall(r"^```cmake\n(.*?)^```", page("porting_from_noetic"), re.S | re.M):
-        for line in snippet.splitlines():
-            assert line.split("#")[0].strip() in (PACKAGE / "CMakeLists.txt").read_text()
+    launch = " ".join((PACKAGE / "launch/from_noetic.launch").read_text().split())
+    for block in read(TOP / "docs/tutorials/porting_from_noetic.md").of("bash"):
+        if block.language == "xml":
+            assert " ".join(block.text.split()) in launch
+        if block.language == "cmake":
+            for line in block.text.splitlines():
+                assert line.split("#")[0].strip() in (PACKAGE / "CMakeLists.txt").read_text()
     log = tmp_path / "launch.log"
     port = overlay.environment["ROS_MASTER_URI"].rsplit(":", 1)[1]
     launch = overlay.start(f"roslaunch -p {port} from_noetic from_noetic.launch", log)

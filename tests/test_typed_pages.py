@@ -105,6 +105,27 @@ def test_blocks_that_are_not_run_show_their_reason():
     assert not wrong
 
 
+def reads_the_page(source: str, page: str) -> bool:
+    """Whether the source of a test has the page's name, such as read(TOP / "docs/how_to/packages.md")."""
+    return re.search(rf'"(docs/)?{re.escape(page)}"', source) is not None
+
+
+def test_blocks_that_other_tests_run_are_read_from_the_page():
+    run = [(page, line, RUN_BY.fullmatch(reason)) for page, line, reason, _ in blocks_that_are_not_run()]
+    wrong = [
+        f"{page}:{line}: {test[1]} does not read this page"
+        for page, line, test in run
+        if test and not reads_the_page((TOP / test[1]).read_text(encoding="utf-8"), page)
+    ]
+    assert not wrong
+
+
+def test_a_test_that_does_not_read_its_page_is_found():
+    assert reads_the_page('PAGE = TOP / "docs/how_to/packages.md"', "how_to/packages.md")
+    assert not reads_the_page('"""Types docs/how_to/packages.md."""', "how_to/packages.md")
+    assert not reads_the_page('examples("python.md")', "get_started/python.md")
+
+
 @pytest.mark.parametrize(
     "reason",
     ["it is too much work", "run by tests/test_none.py::test_it", "run by tests/test_deb.py::test_none"],

@@ -17,10 +17,6 @@ from pyfranka.desk.robot import PORT
 from waiting import wait_for
 
 LOGIN = f"{USER!r}, {PASSWORD!r}"
-PANDA = f"""
-    from panda_py import Desk, libfranka
-    desk = Desk(HOST, {LOGIN})
-"""
 
 
 def franky(kind: str) -> str:

@@ -116,6 +116,11 @@ class Page:
     def of(self, kind: str) -> list[Step]:
         return [step for step in self.steps if step.kind == kind]
 
+    def block_with(self, text: str) -> str:
+        """The only block of commands, or block that is not run, with this text in it."""
+        (block,) = (step.text for step in self.of("bash") if text in step.text)
+        return block
+
 
 VARIANT = "<!-- with an FR3: "
 COMMENTS = ("terminal", "press", "type:", "expect:", "await:", "picture:", "window:", "drag:")
