@@ -7,6 +7,7 @@ test_docs_names.py does this for topics, services, actions and parameters. The l
 
 import re
 import subprocess
+import tomllib
 import types
 import xml.etree.ElementTree as ElementTree
 
@@ -24,6 +25,7 @@ from docsite import (
 from docsite.interfaces import KINDS, read_interface
 from docsite.launch_files import describe, read_launch_file
 from docsite.packages import packages
+from docsite.paths import TOP
 from docsite.plugins import plugins_of
 
 # A few words; less is not a description.
@@ -233,18 +235,40 @@ def test_a_program_that_refuses_help_ends_the_build(tmp_path):
     program.write_text("#!/bin/sh\necho 'no help here' >&2\nexit 3\n")
     program.chmod(0o755)
     with pytest.raises(RuntimeError, match="bad --help failed: no help here"):
-        command_lines.help_of(program)
+        command_lines.help_of(str(program))
+
+
+def test_commands_of_the_wheel_have_a_section():
+    """Those of [project.scripts], and modules that are programs without a command."""
+    scripts = tomllib.loads((TOP / "pyproject.toml").read_text())["project"]["scripts"]
+    commands = {value.partition(":")[0] for value in scripts.values()}
+    folder = TOP / "python" / "src"
+    modules = {
+        ".".join(path.relative_to(folder).with_suffix("").parts)
+        for path in folder.rglob("*.py")
+        if '\nif __name__ == "__main__"' in path.read_text(encoding="utf-8")
+    }
+    expected = {*scripts, *(f"python3 -m {module}" for module in modules - commands)}
+    assert "python3 -m pyfranka.lerobot" in expected
+    assert expected - {each.name for each in command_lines.programs()} == set()
+    readme = (TOP / "python" / "wheel" / "README.md").read_text(encoding="utf-8")
+    assert not [name for name in scripts if f"| `{name}" not in readme]
+
+
+@pytest.mark.parametrize("program", command_lines.OTHERS, ids=lambda program: program.name)
+def test_programs_without_a_file_of_their_name_answer_help(program):
+    assert "usage:" in command_lines.help_of(*program.command)
 
 
 @builds_the_site
 def test_subcommands_are_those_of_the_programs(site):
     """Every word that a program's help offers is listed and has a section, and the reverse."""
     for each in command_lines.programs():
-        offered = command_lines.subcommands_in(command_lines.help_of(each.path))
-        assert offered == command_lines.SUBCOMMANDS.get(each.path.name, ()), each.path.name
+        offered = command_lines.subcommands_in(command_lines.help_of(*each.command))
+        assert offered == command_lines.SUBCOMMANDS.get(each.name, ()), each.name
         page = (site / "reference" / "programs" / f"{each.package}.html").read_text()
-        assert f"<h2>{each.path.name}<" in page
-        assert not [word for word in offered if f"<h3>{each.path.name} {word}<" not in page]
+        assert f"<h2>{each.name}<" in page
+        assert not [word for word in offered if f"<h3>{each.name} {word}<" not in page]
 
 
 # ---- robot descriptions and parameters at run time -------------------------------------------------------

@@ -7,6 +7,7 @@ import json
 import os
 import re
 import subprocess
+import sys
 import typing
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
@@ -35,10 +36,47 @@ SUBCOMMANDS = {"franka_plot": ("robot", "topic", "bag", "log"), "franka_info": (
 
 
 class Program(typing.NamedTuple):
-    """A program: its package and its file."""
+    """A program: its package and its file, and how it is called if not by the file's name."""
 
     package: str
     path: Path
+    called: str = ""
+    note: str = ""
+    start: tuple[str, ...] = ()  # the words that start it here
+
+    @property
+    def name(self) -> str:
+        return self.called or self.path.name
+
+    @property
+    def command(self) -> tuple[str, ...]:
+        return self.start or (str(self.path),)
+
+
+WHEEL = TOP / "python" / "wheel" / "_programs.py"
+ONLY_IN_THE_WHEEL = "Only [the wheel](../../python.md#without-ros-the-wheel) has it."
+# Programs without a file of their name in the workspace.
+OTHERS = (
+    Program(
+        "pyfranka",
+        TOP / "python" / "src" / "pyfranka" / "lerobot.py",
+        "python3 -m pyfranka.lerobot",
+        start=(sys.executable, "-m", "pyfranka.lerobot"),
+    ),
+    Program(
+        "pyfranka",
+        WHEEL,
+        "pyfranka-examples",
+        ONLY_IN_THE_WHEEL,
+        (sys.executable, "-c", f"import runpy; runpy.run_path({str(WHEEL)!r})['examples']()"),
+    ),
+    Program(
+        "pyfranka",
+        TOP / "catkin_ws" / "src" / "franka_description" / "scripts" / "install_meshes",
+        "pyfranka-meshes",
+        ONLY_IN_THE_WHEEL,
+    ),
+)
 
 
 def is_program(path: Path) -> bool:
@@ -58,7 +96,7 @@ def home_of(name: str) -> str:
 
 
 def programs() -> list[Program]:
-    """Scripts in the sources and built programs; each name once per package."""
+    """Scripts in the sources, built programs and OTHERS; each name once per package."""
     found: dict[tuple[str, str], Program] = {}
     for package in packages():
         built = [*DEVEL.glob(f"lib/{package.name}/*")]
@@ -70,6 +108,7 @@ def programs() -> list[Program]:
         if is_program(path) and path.name not in known:
             package = home_of(path.name)
             found[package, path.name] = Program(package, path)
+    found |= {(each.package, each.name): each for each in OTHERS}
     return [found[key] for key in sorted(found)]
 
 
@@ -80,13 +119,13 @@ def fingerprint(path: Path) -> str:
     return hashlib.sha256(text.encode()).hexdigest()
 
 
-def help_of(path: Path, *words: str) -> str:
-    """The --help text of the program, after these words.
+def help_of(*command: str) -> str:
+    """The --help text of the program, after the words of a command.
 
     Raises RuntimeError with its name and its output if it does not answer.
     """
     result = subprocess.run(
-        [str(path), *words, "--help"],
+        [*command, "--help"],
         env={**os.environ, "ROS_MASTER_URI": NO_MASTER, "COLUMNS": "100", "TERM": "dumb"},
         text=True,
         capture_output=True,
@@ -94,7 +133,7 @@ def help_of(path: Path, *words: str) -> str:
         timeout=120,
     )
     if result.returncode != 0:
-        raise RuntimeError(f"{path} --help failed: {result.stderr or result.stdout}")
+        raise RuntimeError(f"{' '.join(command)} --help failed: {result.stderr or result.stdout}")
     return result.stdout.replace(f"{TOP}/", "").rstrip()
 
 
@@ -106,29 +145,29 @@ def subcommands_in(text: str) -> tuple[str, ...]:
     return tuple(re.findall(r"^\w+ (\w+) --help:", text, re.M))
 
 
-def all_help(found: list[Program]) -> dict[tuple[Path, str], str]:
+def all_help(found: list[Program]) -> dict[tuple[Program, str], str]:
     """The help of programs, and of their subcommands; that of unchanged ones is kept from the last run."""
     kept = json.loads(KEPT.read_text()) if KEPT.is_file() else {}
     keys = {
-        (each.path, word): f"{each.path} {word} {fingerprint(each.path)}"
+        (each, word): f"{each.name} {each.path} {word} {fingerprint(each.path)}"
         for each in found
-        for word in ("", *SUBCOMMANDS.get(each.path.name, ()))
+        for word in ("", *SUBCOMMANDS.get(each.name, ()))
     }
     new = [call for call, key in keys.items() if key not in kept]
     with ThreadPoolExecutor(2) as pool:
-        answers = pool.map(lambda call: help_of(call[0], *call[1].split()), new)
+        answers = pool.map(lambda call: help_of(*call[0].command, *call[1].split()), new)
         kept.update(zip((keys[call] for call in new), answers))
     KEPT.parent.mkdir(parents=True, exist_ok=True)
     KEPT.write_text(json.dumps({key: kept[key] for key in keys.values()}))
     return {call: kept[key] for call, key in keys.items()}
 
 
-def describe(program: Program, answers: dict[tuple[Path, str], str]) -> str:
+def describe(program: Program, answers: dict[tuple[Program, str], str]) -> str:
     """A section about a program."""
-    parts = [f"## {program.path.name}", block("text", answers[program.path, ""])]
-    for word in SUBCOMMANDS.get(program.path.name, ()):
-        parts += [f"### {program.path.name} {word}", block("text", answers[program.path, word])]
-    return "\n\n".join(parts)
+    parts = [f"## {program.name}", program.note, block("text", answers[program, ""])]
+    for word in SUBCOMMANDS.get(program.name, ()):
+        parts += [f"### {program.name} {word}", block("text", answers[program, word])]
+    return "\n\n".join(part for part in parts if part)
 
 
 def write_pages(tree: Tree) -> None:
