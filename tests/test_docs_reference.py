@@ -7,8 +7,9 @@ test_docs_names.py does this for topics, services, actions and parameters. The l
 
 import re
 import subprocess
+import sys
+import textwrap
 import tomllib
-import types
 import xml.etree.ElementTree as ElementTree
 
 import pytest
@@ -192,31 +193,52 @@ def test_public_names_of_python_have_a_docstring():
     assert not python_comments.undocumented()
 
 
-def test_names_without_a_docstring_are_found(monkeypatch):
-    class Thing:
-        """A thing."""
+def test_names_without_a_docstring_are_found(monkeypatch, tmp_path):
+    (tmp_path / "some_module.py").write_text(
+        textwrap.dedent(
+            """
+            '''A module.'''
+            import dataclasses
 
-        def described(self):
-            """What it does."""
+            __all__ = ["ONE", "TWO", "Record", "Thing", "function"]
 
-        def bare(self):
-            pass
+            # Of something
+            # in two lines.
+            ONE = 1
+            TWO: int = 2
 
-        @property
-        def value(self):
-            return 0
+            @dataclasses.dataclass
+            class Record:
+                '''A record. of_docstring: a number.'''
 
-    def function():
-        pass
+                of_docstring: int
+                of_comment: int  #: another one
+                bare: int  # which Sphinx does not show
 
-    module = types.ModuleType("some_module", "A module.")
-    for each in (Thing, function):
-        each.__module__ = "some_module"
-        setattr(module, each.__name__, each)
-    monkeypatch.setattr(python_comments, "MODULES", [types.SimpleNamespace(name="some_module")])
-    monkeypatch.setattr(python_comments.importlib, "import_module", lambda _: module)
-    found = python_comments.undocumented()
-    assert found == ["some_module.Thing.bare", "some_module.Thing.value", "some_module.function"]
+            class Thing:
+                '''A thing.'''
+
+                def described(self):
+                    '''What it does.'''
+
+                def bare(self):
+                    pass
+
+                @property
+                def value(self):
+                    return 0
+
+            def function():
+                pass
+            """
+        )
+    )
+    monkeypatch.syspath_prepend(tmp_path)
+    monkeypatch.setattr(python_comments, "MODULES", [python_api.Module("some_module", "")])
+    bare = ["Record.bare", "TWO", "Thing.bare", "Thing.value", "function"]
+    assert python_comments.undocumented() == [f"some_module.{name}" for name in bare]
+    module = sys.modules.pop("some_module")
+    assert python_api.comment_of_constant(module, "ONE") == "Of something in two lines."
 
 
 @builds_the_site

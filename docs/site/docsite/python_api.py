@@ -3,9 +3,13 @@
 """The Python interface: pages on which Sphinx writes the docstrings of pyfranka's modules."""
 
 import importlib
+import re
+import sys
+import types
 import typing
 from pathlib import Path
 
+from docsite.docstrings import to_rest
 from docsite.markdown import page
 from docsite.packages import packages
 from docsite.tree import Tree
@@ -33,6 +37,7 @@ MODULES = (
     Module("pyfranka.robot_report", "pyfranka.robot_report: what the line report says"),
     Module("pyfranka.meshes", "pyfranka.meshes: how robots look"),
 )
+MAX_VALUE = 80  # characters of a constant's value that is shown (chosen here)
 PROGRAM = "a program; what it answers to --help is among the command lines"
 INSIDE = "a part of this project's nodes, not for others"
 ORIGINAL = "under the names and for the callers of the original"
@@ -97,6 +102,20 @@ def public_names(module) -> list[str]:
     return found
 
 
+def comment_of_constant(module: types.ModuleType, name: str) -> str:
+    """The comment above a constant, in this module or in the one from which it comes; or ""."""
+    above = re.compile(rf"^((?:# .*\n)+){name}\b *[:=]", re.M)
+    package = module.__name__.partition(".")[0]
+    others = [each for key, each in sorted(sys.modules.items()) if key.partition(".")[0] == package]
+    for each in (module, *others):
+        if vars(each).get(name) is getattr(module, name) and getattr(each, "__file__", None):
+            for path in (Path(each.__file__), Path(each.__file__).with_suffix(".pyi")):
+                found = above.search(path.read_text(encoding="utf-8")) if path.is_file() else None
+                if found:
+                    return re.sub(r"^# ", "", found[1], flags=re.M).replace("\n", " ").strip()
+    return ""
+
+
 def write_pages(tree: Tree) -> None:
     for each in MODULES:
         module = importlib.import_module(each.name)
@@ -120,5 +139,9 @@ def directive(module_name: str, module, name: str) -> str:
     if isinstance(value, type):
         lines = [f".. autoclass:: {full}", "   :members:", "   :undoc-members:"]
         return "\n".join(lines)
-    kind = "autofunction" if callable(value) else "autodata"
-    return f".. {kind}:: {full}"
+    if callable(value):
+        return f".. autofunction:: {full}"
+    # autodata would show the docstring of the value's class.
+    shown = [f"   :value: {value!r}"] if len(repr(value)) <= MAX_VALUE else []
+    text = [f"   {line}" for line in to_rest([comment_of_constant(module, name)])]
+    return "\n".join([f".. py:data:: {full}", *shown, "", *text])

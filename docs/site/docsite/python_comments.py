@@ -1,13 +1,15 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Public names of Python without a docstring: functions, classes, and methods and properties of classes."""
+"""Public names of Python without a description: functions, classes with their methods, properties and fields,
+and constants."""
 
+import dataclasses
 import importlib
 import inspect
 import re
 from collections.abc import Iterator
 
-from docsite.python_api import MODULES, public_names
+from docsite.python_api import MODULES, comment_of_constant, public_names
 
 SIGNATURE = re.compile(r"(\d+\. )?\w+\(.*\) -> |\w+\(\*args, \*\*kwargs\)$")
 
@@ -29,9 +31,17 @@ def members(cls: type) -> Iterator[tuple[str, object]]:
             yield name, getattr(cls, name)
 
 
-def is_value(value) -> bool:
-    """A constant, or a value of an enumeration: its class describes it."""
-    return not (isinstance(value, type) or callable(value))
+def fields(cls: type) -> list[str]:
+    """Fields of a dataclass or of a named tuple."""
+    if dataclasses.is_dataclass(cls):
+        return [each.name for each in dataclasses.fields(cls)]
+    return list(getattr(cls, "_fields", ()))
+
+
+def describes_field(cls: type, name: str) -> bool:
+    """Whether the docstring of the class names the field, or the field has a comment that Sphinx shows."""
+    in_docstring = re.search(rf"\b{name}\b", inspect.getdoc(cls) or "")
+    return bool(in_docstring or re.search(rf"^ +{name}: .*  #: \S", inspect.getsource(cls), re.M))
 
 
 def undocumented() -> list[str]:
@@ -42,11 +52,11 @@ def undocumented() -> list[str]:
             found.append(each.name)
         for name in public_names(module):
             value = getattr(module, name)
-            if is_value(value):
-                continue
-            if not has_docstring(value):
+            is_constant = not callable(value)
+            if not (comment_of_constant(module, name) if is_constant else has_docstring(value)):
                 found.append(f"{each.name}.{name}")
             if isinstance(value, type):
                 inside = [part for part, member in members(value) if not has_docstring(member)]
+                inside += [part for part in fields(value) if not describes_field(value, part)]
                 found += [f"{each.name}.{name}.{part}" for part in inside]
     return found

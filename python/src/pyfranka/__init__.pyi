@@ -30,6 +30,7 @@ class _Version(int):
 class Exception(RuntimeError): ...
 
 FrankaException = Exception
+# The largest change of a commanded torque, joint by joint [Nm/s].
 MAX_TORQUE_RATE: list[float]
 
 class ModelException(Exception):

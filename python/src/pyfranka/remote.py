@@ -37,6 +37,7 @@ from pyfranka.robot_report import Report, report_of
 __all__ = ["PORT", "LineRefused", "Remote", "RemoteMesh", "RemoteScene", "RemoteShape", "RemoteState"]
 
 Array = NDArray[numpy.float64]
+# The port of the control interface.
 PORT = 1340
 NO_TURN = (1.0, 0.0, 0.0, 0.0)
 # Chosen here: `hash` and `wait` may take 10 s of simulated time on a busy machine.
@@ -101,8 +102,8 @@ class RemoteShape:
 
 @dataclass(frozen=True)
 class RemoteScene:
-    """The world to draw. bodies: their names, links of robots included; some may be empty. robots: arm_id and
-    type ("panda" or "fr3") of each.
+    """The world to draw. bodies: their names, links of robots included; some may be empty. shapes: those of
+    all bodies. robots: arm_id and type ("panda" or "fr3") of each.
 
     >>> remote.scene().robots["panda"]
     'panda'

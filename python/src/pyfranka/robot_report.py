@@ -13,7 +13,17 @@ import types
 import typing
 from dataclasses import dataclass
 
-__all__ = ["Report", "report_of"]
+__all__ = [
+    "Buttons",
+    "EndEffector",
+    "Guiding",
+    "Hand",
+    "Inputs",
+    "Light",
+    "Report",
+    "SelfTest",
+    "report_of",
+]
 
 Numbers = tuple[float, ...]
 Flags = tuple[bool, ...]
@@ -33,7 +43,7 @@ class Inputs:
 
 @dataclass(frozen=True)
 class Buttons:
-    """Buttons of the Pilot; True: pressed."""
+    """Buttons of the Pilot: circle, cross, check, and the arrows up, down, left, right. True: pressed."""
 
     circle: bool
     cross: bool
@@ -46,7 +56,8 @@ class Buttons:
 
 @dataclass(frozen=True)
 class Guiding:
-    """Hand guiding. axes: x, y, z, rotations about them, elbow; True: free."""
+    """Hand guiding. active: the arm is guided. mode: free, translation, rotation or user. axes: x, y, z,
+    rotations about them, elbow; True: free."""
 
     active: bool
     mode: str
@@ -55,7 +66,8 @@ class Guiding:
 
 @dataclass(frozen=True)
 class SelfTest:
-    """left: of the running test [s]; due: until the next one must have run [s]."""
+    """The self-test. running: it runs. left: time to its end [s]. due: time until the next one must have run
+    [s]."""
 
     running: bool
     left: float
@@ -64,7 +76,7 @@ class SelfTest:
 
 @dataclass(frozen=True)
 class Light:
-    """The light of the robot's base."""
+    """The light of the robot's base: its color, and whether it is blinking."""
 
     color: str
     blinking: bool
@@ -72,7 +84,8 @@ class Light:
 
 @dataclass(frozen=True)
 class Hand:
-    """The end effector's drive: kind gripper, vacuum or none; widths [m]."""
+    """The end effector's drive. kind: gripper, vacuum or none. homed: homing has ended. width, max_width: of
+    the gripper [m]. grasped: it holds an object. busy: a command runs."""
 
     kind: str
     homed: bool
@@ -85,7 +98,8 @@ class Hand:
 @dataclass(frozen=True)
 class EndEffector:
     """The end effector that the robot assumes: mass [kg], center of mass in the flange's frame, 3 [m],
-    inertia about it, 9 [kg m^2], and the pose F_T_NE of its tool, 16, column-major."""
+    inertia about it, 9 [kg m^2], and the pose F_T_NE of its tool, 16, column-major. power: without it the
+    hand is not reachable."""
 
     mass: float
     center: Numbers
@@ -96,51 +110,47 @@ class EndEffector:
 
 @dataclass(frozen=True)
 class Report:
-    """A robot at one instant of its time [s]. Names and units of the FCI's state where it has them.
-
-    rules: "desk" or "open". brakes: joint by joint, True is closed. recoverable: errors of the safety
-    controller that must be acknowledged. motion: a motion of Desk runs. fault: why the whole world stands
-    still.
+    """A robot at one instant of its time.
 
     >>> remote.report().brakes_open
     True
     """
 
-    time: float
-    type: str
-    arm_id: str
-    protocol: tuple[int, ...]
-    client: int
-    rules: str
-    mode: str
-    errors: tuple[str, ...]
-    details: dict[str, str]
-    fault: str
-    q: Numbers
-    dq: Numbers
-    q_d: Numbers
-    tau_J: Numbers
-    tau_ext: Numbers
-    O_T_EE: Numbers
-    O_F_ext: Numbers
-    success_rate: float
-    power: bool
-    brakes: Flags
-    brakes_moving: bool
-    operating_mode: str
-    fci: bool
-    inputs: Inputs
-    buttons: Buttons
-    guiding: Guiding
-    navigation: str
-    self_test: SelfTest
-    recoverable: tuple[str, ...]
-    joint_limit_violation: Flags
-    joint_position_error: Flags
-    light: Light
-    hand: Hand
-    end_effector: EndEffector
-    motion: bool
+    time: float  #: of the world [s]
+    type: str  #: panda or fr3
+    arm_id: str  #: prefix of its joints and links
+    protocol: tuple[int, ...]  #: oldest and newest version that it speaks
+    client: int  #: version of the connected client; 0: none
+    rules: str  #: desk or open
+    mode: str  #: robot_mode, such as Idle
+    errors: tuple[str, ...]  #: present errors, such as joint_reflex
+    details: dict[str, str]  #: more about an error, by its name
+    fault: str  #: why the whole world stands still; empty: it does not
+    q: Numbers  #: joint positions [rad]
+    dq: Numbers  #: joint velocities [rad/s]
+    q_d: Numbers  #: desired joint positions [rad]
+    tau_J: Numbers  #: measured torques [Nm]
+    tau_ext: Numbers  #: tau_ext_hat_filtered [Nm]
+    O_T_EE: Numbers  #: pose of the end effector, 16, column-major
+    O_F_ext: Numbers  #: O_F_ext_hat_K [N, Nm]
+    success_rate: float  #: control_command_success_rate
+    power: bool  #: without it the robot is not reachable
+    brakes: Flags  #: joint by joint; True: closed
+    brakes_moving: bool  #: they open or close
+    operating_mode: str  #: execution or programming
+    fci: bool  #: clients may connect
+    inputs: Inputs  #: safety inputs
+    buttons: Buttons  #: of the Pilot
+    guiding: Guiding  #: hand guiding
+    navigation: str  #: target of the Pilot's arrows: desk or robot
+    self_test: SelfTest  #: that of the safety controller
+    recoverable: tuple[str, ...]  #: errors of the safety controller that must be acknowledged
+    joint_limit_violation: Flags  #: joint by joint; True: its recovery is demanded
+    joint_position_error: Flags  #: the same
+    light: Light  #: at the base
+    hand: Hand  #: the end effector's drive
+    end_effector: EndEffector  #: the one that the robot assumes
+    motion: bool  #: a motion of Desk runs
 
     @property
     def brakes_open(self) -> bool:

@@ -17,19 +17,19 @@ class Options:
     """Options for details in which robots or their descriptions differ (docs/desk.md). On the command line
     the names have hyphens: --option release-status=204."""
 
-    release_status: int = 200  # of DELETE control-token: 200 or 204
-    no_acknowledge_status: int = 424  # of an acknowledgement without a matching error: 424 or 404
-    token_id: bool = True  # v1 answers have tokenId (5.3.1 had none)
-    recovery_type_on_top: bool = False  # GET /api/safety/recovery also has the type at its top level
-    time_to_td2_in_system: bool = False  # GET /api/system has safety.timeToTd2
-    fci_before_unlock: bool = False  # the FCI may be activated with closed brakes and follows their opening
-    fci_after_release: bool = False  # releasing control leaves the FCI on
-    fci_after_stop: bool = False  # the FCI comes back with the brakes after an FR3's stop
-    power_without_login: bool = False  # reboot and shutdown need no login
-    force_timeout: float = 30.0  # [s] to confirm a forced take-over of control
-    boot_time: float = 0.0  # [s] that a reboot takes; 0: 40 s (FR3) or 100 s (Panda)
-    version: str = ""  # of the robot's software; empty: the profile's
-    serial_number: str = "295341-1325480"  # of the control unit
+    release_status: int = 200  #: of DELETE control-token: 200 or 204
+    no_acknowledge_status: int = 424  #: of an acknowledgement without a matching error: 424 or 404
+    token_id: bool = True  #: v1 answers have tokenId (5.3.1 had none)
+    recovery_type_on_top: bool = False  #: GET /api/safety/recovery also has the type at its top level
+    time_to_td2_in_system: bool = False  #: GET /api/system has safety.timeToTd2
+    fci_before_unlock: bool = False  #: the FCI may be activated with closed brakes and follows their opening
+    fci_after_release: bool = False  #: releasing control leaves the FCI on
+    fci_after_stop: bool = False  #: the FCI comes back with the brakes after an FR3's stop
+    power_without_login: bool = False  #: reboot and shutdown need no login
+    force_timeout: float = 30.0  #: [s] to confirm a forced take-over of control
+    boot_time: float = 0.0  #: [s] that a reboot takes; 0: 40 s (FR3) or 100 s (Panda)
+    version: str = ""  #: of the robot's software; empty: the profile's
+    serial_number: str = "295341-1325480"  #: of the control unit
 
     @classmethod
     def of(cls, words: typing.Iterable[str]) -> Options:
@@ -63,22 +63,23 @@ class Options:
 class Limits:
     """Limits for one program (chosen here; docs/desk.md)."""
 
-    body: int = 1 << 16  # [bytes]
-    body_time: float = 10.0  # [s] for a whole body
-    request_time: float = 10.0  # [s] for the first request of a connection
-    rate: float = 500.0  # requests a second of one address; more of them wait
-    waiting: int = 200  # requests of one address that wait; more are refused
-    wrong_logins: int = 20  # of one address at once; further logins wait for one second each
-    connections: int = 256  # of all addresses
-    connections_of_address: int = 128
-    sockets: int = 96  # WebSockets and event streams of all addresses
-    sockets_of_address: int = 48
-    sessions: int = 1000  # logins; the oldest one ends
+    body: int = 1 << 16  #: [bytes] of a request
+    body_time: float = 10.0  #: [s] for a whole body
+    request_time: float = 10.0  #: [s] for the first request of a connection
+    rate: float = 500.0  #: requests a second of one address; more of them wait
+    waiting: int = 200  #: requests of one address that wait; more are refused
+    wrong_logins: int = 20  #: of one address at once; further logins wait for one second each
+    connections: int = 256  #: connections of all addresses
+    connections_of_address: int = 128  #: the same of one address
+    sockets: int = 96  #: WebSockets and event streams of all addresses
+    sockets_of_address: int = 48  #: the same of one address
+    sessions: int = 1000  #: logins; the oldest one ends
 
 
 @dataclass(frozen=True)
 class Settings:
-    """user, password: the first user; without a password there is no Desk. profile: empty: by the robot."""
+    """user, password: the first user; without a password there is no Desk. profile: empty: by the robot.
+    options, limits: see these classes."""
 
     password: str
     user: str = USER

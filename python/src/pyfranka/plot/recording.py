@@ -76,12 +76,12 @@ class Recording:
     True
     """
 
-    name: str
-    time: Array  # [s] of the robot
-    values: dict[str, Array]  # one array a field, (rows, size)
-    modes: list[int] = field(default_factory=list)  # pyfranka.RobotMode, a row a state; may be empty
-    errors: list[tuple[float, tuple[str, ...]]] = field(default_factory=list)  # [s], the errors from then on
-    version: int = 0  # protocol version, for the limits; 0: not known
+    name: str  #: of the robot, its topic or its file
+    time: Array  #: [s] of the robot
+    values: dict[str, Array]  #: one array a field, (rows, size)
+    modes: list[int] = field(default_factory=list)  #: pyfranka.RobotMode, a row a state; may be empty
+    errors: list[tuple[float, tuple[str, ...]]] = field(default_factory=list)  #: [s], the errors from then on
+    version: int = 0  #: protocol version, for the limits; 0: not known
 
     def __len__(self) -> int:
         return len(self.time)

@@ -215,6 +215,7 @@ def _state(
     return Signal(text, unit, parts, _field(name), limits, is_position)
 
 
+# The signals that can be plotted, by their names.
 SIGNALS: dict[str, Signal] = {
     "q": _state("measured joint positions", "rad", "q", _positions, is_position=True),
     "q_d": _state("desired joint positions", "rad", "q_d", _positions, is_position=True),
