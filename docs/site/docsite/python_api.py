@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The Python interface: pages on which Sphinx writes the docstrings of pyfranka's modules."""
+"""The Python interface: pages on which Sphinx writes the docstrings of modules."""
 
 import importlib
 import re
@@ -36,19 +36,24 @@ MODULES = (
     Module("pyfranka.remote", "pyfranka.remote: the operator's lines"),
     Module("pyfranka.robot_report", "pyfranka.robot_report: what the line report says"),
     Module("pyfranka.meshes", "pyfranka.meshes: how robots look"),
+    Module(
+        "controller_manager.controller_manager_interface",
+        "controller_manager: load and start controllers",
+    ),
+    Module("controller_manager_msgs.utils", "controller_manager_msgs: find controllers"),
 )
 MAX_VALUE = 80  # characters of a constant's value that is shown (chosen here)
 PROGRAM = "a program; what it answers to --help is among the command lines"
 INSIDE = "a part of this project's nodes, not for others"
-ORIGINAL = "under the names and for the callers of the original"
 # Modules without a page, and why. Modules of a package with a page have none: the package offers their names.
+# A module of a package that is left out may have one.
 LEFT_OUT = {
     "pyfranka.franka_plot": PROGRAM,
     "pyfranka.run": PROGRAM,
     "pyfranka.command_line": INSIDE,
     "pyfranka.refusals": INSIDE,
-    "controller_manager": ORIGINAL,
-    "controller_manager_msgs": ORIGINAL,
+    "controller_manager": INSIDE,
+    "controller_manager_msgs": "an empty package",
     "franka_gripper": INSIDE,
     "franka_sim_mujoco": INSIDE,
     "rospy_connections": INSIDE,
@@ -125,7 +130,7 @@ def write_pages(tree: Tree) -> None:
         body = [f"## {name}\n\n{part}" for name, part in zip(names, parts)]
         tree.write(f"reference/python/{each.name}.md", page(each.title, intro, *body))
     names = "\n".join(each.name for each in MODULES)
-    intro = "The modules of pyfranka with all that they offer."
+    intro = "The modules with all that they offer."
     tree.write(
         "reference/python/index.md",
         page("Python interface", intro, f"```{{toctree}}\n:maxdepth: 1\n\n{names}\n```"),

@@ -69,6 +69,7 @@ def list_controllers() -> bool:
 
 
 def load_controller(name: str) -> bool:
+    """Loads a controller, which does not run then."""
     if _call("load_controller", LoadController, name).ok:
         print(f"Loaded '{name}'")
         return True
@@ -77,6 +78,7 @@ def load_controller(name: str) -> bool:
 
 
 def unload_controller(name: str) -> bool:
+    """Unloads a controller that does not run."""
     if _call("unload_controller", UnloadController, name).ok:
         print(f"Unloaded '{name}' successfully")
         return True
@@ -85,18 +87,22 @@ def unload_controller(name: str) -> bool:
 
 
 def start_controller(name: str) -> bool:
+    """Starts a loaded controller."""
     return start_controllers([name])
 
 
 def start_controllers(names: Iterable[str]) -> bool:
+    """Starts loaded controllers in one cycle."""
     return start_stop_controllers(start_controllers=names)
 
 
 def stop_controller(name: str) -> bool:
+    """Stops a running controller."""
     return stop_controllers([name])
 
 
 def stop_controllers(names: Iterable[str]) -> bool:
+    """Stops running controllers in one cycle."""
     return start_stop_controllers(stop_controllers=names)
 
 
