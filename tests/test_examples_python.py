@@ -160,7 +160,8 @@ def test_each_example_has_a_test_and_each_picture_stands_in_the_documentation():
     programs = {path.stem for path in EXAMPLES.glob("*.py")} - NO_PROGRAMS
     tested = {name.removeprefix("test_") for name in globals() if name.startswith("test_")}
     assert programs <= tested, programs - tested
-    pages = "".join(page.read_text() for page in (TOP / "docs").glob("*.md"))
+    pages = {page.stem: page.read_text() for page in (TOP / "docs").glob("*.md")}
     for name in (*programs, "sweep_stiffness"):
-        assert f"(pictures/{name}.png)" in pages and f"examples/python/{name}.py" in pages, name
+        assert f"(pictures/{name}.png)" in "".join(pages.values()), name
+        assert f"`examples/python/{name}.py`" in pages["examples_python"], name
         assert (TOP / "docs" / "pictures" / f"{name}.png").exists()

@@ -30,7 +30,7 @@ from tutorial import (
 )
 
 # Pages that take less than a minute together.
-SHORT = {"shell", "ci", "containers", "packages", "sim_to_real"}
+SHORT = {"shell", "ci", "containers", "packages", "sim_to_real", "examples_python"}
 # Pages with commands or programs that are not typed here, and what runs them.
 ELSEWHERE = {
     "docs/index.md": "README.md has the same block",

@@ -53,7 +53,10 @@ PAGES = sorted((TOP / "docs").glob("get_started/*.md")) + sorted((TOP / "docs").
 # Other pages whose blocks are typed.
 MORE_PAGES = [
     *sorted((TOP / "docs").glob("how_to/*.md")),
-    *(TOP / "docs" / f"{name}.md" for name in ("franka_sim", "examples_cpp", "desk", "sim_to_real")),
+    *(
+        TOP / "docs" / f"{name}.md"
+        for name in ("franka_sim", "examples_cpp", "examples_python", "desk", "sim_to_real")
+    ),
     TOP / "README.md",
 ]
 # Why a block cannot be run here, and what it then has in it.
