@@ -1,21 +1,26 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every public name is in the type stub, and the stub names nothing else."""
+"""Every public name is in the type stub with its arguments, and the stub names nothing else."""
 
 import ast
 import builtins
 import inspect
 import pickle
 import re
+import runpy
 import subprocess
 import sys
+import typing
+from functools import reduce
 from pathlib import Path
+from unittest.mock import patch
 
 import _pyfranka
 import pyfranka
 import pyfranka.libfranka
 import pyfranka.sim
 import pytest
+from pyfranka._native import _signature
 
 STUB = Path(__file__).resolve().parent.parent / "src" / "pyfranka" / "__init__.pyi"
 # Set on the instances that are raised.
@@ -136,6 +141,49 @@ def test_classes_and_their_stubs_have_the_same_names(path, cls):
         node = body[name]
         body = stub_names(node.body)
     assert public(body) == names_of(cls) | RAISED.get(path[-1], set())
+
+
+def overload(function, registered=typing.overload):
+    registered(function)
+    return function  # the result of typing's has no arguments
+
+
+with patch("typing.overload", overload):
+    DECLARED = runpy.run_path(str(STUB))
+
+
+def is_function(value):
+    return inspect.isroutine(getattr(value, "__func__", value))
+
+
+def overloads(function):
+    """Arguments and defaults of each overload. A default without a literal is Ellipsis."""
+    function = getattr(function, "__func__", function)
+    name = getattr(function, "__name__", "")
+    text = getattr(function, "__doc__", "") or ""
+    if inspect.isfunction(function):
+        text = "\n".join(
+            f"{name}{inspect.signature(one)}" for one in typing.get_overloads(function) or [function]
+        )
+    signatures = map(_signature, re.findall(rf"^(?:\d+\. )?{name}\((.*)\) -> ", text, re.MULTILINE))
+    return [re.sub("'<.*?>'", "'Ellipsis'", str(without_types(each))) for each in signatures]
+
+
+def without_types(signature):
+    kept = [each for each in signature.parameters.values() if each.name not in ("self", "cls", "type")]
+    return signature.replace(parameters=[each.replace(annotation=each.empty) for each in kept])
+
+
+@pytest.mark.parametrize("path, owner", [((), pyfranka), *classes()], ids=lambda value: str(value))
+def test_functions_and_their_stubs_have_the_same_arguments(path, owner):
+    stub, actual = reduce(lambda body, name: vars(body[name]), path, DECLARED), members(owner)
+    for name in {*actual, *stub} - {"sweep"}:
+        declared, value = stub.get(name), actual.get(name)
+        if isinstance(value, property):
+            variable = "ClassVar" not in stub.get("__annotations__", {}).get(name, "ClassVar")
+            assert (variable or getattr(declared, "fset", None) is not None) == (value.fset is not None), name
+        elif is_function(declared) or is_function(value) and (name == "__init__" or name[0] != "_"):
+            assert overloads(declared) == overloads(value), name
 
 
 def test_stubs_of_the_module_are_made_without_the_package(tmp_path):

@@ -1,7 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-# Types of what libfranka and ModelKDL are in Python; a test compares the names with the module's. What
-# they mean, with shapes, units and errors, is in their docstrings.
+# Types of what libfranka and ModelKDL are in Python; a test compares names and arguments with the module's.
+# What they mean, with shapes, units and errors, is in their docstrings.
 from __future__ import annotations
 
 import datetime
@@ -13,9 +13,6 @@ from numpy.typing import ArrayLike, NDArray
 from pyfranka.sweeps import sweep as sweep
 
 Array = NDArray[numpy.float64]
-Command = typing.TypeVar(
-    "Command", Torques, JointPositions, JointVelocities, CartesianPose, CartesianVelocities
-)
 
 class Duration(float):
     def __new__(
@@ -412,7 +409,11 @@ class Model:
     def gravity(self, robot_state: RobotState, gravity_earth: ArrayLike) -> Array: ...
     @typing.overload
     def gravity(
-        self, q: ArrayLike, m_total: float, F_x_Ctotal: ArrayLike, gravity_earth: ArrayLike = ...
+        self,
+        q: ArrayLike,
+        m_total: float,
+        F_x_Ctotal: ArrayLike,
+        gravity_earth: ArrayLike = (0.0, 0.0, -9.81),
     ) -> Array: ...
     @typing.overload
     def mass(self, state: RobotState) -> Array: ...
@@ -463,7 +464,11 @@ class ModelKDL:
     def gravity(self, robot_state: RobotState, gravity_earth: ArrayLike) -> Array: ...
     @typing.overload
     def gravity(
-        self, q: ArrayLike, m_total: float, F_x_Ctotal: ArrayLike, gravity_earth: ArrayLike = ...
+        self,
+        q: ArrayLike,
+        m_total: float,
+        F_x_Ctotal: ArrayLike,
+        gravity_earth: ArrayLike = (0.0, 0.0, -9.81),
     ) -> Array: ...
     @typing.overload
     def mass(self, state: RobotState) -> Array: ...
@@ -806,6 +811,14 @@ class Robot:
     @typing.overload
     def set_collision_behavior(
         self,
+        lower_torque_thresholds: ArrayLike,
+        upper_torque_thresholds: ArrayLike,
+        lower_force_thresholds: ArrayLike,
+        upper_force_thresholds: ArrayLike,
+    ) -> None: ...
+    @typing.overload
+    def set_collision_behavior(
+        self,
         lower_torque_acceleration: ArrayLike,
         upper_torque_acceleration: ArrayLike,
         lower_torque_nominal: ArrayLike,
@@ -814,14 +827,6 @@ class Robot:
         upper_force_acceleration: ArrayLike,
         lower_force_nominal: ArrayLike,
         upper_force_nominal: ArrayLike,
-    ) -> None: ...
-    @typing.overload
-    def set_collision_behavior(
-        self,
-        lower_torque_thresholds: ArrayLike,
-        upper_torque_thresholds: ArrayLike,
-        lower_force_thresholds: ArrayLike,
-        upper_force_thresholds: ArrayLike,
     ) -> None: ...
     @typing.overload
     def set_collision_behavior(
@@ -1048,4 +1053,9 @@ def limit_rate(
 ) -> Array: ...
 def set_current_thread_to_highest_scheduler_priority(error_message: str = "") -> bool: ...
 def log_to_csv(log: typing.Sequence[Record]) -> str: ...
+
+Command = typing.TypeVar(
+    "Command", Torques, JointPositions, JointVelocities, CartesianPose, CartesianVelocities
+)
+
 def motion_finished(command: Command) -> Command: ...

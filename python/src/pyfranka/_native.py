@@ -119,13 +119,17 @@ def _signature(text: str) -> inspect.Signature:
             parts.append(text[begin:i].strip())
             begin = i + 1
     parts.append(text[begin:].strip())
-    return inspect.Signature([_parameter(part) for part in parts if part.strip("*/")])
+    starred = [part.startswith("*") for part in parts]
+    return inspect.Signature(
+        [_parameter(part, any(starred[:i])) for i, part in enumerate(parts) if part.strip("*/")]
+    )
 
 
-def _parameter(text: str) -> inspect.Parameter:
+def _parameter(text: str, after_star: bool) -> inspect.Parameter:
     declared, _, default = text.partition(" = ")
     name, _, kind = declared.partition(": ")
-    how = {0: inspect.Parameter.POSITIONAL_OR_KEYWORD, 1: inspect.Parameter.VAR_POSITIONAL}
+    named = inspect.Parameter.KEYWORD_ONLY if after_star else inspect.Parameter.POSITIONAL_OR_KEYWORD
+    how = {0: named, 1: inspect.Parameter.VAR_POSITIONAL}
     return inspect.Parameter(
         name.lstrip("*"),
         how.get(name.count("*"), inspect.Parameter.VAR_KEYWORD),
