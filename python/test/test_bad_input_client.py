@@ -19,7 +19,7 @@ import pytest
 import sentences
 from pyfranka import Frame, RobotState, Torques
 from pyfranka.franka_sim import FrankaSim
-from pyfranka.plot import Collector, abort_figure, of_log, plot, plot_abort, read_log
+from pyfranka.plot import Abort, Collector, Recording, abort_figure, of_log, plot, plot_abort, read_log
 from pyfranka.sim import KINDS, Panda
 from sentences import ERRORS, faults_of, unlike_ours
 
@@ -244,10 +244,13 @@ PLOT = {
         "A signal is a name such as q or q+q_d, not 5": lambda x: plot(x, [5]),
         "limits is one of auto, all, none, not 'some'": lambda x: plot(x, limits="some"),
         "joints must be a list of numbers, not 3": lambda x: plot(x, joints=3),
-        "The number of a joint must be 1 or more, not 0": lambda x: plot(x, joints=[0]),
+        "The number of a joint must be 1 to 7, not 0": lambda x: plot(x, joints=[0]),
+        "The number of a joint must be 1 to 7, not 8": lambda x: plot(x, joints=[8]),
+        "There is no signal to plot": lambda x: plot(x, []),
     },
     "plot_abort": {
         "recording must be": lambda x: plot_abort(None),
+        "There is no signal to plot": lambda x: plot_abort(Recording("empty", np.zeros(1), {})),
         "abort must be an Abort, as Abort.of_text() makes it, not 'reason'": lambda x: plot_abort(
             x, "reason"
         ),
@@ -258,7 +261,9 @@ PLOT = {
     "of_log": {
         "The exception has no log": lambda x: of_log([]),
         "log must be a list of records, that of a ControlException, not 5": lambda x: of_log(5),
+        "log must be a list of records, that of a ControlException, not of 5": lambda x: of_log([5]),
     },
+    "Abort": {"text must be a text, not None": lambda x: Abort.of_text(None)},
     "Collector": {
         "state must be a RobotState, not 5": lambda x: Collector("a").add(5),
         "a has no state": lambda x: Collector("a").recording(),

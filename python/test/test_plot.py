@@ -12,7 +12,7 @@ import numpy as np
 import pyfranka
 import pytest
 from pyfranka import franka_plot, plot
-from pyfranka.plot.recording import ERRORS, Abort, kind_of, of_log
+from pyfranka.plot.recording import ERRORS, FIELDS, Abort, Recording, kind_of, of_log
 from pyfranka.plot.signals import EVIDENCE, SIGNALS, worst
 from pyfranka.plot.sources import read_bag, read_log
 from pyfranka.sim import FR3, Panda, Simulation
@@ -181,6 +181,13 @@ def test_states_are_drawn_with_limits_and_modes(kind, version, tmp_path):
     for expected in ("joint 2", "move", "user stopped", "cmd.q_d: not in this recording"):
         assert expected in text
     assert "joint 3" not in text
+
+
+@pytest.mark.parametrize("field", FIELDS)
+def test_signals_that_a_recording_lacks_are_none(field):
+    recording = Recording("robot", np.arange(3.0), {field: np.zeros((3, FIELDS[field]))})
+    values = {name: signal.value(recording) for name, signal in SIGNALS.items()}
+    assert {name for name in FIELDS if name in SIGNALS and values[name] is not None} <= {field, "ddq_d"}
 
 
 def test_limits_far_away_do_not_set_the_scale(tmp_path):

@@ -559,6 +559,8 @@ def test_bad_input_is_refused_with_a_sentence_before_anything_is_begun(tmp_path)
         "retries must be a whole number from 0, not -1": lambda: call(good, 1, retries=-1),
         "workers must be a whole number from 1, not 0": lambda: call(good, 1, workers=0),
         "a cluster has its own": lambda: call(good, 1, "tcp://127.0.0.1:1", workers=1),
+        "seed must be a whole number from 0, not None": lambda: pyfranka.sweeps.seed_of(None, 0),
+        "index must be a whole number from 0, not -1": lambda: pyfranka.sweeps.seed_of(1, -1),
         "patience must be a time above 0 s": lambda: call(good, 1, patience=float("nan")),
     }.items():
         with pytest.raises((TypeError, ValueError, OSError)) as caught:

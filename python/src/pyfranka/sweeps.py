@@ -118,12 +118,14 @@ class Sweep(Sequence[Outcome]):
 
 
 def seed_of(seed: int, index: int) -> int:
-    """The seed of a case, 63 bits; it does not depend on the numbers of cases and workers.
+    """The seed of a case, 63 bits; it does not depend on the numbers of cases and workers. Raises ValueError
+    for other arguments than whole numbers from 0.
 
     >>> seed_of(1, 0) == seed_of(1, 0), seed_of(1, 0) == seed_of(1, 1)
     (True, False)
     """
-    child = numpy.random.SeedSequence(seed, spawn_key=(index,))  # as SeedSequence(seed).spawn
+    key = (_check_number("index", index, 0),)
+    child = numpy.random.SeedSequence(_check_number("seed", seed, 0), spawn_key=key)  # as its spawn()
     return int(child.generate_state(1, numpy.uint64)[0] >> numpy.uint64(1))
 
 

@@ -84,8 +84,12 @@ class Plot:
     def __init__(self, panels: Sequence[Panel], *, parts: Sequence[int] = (), limits: str = "auto"):
         if limits not in LIMITS:
             raise BadInput(f"limits is one of {', '.join(LIMITS)}, not {limits!r}.")
+        if not panels:
+            raise BadInput("There is no signal to plot.")
         self._panels, self._limits = list(panels), limits
-        self._parts = {whole(part, "The number of a joint", 1) for part in items(parts, "joints", "numbers")}
+        self._parts = {
+            whole(part, "The number of a joint", 1, 7) for part in items(parts, "joints", "numbers")
+        }
         self.figure = Figure(figsize=(WIDTH, 1.3 + PANEL * len(self._panels)), layout="constrained")
         self._axes: list[Axes] = list(
             self.figure.subplots(len(self._panels), 1, sharex=True, squeeze=False)[:, 0]
@@ -254,6 +258,8 @@ def plot(
 ) -> Figure:
     """A figure of a recording, with a panel for each of `signals` (`q`, or `q+q_d` in one).
 
+    @raises BadInput for unknown signals and those that share no panel; TypeError, ValueError for other values
+
     >>> pyfranka.plot.plot(pyfranka.plot.of_log(error.log), ["q", "dq"]).savefig(folder / "log.png")
     """
     drawn = Plot(panels_of(signals), parts=joints, limits=limits)
@@ -273,6 +279,7 @@ def plot_abort(
     """A motion's last states and commands. The value that broke a limit is marked, with that limit.
 
     @param signals panels; without any those in which the abort's errors show, and some more
+    @raises what plot() raises
 
     >>> figure = pyfranka.plot.plot_abort(pyfranka.plot.of_log(error.log))
     >>> figure.savefig(folder / "abort.png")

@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 import pyfranka
-from pyfranka.sim.arguments import items
+from pyfranka.sim import arguments
 
 Array = NDArray[np.float64]
 
@@ -106,10 +106,13 @@ class Abort:
     def of_text(cls, text: str) -> Abort:
         """Finds the names of errors in a text such as that of a ControlException.
 
+        @raises TypeError for anything else
+
         >>> pyfranka.plot.Abort.of_text("The motion was aborted: joint_reflex.").errors
         ('joint_reflex',)
         """
-        return cls(text.strip(), tuple(name for name in ERRORS if re.search(rf"\b{name}\b", text)))
+        reason = arguments.text(text, "text").strip()
+        return cls(reason, tuple(name for name in ERRORS if re.search(rf"\b{name}\b", reason)))
 
 
 def _error_names() -> tuple[str, ...]:
@@ -159,6 +162,8 @@ class Collector:
     def add(self, state: Any, time: float | None = None) -> None:
         """Adds a state of pyfranka or a franka_msgs/FrankaState. @param time its own if not given [s]
 
+        @raises TypeError for another object
+
         >>> pyfranka.plot.Collector("robot").add(robot.read_once())
         """
         if not hasattr(state, "robot_mode"):
@@ -205,14 +210,18 @@ class Collector:
 def of_log(log: Sequence[pyfranka.Record], version: int = 0, name: str = "motion") -> Recording:
     """The log of a ControlException. @param version of the robot, for its limits
 
+    @raises BadInput if it is empty, TypeError for other lists
+
     >>> pyfranka.plot.of_log(error.log, version=5).limits.dq.shape
     (7,)
     """
-    log = items(log, "log", "records, that of a ControlException")
+    log = arguments.items(log, "log", "records, that of a ControlException")
     if not log:
         raise BadInput("The exception has no log: pyfranka.Robot's log_size was 0, or no motion had begun.")
     collector = Collector(name, version)
     for record in log:
+        if not isinstance(record, pyfranka.Record):
+            raise TypeError(f"log must be a list of records, that of a ControlException, not of {record!r}.")
         collector.add(record.state)
     recording = collector.recording()
     rows = log[-len(recording) :]

@@ -240,7 +240,7 @@ SIGNALS: dict[str, Signal] = {
         "rad",
         JOINTS,
         lambda recording: (
-            recording.values["q_d"] - recording.values["q"] if "q_d" in recording.values else None
+            recording.values["q_d"] - recording.values["q"] if {"q", "q_d"} <= {*recording.values} else None
         ),
     ),
     "O_T_EE": Signal("position of the end effector", "m", AXES, _position("O_T_EE")),
