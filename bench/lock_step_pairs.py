@@ -35,12 +35,12 @@ def line_of(lines: Lines, library: str) -> str:
     return line
 
 
-def factors(library: str, pairs: int, wall: float = WALL, *options: str) -> list[float]:
-    """Times real time of each pair, over the same `wall` seconds. Options are those of franka_sim."""
+def factors(library: str, pairs: int, wall: float = WALL) -> list[float]:
+    """Times real time of each pair, over the same `wall` seconds."""
     with ExitStack() as stack:
         clients = []
         for _ in range(pairs):
-            sim = stack.enter_context(simulated("panda", "lockstep", *options))
+            sim = stack.enter_context(simulated("panda", "lockstep"))
             client = stack.enter_context(start_client(library, sim.address))
             stack.callback(client.kill)  # without effect on one that has ended
             clients.append(client)

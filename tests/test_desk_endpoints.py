@@ -317,7 +317,7 @@ def desk(profile, tmp_path_factory):
     kind = "fr3" if profile.fr3 else "panda"
     robot = KINDS[kind](protocol=PROTOCOLS[profile.name])
     folder = tmp_path_factory.mktemp("certificates")
-    with FrankaSim(robot, arguments=["--start", "locked"]) as sim:
+    with FrankaSim(robot, start="locked") as sim:
         for line in ("timing brakes 0.1", "timing self_test 0.1"):
             sim.robot.remote.send(line)
         with DeskServer(sim.robot.address, PORT, folder) as desk:

@@ -35,7 +35,7 @@ ENDS = {
 def place(tmp_path_factory):
     robot = FR3(realism="ideal")
     # Patient: a busy machine loses no command.
-    with FrankaSim(robot, pace="patient", arguments=["--start", "locked"]) as sim:
+    with FrankaSim(robot, pace="patient", start="locked") as sim:
         sim.robot.remote.send("timing brakes 0.2")
         folder = tmp_path_factory.mktemp("certificates")
         with DeskServer(sim.robot.address, PORT, folder, options=Options(boot_time=0.1)) as desk:
@@ -145,7 +145,7 @@ def test_a_stop_of_an_fr3_locks_it_until_desks_sequence(place):
 @pytest.mark.parametrize("library, kind", [("pylibfranka", "fr3"), ("panda", "panda")])
 def test_a_genuine_client_reports_the_end_of_its_motion(library, kind, tmp_path):
     python = client_python(library)
-    with simulated(kind, "patient", "--start", "locked") as robot, client_process(library, python) as client:
+    with simulated(kind, "patient", start="locked") as robot, client_process(library, python) as client:
         robot.remote.send("timing brakes 0.2")
 
         def connect():

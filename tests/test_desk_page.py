@@ -14,7 +14,7 @@ import page_browser
 import pyfranka
 import pytest
 from desk_server import unverified
-from page_browser import PASSWORD, browser, desk_addresses, wait_for
+from page_browser import PASSWORD, browser, wait_for
 from pyfranka.desk.sessions import digest_of
 from pyfranka.franka_sim import FrankaSim
 from pyfranka.sim import FR3, Panda
@@ -33,9 +33,7 @@ CLOSED, OPEN = [True] * 7, [False] * 7
 def sim():
     """A panda and an fr3 in one world, locked, with Desk."""
     robots = (Panda(realism="ideal"), FR3(base=(0, 1.0, 0), realism="ideal"))
-    options = ("--desk=127.0.0.1:0", f"--desk-password={PASSWORD}")
-    with FrankaSim(*robots, pace="patient", arguments=options) as sim:
-        wait_for(lambda: len(desk_addresses(sim.log())) == 2, "Desk listens")
+    with FrankaSim(*robots, pace="patient", desk="127.0.0.1:0", desk_password=PASSWORD) as sim:
         for robot in sim.robots:
             robot.remote.send("timing brakes 0.1")
         yield sim
@@ -43,7 +41,7 @@ def sim():
 
 @pytest.fixture(scope="module")
 def address(sim) -> str:
-    return desk_addresses(sim.log())[0]
+    return sim.robot.desk
 
 
 @pytest.fixture(scope="module")
@@ -293,7 +291,7 @@ class Anna:
 @LONG
 def test_holder_is_asked_and_forced_take_over_works(page, sim):
     take_control(page, 1)
-    anna = Anna(desk_addresses(sim.log())[1])
+    anna = Anna(sim.robots[1].desk)
     anna.ask()
     page.shows("anna requests control of fr3.")
     page.click("Deny", 1)

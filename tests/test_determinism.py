@@ -50,7 +50,7 @@ def drive(client, ticks, positions, pause=None):
 def test_lock_step_repeats_bit_for_bit_with_contact(robot):
     """Ten seconds, each time from a reset world; some runs have a slow client."""
     hashes = set()
-    with simulated(robot, "lockstep", *SCENE) as sim, Client(sim.address, sim.protocol) as client:
+    with simulated(robot, "lockstep", **SCENE) as sim, Client(sim.address, sim.protocol) as client:
         assert client.connect()[0] == 0
         loose = [100.0] * 28 + [300.0] * 24
         client.request(4 if sim.protocol <= 5 else 3, doubles(loose))

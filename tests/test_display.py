@@ -149,7 +149,7 @@ def test_the_viewer_names_the_errors(screen, tmp_path):
     """The name of a second robot is that of the error, so that the letters to look for are on the screen."""
     other = Panda(name="joint_reflex", base=(0, 2.0, 0))
     robots = (Panda(base=(-0.5, 0, 0)), other)
-    with FrankaSim(*robots, pace="realtime", arguments=["--viewer"]) as sim:
+    with FrankaSim(*robots, pace="realtime", viewer=True) as sim:
         viewer, remote = Viewer(tmp_path / "window.png"), sim.robots[0].remote
         wait_for(lambda: len(viewer.lines()) >= 3, "the lines of both robots", PATIENCE)
         text = viewer.lines()[2]

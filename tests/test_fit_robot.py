@@ -79,7 +79,7 @@ def test_the_fit_finds_hidden_friction_and_payload(robot, seed, tmp_path):
     hidden, fitted = tmp_path / "hidden.yaml", tmp_path / "my_panda.yaml"
     hidden.write_text(yaml.safe_dump(HIDDEN))
     realism = f"recorded,seed={seed},file={hidden}"
-    with simulated(robot, "lockstep", "--realism", realism) as sim:
+    with simulated(robot, "lockstep", realism=realism) as sim:
         type_in(tmp_path, "franka_info record", sim.address)
     type_in(tmp_path, "fit_robot")
     found, shown = yaml.safe_load(fitted.read_text()), yaml.safe_load(PAGE.block_with("payload:"))
@@ -94,7 +94,7 @@ def test_the_fit_finds_hidden_friction_and_payload(robot, seed, tmp_path):
     # What the links' errors cannot explain appears as offsets.
     assert found["torque_offset"] == pytest.approx(HIDDEN["torque_offset"], abs=0.1)
     # The simulation reads the result.
-    with simulated(robot, "lockstep", "--realism", f"real,file={fitted}") as sim:
+    with simulated(robot, "lockstep", realism=f"real,file={fitted}") as sim:
         assert sim.remote.state().mode == "Idle"
 
 

@@ -41,7 +41,7 @@ def stepped():
     """Both genuine clients and our own."""
     with ExitStack() as stack:
         kinds = [("panda", "panda"), ("pylibfranka", "fr3"), ("pyfranka", "panda")]
-        yield network_fixtures(stack, "127.0.24", kinds, f"--patience={PATIENCE}")
+        yield network_fixtures(stack, "127.0.24", kinds, patience=PATIENCE)
 
 
 @pytest.fixture(autouse=True)

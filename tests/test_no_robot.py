@@ -92,7 +92,7 @@ def test_an_arm_without_its_hand_keeps_running(tmp_path):
     arguments = [f"robot_ip:={WITHOUT_HAND}", "realtime_config:=ignore"]
     launch = ["franka_control", "franka_control.launch", *arguments]
     with (
-        simulated("panda", "patient", "--no-hand", address=WITHOUT_HAND),
+        simulated("panda", "patient", hand=False, address=WITHOUT_HAND),
         in_session(Session(*launch, log=tmp_path / "launch.log")) as session,
     ):
         died = re.compile(r"\[franka_gripper-\d+\] process has died")

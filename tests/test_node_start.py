@@ -68,7 +68,7 @@ def prepared(bare, urdf):
 
 @pytest.fixture(scope="module")
 def robot():
-    with simulated("panda", "realtime", "--no-hand", address=ADDRESS) as robot:
+    with simulated("panda", "realtime", hand=False, address=ADDRESS) as robot:
         yield robot
 
 
@@ -141,7 +141,7 @@ def test_a_robot_of_another_type_is_reported_and_not_commanded(master, urdf):
     set_controllers(master, "panda")
     master.set(ONE + "/robot_ip", OTHER)
     sentence = "the robot is an FR3 "
-    with simulated("fr3", "lockstep", "--no-hand", address=OTHER) as robot, one(master) as node:
+    with simulated("fr3", "lockstep", hand=False, address=OTHER) as robot, one(master) as node:
         node.must_print("is ready", sentence, "robot_description is a Panda's")
         node.must_print("'/franka_control/ignore_robot_mismatch' is not true")
         assert node.output.count(sentence) == 1
@@ -281,7 +281,7 @@ def test_a_controller_without_real_time_privileges_is_not_started(master):
     master.set(ONE + "/robot_ip", OTHER)
     sentence = "Start with realtime_config:=ignore"
     through = ("env", "FRANKA_REALTIME=enforce", *UNPRIVILEGED)  # as with a real robot
-    with simulated("panda", "lockstep", "--no-hand", address=OTHER) as robot, one(master, through) as node:
+    with simulated("panda", "lockstep", hand=False, address=OTHER) as robot, one(master, through) as node:
         node.must_print("is ready")
         node.must_print(sentence)
         for times, order in ((2, "spawn"), (3, "start")):  # at each request
@@ -308,7 +308,7 @@ def test_a_simulated_robot_needs_no_real_time_kernel(master):
 def test_a_node_with_several_simulated_arms_needs_no_real_time_kernel(master, robot):
     master.set(ALL + "/realtime_config", "enforce")
     with (
-        simulated("panda", "realtime", "--no-hand", address=OTHER),
+        simulated("panda", "realtime", hand=False, address=OTHER),
         combined(master, (*ANYHOW, *UNPRIVILEGED)) as node,
     ):
         node.must_print("going on without real-time priority")
@@ -320,7 +320,7 @@ def test_a_node_with_several_arms_ends_without_real_time_privileges(master, robo
     master.set(ALL + "/realtime_config", "enforce")
     through = ("env", "FRANKA_REALTIME=enforce", *UNPRIVILEGED)  # as with real robots
     with (
-        simulated("panda", "realtime", "--no-hand", address=OTHER) as other,
+        simulated("panda", "realtime", hand=False, address=OTHER) as other,
         combined(master, through) as node,
     ):
         assert node.ends() == 1, node.output
@@ -360,7 +360,7 @@ def woken_at_last(process):
 
 @contextmanager
 def one_with_robot(master, pace="patient", through=()):
-    with simulated("panda", pace, "--no-hand", address=OTHER) as robot, one(master, through) as node:
+    with simulated("panda", pace, hand=False, address=OTHER) as robot, one(master, through) as node:
         node.must_print("is ready")
         yield node, robot
 

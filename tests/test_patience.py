@@ -23,7 +23,6 @@ from waiting import wait_for
 
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 STOP, PAUSE = (35.0, 31.0) if LONG else (1.5, 0.7)  # [s]; the genuine clients wait 1 s for a state
-FOREVER = ["--patience", "forever"]
 
 
 @pytest.mark.parametrize(
@@ -32,7 +31,7 @@ FOREVER = ["--patience", "forever"]
 )
 def test_a_stopped_client_finishes_its_motion_with_the_same_hash(library, robot):
     python = sys.executable if library == "pyfranka" else client_python(library)
-    with simulated(robot, "lockstep", *FOREVER) as sim, client_process(library, python) as client:
+    with simulated(robot, "lockstep", patience="forever") as sim, client_process(library, python) as client:
         assert client.run_task("connect", address=sim.address)["outcome"] == "ok"
         undisturbed = moved(sim, client)
         assert moved(sim, client, process=client.process, seconds=STOP) == undisturbed
@@ -44,7 +43,7 @@ def waiting():
     """Two robots in a world; the client of the first is stopped in its motion."""
     robots = Panda(realism="ideal"), FR3(base=(1, 0, 0), realism="ideal")
     with ExitStack() as stack:
-        server = stack.enter_context(FrankaSim(*robots, pace="lockstep", arguments=FOREVER))
+        server = stack.enter_context(FrankaSim(*robots, pace="lockstep", patience="forever"))
         client = stack.enter_context(client_process("pyfranka"))
         assert client.run_task("connect", address=server["panda"].address)["outcome"] == "ok"
         begin_motion(client, seconds=30.0, amplitude=0.0)
@@ -96,7 +95,7 @@ def test_disconnect_of_the_client_ends_the_wait():
 
 @pytest.mark.parametrize("end", [signal.SIGINT, signal.SIGTERM, "quit"])
 def test_the_simulation_ends_while_it_waits(end):
-    with simulated("panda", "lockstep", *FOREVER) as sim, client_process("pyfranka") as client:
+    with simulated("panda", "lockstep", patience="forever") as sim, client_process("pyfranka") as client:
         process = sim.server.process
         assert client.run_task("connect", address=sim.address)["outcome"] == "ok"
         begin_motion(client, seconds=30.0, amplitude=0.0)
@@ -117,7 +116,7 @@ def test_no_way_to_wait_changes_a_result(monkeypatch):
     for number, wait in enumerate(WAITS):
         monkeypatch.setenv("FRANKA_WAIT", WAITS[number - 1])  # of the client
         with (
-            simulated("panda", "lockstep", "--wait", wait) as sim,
+            simulated("panda", "lockstep", wait=wait) as sim,
             client_process("pyfranka") as client,
         ):
             assert client.run_task("connect", address=sim.address)["outcome"] == "ok"

@@ -221,7 +221,7 @@ def test_connecting_again_and_again_leaks_nothing(raw):
 
 def test_a_client_that_is_always_one_cycle_late_is_stopped():
     """The robot waits for the answer to its newest state until its patience ends, then for a millisecond."""
-    with simulated("panda", "lockstep", "--patience", "0.5") as sim, connected(sim) as client:
+    with simulated("panda", "lockstep", patience=0.5) as sim, connected(sim) as client:
         before = client.start(JOINT_IMPEDANCE, JOINT_POSITION)
         q = before.joints("q_d")
         before = steps(client, before, 20, q)

@@ -15,7 +15,7 @@ SERVED = [("panda", 5), ("fr3", 6), ("fr3", 9), ("fr3", 10)]
 @pytest.fixture(scope="module", params=SERVED, ids=lambda p: f"{p[0]} {p[1]}")
 def served(request):
     robot, version = request.param
-    with simulated(robot, "patient", "--protocol", str(version)) as sim:
+    with simulated(robot, "patient", protocol=version) as sim:
         client = sim.connect()
         assert client.server_version == version
         yield robot, client.load_model(), client.read_once()

@@ -38,7 +38,7 @@ pytestmark = pytest.mark.own_process
 def running(tmp_path_factory):
     """The node's process, its only arm in motion, and the simulated robot."""
     folder = tmp_path_factory.mktemp("storm")
-    with simulated("panda", "lockstep", "--no-hand") as robot, ros_nodes.master(folder) as master:
+    with simulated("panda", "lockstep", hand=False) as robot, ros_nodes.master(folder) as master:
         master.set("/robot_description", ros_nodes.robot_description("panda"))
         own = {"robot_ip": robot.address, "realtime_config": "ignore", "shutdown_timeout": 40.0}
         master.set("/franka_control", parameters("franka_control_node.yaml", arm_id="panda") | own)

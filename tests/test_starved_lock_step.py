@@ -56,14 +56,14 @@ def test_an_abort_looks_the_same_to_its_client(library, robot, long_run):
 
 
 def test_lock_step_waits_for_a_silent_client_but_not_for_a_dead_one():
-    with simulated("panda", "lockstep", "--patience", "0.1") as sim:
+    with simulated("panda", "lockstep", patience=0.1) as sim:
         with connected(sim) as client:
             client.start(0, 0)
             client.state_until(lambda state: state.mode != MOVE)  # without an answer
             assert sim.remote.state().mode == "Reflex"
             assert client.reply()[1][0] == LAYOUTS[5].reflex
             client.recover()
-    with simulated("panda", "lockstep", "--patience", "forever") as sim:
+    with simulated("panda", "lockstep", patience="forever") as sim:
         client = connected(sim)
         client.start(0, 0)
         client.reset()

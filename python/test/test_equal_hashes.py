@@ -74,7 +74,7 @@ def test_in_a_batch(name, alone):
 
 
 def test_over_the_network(name, alone):
-    with simulated(name, "lockstep", *SCENE) as served:
+    with simulated(name, "lockstep", **SCENE) as served:
         press(served.address, served.protocol, alone[2])
         expected = served.remote.state_hash()
     assert expected in alone[1], "a served world runs on until it rests"

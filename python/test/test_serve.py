@@ -94,7 +94,7 @@ def begin_motion(sim, name, client, way, seconds):
 
 
 def test_a_client_drives_a_robot_of_the_program_with_the_bits_of_a_served_one(name):
-    with simulated(name, "lockstep", *SCENE) as served:
+    with simulated(name, "lockstep", **SCENE) as served:
         press(served.address, served.protocol)
         expected = served.remote.state_hash()
         protocol = served.protocol

@@ -10,7 +10,7 @@ from fci_wire import JOINT_IMPEDANCE, JOINT_POSITION, Client, command
 TICKS = 10000
 # The table is under this arm's hand; the motion's target is a few millimeters below its top.
 WORLD, BASE = "stone.xml", (-0.5, 0, 0.149)
-SCENE = ["--world", WORLD, "--base", ",".join(map(str, BASE))]
+SCENE = {"world": WORLD, "base": BASE}
 
 
 def down_and_back(first, k):

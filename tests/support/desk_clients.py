@@ -97,7 +97,7 @@ def desk_and_client(folder: Path, name: str, profile: str, port: int = 443):
     the certificate of Desk."""
     python = client_python(name)  # before the robot
     kind = "fr3" if profile.startswith("fr3") else "panda"
-    with simulated(kind, "patient", "--start", "locked") as robot:
+    with simulated(kind, "patient", start="locked") as robot:
         try:
             socket.create_server((robot.address, port)).close()
         except PermissionError:

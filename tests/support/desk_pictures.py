@@ -12,12 +12,13 @@ import threading
 from pathlib import Path
 
 import pyfranka
-from page_browser import PASSWORD, Browser, browser, desk_addresses, wait_for
+from page_browser import PASSWORD, Browser, browser, wait_for
 from pyfranka.franka_sim import FrankaSim
 from pyfranka.sim import FR3, Panda
 
 PICTURES = Path(__file__).resolve().parents[2] / "docs" / "pictures"
 PHONE, DESKTOP = (390, 844), (1440, 900)
+DESK = {"desk": "127.0.0.1:0", "desk_password": PASSWORD}
 COLORS = 256  # of a picture, for a small file
 
 
@@ -41,7 +42,7 @@ def all_meshes(page: Browser) -> None:
 
 
 def enter(page: Browser, sim: FrankaSim) -> None:
-    page.open(desk_addresses(sim.log())[0])
+    page.open(sim.robot.desk)
     page.log_in()
     page.wait_for_view()
     all_meshes(page)
@@ -82,10 +83,8 @@ class Swing(threading.Thread):
 
 
 def one_robot() -> None:
-    options = ("--desk=127.0.0.1:0", f"--desk-password={PASSWORD}")
     panda = Panda(base=(-0.5, 0, 0))
-    with FrankaSim(panda, world="stone.xml", pace="patient", arguments=options) as sim:
-        wait_for(lambda: desk_addresses(sim.log()), "Desk listens")
+    with FrankaSim(panda, world="stone.xml", pace="patient", **DESK) as sim:
         with browser(width=DESKTOP[0], height=DESKTOP[1]) as page:
             page.prefer("light")
             enter(page, sim)
@@ -104,10 +103,8 @@ def one_robot() -> None:
 
 
 def two_robots() -> None:
-    options = ("--desk=127.0.0.1:0", f"--desk-password={PASSWORD}")
     robots = (Panda(), FR3(base=(0, 1.0, 0)))
-    with FrankaSim(*robots, pace="patient", arguments=options) as sim:
-        wait_for(lambda: len(desk_addresses(sim.log())) == 2, "Desk listens")
+    with FrankaSim(*robots, pace="patient", **DESK) as sim:
         with browser(width=DESKTOP[0], height=DESKTOP[1]) as page:
             page.prefer("dark")
             enter(page, sim)

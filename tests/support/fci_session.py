@@ -28,11 +28,13 @@ def descriptors_of(pid: int) -> int:
 
 
 @contextmanager
-def simulated(kind: str, pace: str, *arguments: str, address: str = ""):
+def simulated(
+    kind: str, pace: str, *, realism="ideal", address="", base=(0, 0, 0), hand=True, protocol=0, **options
+):
     """A ServedRobot of pyfranka.franka_sim: an ideal one unless the arguments say otherwise, so that no
-    result depends on friction or on the hand's latency."""
-    robot = KINDS[kind](address=address, realism="ideal", arguments=arguments)
-    with FrankaSim(robot, pace=pace) as server:
+    result depends on friction or on the hand's latency. options: those of FrankaSim."""
+    robot = KINDS[kind](address=address, realism=realism, base=base, hand=hand, protocol=protocol)
+    with FrankaSim(robot, pace=pace, **options) as server:
         yield server.robot
 
 

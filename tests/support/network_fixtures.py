@@ -25,8 +25,9 @@ class NetworkFixture:
         self.sim, self.proxy, self.client = sim, proxy, client
 
 
-def network_fixtures(stack: ExitStack, network: str, kinds, *arguments: str) -> list[NetworkFixture]:
-    """One fixture for each library and robot of `kinds`, except for clients that PyPI lacks."""
+def network_fixtures(stack: ExitStack, network: str, kinds, **options) -> list[NetworkFixture]:
+    """One fixture for each library and robot of `kinds`, except for clients that PyPI lacks.
+    options: those of simulated()."""
     made = []
     for i, (library, robot) in enumerate(kinds):
         reason = None if library == "pyfranka" else missing(library)
@@ -35,7 +36,7 @@ def network_fixtures(stack: ExitStack, network: str, kinds, *arguments: str) -> 
             continue
         python = sys.executable if library == "pyfranka" else client_python(library)
         client = stack.enter_context(client_process(library, python))
-        sim = stack.enter_context(simulated(robot, "lockstep", *arguments))
+        sim = stack.enter_context(simulated(robot, "lockstep", **options))
         proxy = stack.enter_context(Proxy(f"{network}.{2 * i + 2}", sim.address, sim.protocol))
         made.append(NetworkFixture(sim, proxy, client))
     for fixture in made:

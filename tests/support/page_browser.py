@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import re
 import shutil
 import typing
 from contextlib import contextmanager, suppress
@@ -207,8 +206,3 @@ def browser(**options):
         yield opened
     finally:
         opened.close()
-
-
-def desk_addresses(log: str) -> list[str]:
-    """The addresses of Desk in the output of franka_sim or franka_desk."""
-    return re.findall(r"franka_desk: .*?(https://\S+)", log)

@@ -88,7 +88,7 @@ def viewer() -> None:
     robot = Panda(base=(-0.5, 0, 0))
     with TemporaryDirectory() as folder, virtual_screen():
         picture = Path(folder) / "window.png"
-        with FrankaSim(robot, world="stone.xml", pace="realtime", arguments=["--viewer"]) as sim:
+        with FrankaSim(robot, world="stone.xml", pace="realtime", viewer=True) as sim:
             wait_for(lambda: window_of("franka_sim") and colors(picture) > 200, "A picture")
             move_pointer(600, 450)
             press("h")

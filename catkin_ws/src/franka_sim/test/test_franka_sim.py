@@ -471,7 +471,7 @@ def lingering():
     servers = []
 
     def begin(seconds):
-        servers.append(FrankaSim("panda", pace="realtime", arguments=["--linger", seconds]))
+        servers.append(FrankaSim("panda", pace="realtime", linger=seconds))
         client = Client(servers[-1].robot.address, 5)
         assert client.connect() == (0, 5)
         servers[-1].process.terminate()

@@ -24,7 +24,7 @@ fr3 = pytest.mark.parametrize("robot", ["fr3"], indirect=True)
 @pytest.fixture
 def robot(request):
     """A locked robot: a Panda, unless a mark says otherwise."""
-    with FrankaSim(getattr(request, "param", "panda"), arguments=["--start=locked"]) as sim:
+    with FrankaSim(getattr(request, "param", "panda"), start="locked") as sim:
         yield sim.robot
 
 
