@@ -16,7 +16,7 @@ import page_output
 import pyarrow.parquet
 import pyfranka.gym
 import pytest
-from pyfranka.lerobot import Dataset, main
+from pyfranka.lerobot import Dataset, convert_recording, main
 
 # A stand-in for ffmpeg: keeps what it is given, and its arguments beside it.
 FFMPEG = """#!{python}
@@ -234,6 +234,29 @@ def test_recordings_of_franka_info_become_episodes(folder, tmp_path, capsys):
     files[0].write_text("time,a\n1,2\n")
     assert main([str(tmp_path / "other"), str(files[0])]) == 1
     assert "one.csv is not a recording of franka_info record" in capsys.readouterr().err
+
+
+def test_a_recording_of_a_robot_becomes_an_episode(folder, tmp_path, franka_sim):
+    file = tmp_path / "recording.csv"
+    command = ["franka_info", "record", franka_sim("fr3").robot.address, file, "10", "--move"]
+    subprocess.run(command, check=True, capture_output=True, timeout=300)
+    with Dataset(folder, 50) as dataset:
+        convert_recording(dataset, file, "swing all joints")
+    recorded, table = np.genfromtxt(file, delimiter=",", names=True), episode(folder, 0)
+    assert np.diff(recorded["time"]) == pytest.approx(0.005)
+    frames = recorded[::4]  # at 200 Hz
+    assert values(table, "timestamp") == pytest.approx(frames["time"], abs=1e-6)
+    features = {
+        "observation.state": ("q", "dq"),
+        "observation.effort": ("tau_J",),
+        "observation.external_torque": ("tau_ext_hat_filtered",),
+        "action": ("dq_d",),
+    }
+    for name, signals in features.items():
+        titles = [f"{signal}{joint}" for signal in signals for joint in range(1, 8)]
+        assert info_of(folder)["features"][name]["names"] == titles
+        expected = np.stack([frames[title] for title in titles], axis=1).astype(np.float32)
+        assert (np.ptp(expected, axis=0) > 1e-3).all() and (values(table, name) == expected).all(), name
 
 
 def another_file(file):

@@ -408,7 +408,7 @@ def _add_recording(dataset: Dataset, features: Mapping[str, Values], task: str) 
 
 
 def convert_recording(dataset: Dataset, recording: str | os.PathLike[str], task: str) -> None:
-    """Adds a recording of `franka_info record` (1 kHz, CSV) as an episode; of each frame's moment the last
+    """Adds a recording of `franka_info record` (200 Hz, CSV) as an episode; of each frame's moment the last
     sample counts. Raises ValueError for another file, OSError."""
     _add_recording(dataset, _read_recording(recording, dataset.fps), task)
 
