@@ -106,8 +106,8 @@ def programs() -> list[Program]:
     known = {name for _, name in found}
     for path in sorted(DEVEL.glob("bin/*")):
         if is_program(path) and path.name not in known:
-            package = home_of(path.name)
-            found[package, path.name] = Program(package, path)
+            home = home_of(path.name)
+            found[home, path.name] = Program(home, path)
     found |= {(each.package, each.name): each for each in OTHERS}
     return [found[key] for key in sorted(found)]
 

@@ -92,7 +92,7 @@ def without_page(names: list[str]) -> list[str]:
     ]
 
 
-def public_names(module) -> list[str]:
+def public_names(module: types.ModuleType) -> list[str]:
     """The module's public names: __all__, or the names that it or its part in C++ defines."""
     if hasattr(module, "__all__"):
         return sorted(module.__all__)
@@ -113,8 +113,9 @@ def comment_of_constant(module: types.ModuleType, name: str) -> str:
     package = module.__name__.partition(".")[0]
     others = [each for key, each in sorted(sys.modules.items()) if key.partition(".")[0] == package]
     for each in (module, *others):
-        if vars(each).get(name) is getattr(module, name) and getattr(each, "__file__", None):
-            for path in (Path(each.__file__), Path(each.__file__).with_suffix(".pyi")):
+        file = getattr(each, "__file__", None)
+        if file and vars(each).get(name) is getattr(module, name):
+            for path in (Path(file), Path(file).with_suffix(".pyi")):
                 found = above.search(path.read_text(encoding="utf-8")) if path.is_file() else None
                 if found:
                     return re.sub(r"^# ", "", found[1], flags=re.M).replace("\n", " ").strip()
@@ -129,15 +130,15 @@ def write_pages(tree: Tree) -> None:
         parts = [f"```{{eval-rst}}\n{directive(each.name, module, name)}\n```" for name in names]
         body = [f"## {name}\n\n{part}" for name, part in zip(names, parts)]
         tree.write(f"reference/python/{each.name}.md", page(each.title, intro, *body))
-    names = "\n".join(each.name for each in MODULES)
+    pages = "\n".join(each.name for each in MODULES)
     intro = "The modules with all that they offer."
     tree.write(
         "reference/python/index.md",
-        page("Python interface", intro, f"```{{toctree}}\n:maxdepth: 1\n\n{names}\n```"),
+        page("Python interface", intro, f"```{{toctree}}\n:maxdepth: 1\n\n{pages}\n```"),
     )
 
 
-def directive(module_name: str, module, name: str) -> str:
+def directive(module_name: str, module: types.ModuleType, name: str) -> str:
     """The directive by which Sphinx writes a name's docstring."""
     value = getattr(module, name)
     full = f"{module_name}.{name}"

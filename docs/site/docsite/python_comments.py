@@ -14,7 +14,7 @@ from docsite.python_api import MODULES, comment_of_constant, public_names
 SIGNATURE = re.compile(r"(\d+\. )?\w+\(.*\) -> |\w+\(\*args, \*\*kwargs\)$")
 
 
-def has_docstring(value) -> bool:
+def has_docstring(value: object) -> bool:
     """Whether the object has its own docstring or inherits one; a signature of pybind11 does not count."""
     text = inspect.getdoc(value) or ""
     lines = [line.strip() for line in text.splitlines() if line.strip()]
