@@ -3,13 +3,17 @@
 """Bad input of the functions of pyfranka's client, FrankaSim and plots: a sentence, and nothing half done."""
 
 import copy
+import inspect
 import math
 import os
 import pickle
+import re
 import subprocess
 import sys
 import threading
+from concurrent.futures import ThreadPoolExecutor
 from datetime import timedelta
+from functools import partial
 
 import numpy as np
 import pyfranka
@@ -18,6 +22,7 @@ import pyfranka.sim
 import pytest
 import sentences
 from pyfranka import Frame, RobotState, Torques
+from pyfranka._native import _signature, _without_other_names
 from pyfranka.franka_sim import FrankaSim
 from pyfranka.plot import Abort, Collector, Recording, abort_figure, of_log, plot, plot_abort, read_log
 from pyfranka.sim import KINDS, Panda
@@ -26,12 +31,94 @@ from sentences import ERRORS, faults_of, unlike_ours
 NAN = math.nan
 ROBOTS_TAKE_TURNS = True
 STATE = RobotState()
-SEVEN, SIX = [0.0] * 7, [0.0] * 6
+SEVEN = [0.0] * 7
 
 
 def never_called(*arguments):
     raise AssertionError("The motion has begun.")
 
+
+# Right values of the client's arguments by their names; calls with wrong ones follow from them.
+RIGHT = {
+    **dict.fromkeys(("callback", "control_callback", "motion_generator_callback"), never_called),
+    "torque_callback": never_called,
+    "controller_mode": pyfranka.ControllerMode.JointImpedance,
+    "callback_order": pyfranka.CallbackOrder.MotionFirst,
+    "first_cycle_reference": pyfranka.FirstCycleReference.Command,
+    "limit_rate": True,
+    "id": 0,
+    **dict.fromkeys(("q", "dq", "K_theta", "maximum_velocities"), [1.0] * 7),
+    "K_x": [300.0] * 6,
+    "guiding_mode": [True] * 6,
+    "elbow": True,
+    **dict.fromkeys(("NE_T_EE", "EE_T_K", "F_T_EE"), np.eye(4).tolist()),
+    **dict.fromkeys(("mass", "m_total"), 0.1),
+    **dict.fromkeys(("F_x_Cload", "F_x_Ctotal"), [0.0] * 3),
+    "gravity_earth": [0.0, 0.0, -9.81],
+    **dict.fromkeys(("load_inertia", "I_total"), [0.0] * 9),
+    "frame": Frame.Flange,
+    "state": STATE,
+    **dict.fromkeys(("width", "epsilon_inner", "epsilon_outer"), 0.04),
+    "speed": 0.1,
+    "force": 10.0,
+    "vacuum": 5,
+    "timeout": timedelta(seconds=1),
+    "profile": pyfranka.VacuumGripper.ProductionSetupProfile.P0,
+}
+
+
+def right(name):
+    if name.endswith("_frequency"):
+        return 100.0
+    if name.startswith(("lower_", "upper_")):
+        return [20.0] * (7 if "torque" in name else 6)
+    return RIGHT[name]
+
+
+def functions(cls):
+    """The public functions, and the signatures of each."""
+    for name, member in vars(cls).items():
+        if not name.startswith("_") and inspect.isroutine(function := getattr(member, "__func__", member)):
+            lines = rf"^(?:\d+\. )?{function.__name__}\((.*)\) -> "
+            found = map(_signature, re.findall(lines, function.__doc__, re.MULTILINE))
+            yield name, [[*each.parameters.values()][1:] for each in _without_other_names([*found])]
+
+
+def call(name, keywords, thing):
+    return getattr(thing, name)(**keywords)
+
+
+def of_wrong_type(value):
+    return [object(), "a"]
+
+
+def of_wrong_shape(value):
+    return [value[1:], [value] * 2] if isinstance(value, list) else []
+
+
+def not_a_number(value):
+    if isinstance(value, list):
+        return [(NAN * np.array(value)).tolist()]
+    return [NAN] if isinstance(value, (int, float)) and not isinstance(value, bool) else []
+
+
+def wrong_calls(cls, make):
+    """A table of calls with one wrong value each; the sentences name its argument, by its last word."""
+    for name, signatures in functions(cls):
+        for parameters in signatures:
+            keywords = {each.name: right(each.name) for each in parameters}
+            for argument, value in keywords.items():
+                for wrong in make(value):
+                    wrongly = partial(call, name, {**keywords, argument: wrong})
+                    yield f"{name}, {argument}={wrong!r}", {argument.rpartition("_")[2]: wrongly}
+
+
+def required(parameters):
+    return {each.name: right(each.name) for each in parameters if each.default is each.empty}
+
+
+# What is not checked: the results are not numbers either.
+COMPUTED = ("get_upper_joint_velocity_limits", "get_lower_joint_velocity_limits", *vars(pyfranka.Model))
 
 # "function" -> a part of the sentence -> the call; x is an object of the class.
 ROBOT = {
@@ -44,41 +131,15 @@ ROBOT = {
         "unexpected keyword argument 'port'": lambda x: pyfranka.Robot("a", port=5),
     },
     "read_once": {"Robot.read_once(): too many positional arguments": lambda x: x.read_once(5)},
-    "read": {"callback must be a function, not 5": lambda x: x.read(5)},
-    "set_filters": {
-        "joint_position_filter_frequency must be a number, not 'a'": lambda x: x.set_filters("a", 1, 1, 1, 1),
-        "controller_filter_frequency must be a number, not None": lambda x: x.set_filters(1, 1, 1, 1, None),
-        "missing a required argument: 'controller_filter_frequency'": lambda x: x.set_filters(1, 1, 1, 1),
-    },
-    "get_virtual_wall": {
-        "id must be a whole number, not 'a'": lambda x: x.get_virtual_wall("a"),
-        "id must be a whole number, not 1.5": lambda x: x.get_virtual_wall(1.5),
-    },
-    "get_upper_joint_velocity_limits": {
-        "q needs 7 numbers": lambda x: x.get_upper_joint_velocity_limits([1, 2])
-    },
-    "get_lower_joint_velocity_limits": {
-        "q needs 7 numbers": lambda x: x.get_lower_joint_velocity_limits("a")
-    },
+    "get_virtual_wall": {"id must be a whole number, not 1.5": lambda x: x.get_virtual_wall(1.5)},
     "set_collision_behavior": {
-        "lower_torque needs 7": lambda x: x.set_collision_behavior([1], SEVEN, SIX, SIX),
-        "upper_force needs 6": lambda x: x.set_collision_behavior(SEVEN, SEVEN, SIX, SEVEN),
         "missing a required argument: 'upper_torque'; it takes (lower_torque": lambda x: (
             x.set_collision_behavior(SEVEN)
         ),
     },
-    "set_joint_impedance": {"K_theta needs 7": lambda x: x.set_joint_impedance([1.0])},
-    "set_cartesian_impedance": {"K_x needs 6": lambda x: x.set_cartesian_impedance([1.0] * 7)},
     "set_guiding_mode": {
-        "guiding_mode needs 6": lambda x: x.set_guiding_mode([True], False),
         "guiding_mode must be True or False, not 'x'": lambda x: x.set_guiding_mode(["x"] * 6, False),
         "elbow must be True or False, not 3": lambda x: x.set_guiding_mode([True] * 6, 3),
-    },
-    "set_K": {"EE_T_K needs 16": lambda x: x.set_K([1.0])},
-    "set_EE": {"NE_T_EE needs 16": lambda x: x.set_EE(np.eye(3))},
-    "set_load": {
-        "mass must be a number, not 'heavy'": lambda x: x.set_load("heavy", [0, 0, 0], np.zeros(9)),
-        "F_x_Cload needs 3": lambda x: x.set_load(1.0, [0, 0], np.zeros(9)),
     },
     "set_control_options": {
         "callback_order must be a CallbackOrder (CallbackOrder.MotionFirst or": lambda x: (
@@ -88,28 +149,7 @@ ROBOT = {
     "control_torques": {
         "callback must be a function, not 5": lambda x: x.control_torques(5),
         "limit_rate must be True or False, not 'yes'": lambda x: x.control_torques(never_called, "yes"),
-        "cutoff_frequency must be a number, not 'low'": lambda x: x.control_torques(
-            never_called, True, "low"
-        ),
         "The callback returned <class 'list'>": lambda x: x.control_torques(lambda state, period: SEVEN),
-    },
-    "control_joint_positions": {
-        "callback must be a function, not None": lambda x: x.control_joint_positions(None),
-        "torque_callback must be a function or None, not 5": lambda x: x.control_joint_positions(
-            never_called, 5
-        ),
-        "controller_mode must be a ControllerMode (ControllerMode.JointImpedance or "
-        "ControllerMode.CartesianImpedance), not 'soft'": lambda x: x.control_joint_positions(
-            never_called, controller_mode="soft"
-        ),
-    },
-    "control_torque_joint_position": {
-        "motion_generator_callback must be a function": lambda x: x.control_torque_joint_position(
-            never_called, 5
-        )
-    },
-    "start_joint_position_control": {
-        "controller_mode must be a ControllerMode": lambda x: x.start_joint_position_control("soft")
     },
     "start_torque_control": {"it takes no arguments": lambda x: x.start_torque_control(5)},
     "start_async_joint_position_control": {
@@ -118,63 +158,32 @@ ROBOT = {
         )
     },
 }
-# What the robot itself refuses: its own sentences.
-REFUSED_BY_ROBOT = {
-    "set_joint_impedance": {"": lambda x: x.set_joint_impedance([NAN] * 7)},
-    "set_cartesian_impedance": {"": lambda x: x.set_cartesian_impedance([NAN] * 6)},
-    "set_collision_behavior": {"": lambda x: x.set_collision_behavior([NAN] * 7, SEVEN, SIX, SIX)},
-    "set_EE": {"": lambda x: x.set_EE(np.full((4, 4), NAN))},
-    "set_K": {"": lambda x: x.set_K(np.full((4, 4), NAN))},
-    "set_load": {"": lambda x: x.set_load(NAN, [0, 0, 0], np.zeros(9))},
-}
 
 GRIPPER = {
     "__init__": {
         "address must be a text, not None": lambda x: pyfranka.Gripper(None),
         "missing a required argument": lambda x: pyfranka.Gripper(),
     },
-    "move": {
-        "width must be a number, not 'wide'": lambda x: x.move("wide", 0.1),
-        "Gripper.move(): missing a required argument: 'speed'": lambda x: x.move(0.05),
-        "": lambda x: x.move(NAN, 0.1),
-    },
-    "grasp": {
-        "force must be a number, not None": lambda x: x.grasp(0.03, 0.1, None),
-        "epsilon_inner must be a number, not 'a'": lambda x: x.grasp(0.03, 0.1, 10, "a"),
-        "": lambda x: x.grasp(0.03, NAN, 10),
-    },
+    "move": {"Gripper.move(): missing a required argument: 'speed'": lambda x: x.move(0.05)},
     "homing": {"it takes no arguments": lambda x: x.homing(5)},
 }
 
 VACUUM = {
     "__init__": {"address must be a text, not 5": lambda x: pyfranka.VacuumGripper(5)},
     "vacuum": {
-        "vacuum must be a whole number, not 'a'": lambda x: x.vacuum("a", timedelta(seconds=1)),
-        "timeout must be a datetime.timedelta, not 'soon'": lambda x: x.vacuum(5, "soon"),
         "profile must be a VacuumGripper.ProductionSetupProfile (VacuumGripper.ProductionSetupProfile.P0,": (
             lambda x: x.vacuum(5, timedelta(seconds=1), "P0")
         ),
         "vacuum must be within the range of its type, not 300": lambda x: x.vacuum(300, timedelta(seconds=1)),
     },
-    "drop_off": {"timeout must be a datetime.timedelta, not None": lambda x: x.drop_off(None)},
 }
 
 MODEL = {
     "mass": {
         "state must be a RobotState, not 5. Model.mass() takes (state) or (q, I_total,": lambda x: x.mass(5),
-        "m_total must be a number, not 'a'": lambda x: x.mass(SEVEN, np.eye(3), "a", [0, 0, 0]),
-        "q needs 7": lambda x: x.mass([1, 2], np.eye(3), 1.0, [0, 0, 0]),
         "it takes (state) or (q,": lambda x: x.mass(),
     },
-    "coriolis": {"state must be a RobotState, not None": lambda x: x.coriolis(None)},
-    "gravity": {"gravity_earth needs 3": lambda x: x.gravity(STATE, [1.0])},
-    "pose": {
-        "frame must be a Frame (Frame.Joint1, ": lambda x: x.pose("flange", STATE),
-        "state must be a RobotState, not [0.0,": lambda x: x.pose(Frame.Flange, SEVEN),
-        "F_T_EE needs 16": lambda x: x.pose(Frame.Flange, SEVEN, [1], np.eye(4)),
-    },
-    "zero_jacobian": {"frame must be a Frame": lambda x: x.zero_jacobian(3, STATE)},
-    "body_jacobian": {"frame must be a Frame": lambda x: x.body_jacobian(None, STATE)},
+    "pose": {"frame must be a Frame (Frame.Joint1, ": lambda x: x.pose("flange", STATE)},
 }
 
 # Values, and functions of the module.
@@ -288,33 +297,45 @@ def condition(robot):
     )
 
 
-@pytest.mark.parametrize("cases", [ROBOT, REFUSED_BY_ROBOT], ids=["types", "values"])
-def test_bad_input_of_a_robot_is_refused_with_a_sentence_and_changes_nothing(cases, robot):
-    before = condition(robot)
-    wrong = faults_of(cases, robot, "Robot")
+@pytest.fixture(scope="module")
+def server(franka_sim_session):
+    return franka_sim_session(Panda(hand="vacuum"))
+
+
+@pytest.fixture(scope="module")
+def things(server, served, robots):
+    """An object of each class; hands have one client at a time."""
+    vacuum, robot = pyfranka.VacuumGripper(server.robot.address), robots["fr3"]
+    return {
+        type(each).__name__: each for each in (robot, served["fr3"].gripper(), vacuum, robot.load_model())
+    }
+
+
+TABLES = {"Robot": ROBOT, "Gripper": GRIPPER, "VacuumGripper": VACUUM, "Model": MODEL}
+
+
+@pytest.mark.parametrize("kind", TABLES)
+def test_wrong_arguments_are_refused_with_a_sentence_and_change_nothing(kind, things):
+    thing, cls = things[kind], getattr(pyfranka, kind)
+    before = condition(things["Robot"]), things["Gripper"].read_once().width
+    wrong = faults_of(TABLES[kind], thing, kind)
+    for make in (of_wrong_type, of_wrong_shape):
+        wrong += faults_of(dict(wrong_calls(cls, make)), thing, kind)
+    for name, (parameters, *_) in functions(cls):
+        unknown = partial(call, name, {**required(parameters), "nothing": 1})
+        wrong += faults_of({name: {"argument 'nothing'": unknown}}, thing, kind)
+    for where, cases in wrong_calls(cls, not_a_number):
+        (wrongly,) = cases.values()
+        if where.startswith(COMPUTED):
+            wrongly(thing)
+        else:
+            wrong += faults_of({where: {"": wrongly}}, thing, kind)
     assert not wrong, "\n".join(wrong)
-    assert condition(robot) == before
+    assert (condition(things["Robot"]), things["Gripper"].read_once().width) == before
 
 
-def test_bad_input_of_a_hand_is_refused_with_a_sentence_and_moves_nothing(served, name):
-    hand = served[name].gripper()
-    before = hand.read_once().width
-    wrong = faults_of(GRIPPER, hand, "Gripper")
-    assert not wrong, "\n".join(wrong)
-    assert hand.read_once().width == before
-
-
-def test_bad_input_of_a_vacuum_gripper_is_refused_with_a_sentence():
-    with FrankaSim(Panda(hand="vacuum")) as server:
-        gripper = pyfranka.VacuumGripper(server.robot.address)
-        wrong = faults_of(VACUUM, gripper, "VacuumGripper")
-        assert not wrong, "\n".join(wrong)
-        wrong = faults_of(FRANKA_SIM, server, "FrankaSim")
-        assert not wrong, "\n".join(wrong)
-
-
-def test_bad_input_of_a_model_is_refused_with_a_sentence(robot):
-    wrong = faults_of(MODEL, robot.load_model(), "Model")
+def test_bad_input_of_franka_sim_is_refused_with_a_sentence(server):
+    wrong = faults_of(FRANKA_SIM, server, "FrankaSim")
     assert not wrong, "\n".join(wrong)
 
 
@@ -357,16 +378,31 @@ def test_bad_input_of_plots_is_refused_with_a_sentence():
 
 # ---- in use by another thread, closed, after a fork --------------------------------------------------------
 
-IN_USE = {
-    "read_once": lambda robot: robot.read_once(),
-    "read": lambda robot: robot.read(lambda state: False),
-    "control_torques": lambda robot: robot.control_torques(never_called),
-    "start_torque_control": lambda robot: robot.start_torque_control(),
-}
+# Functions that need no answer of the robot, and those that it answers while it moves.
+LOCAL = {"get_lower_joint_velocity_limits", "get_upper_joint_velocity_limits", "set_control_options"}
+ANSWERED_IN_MOTION = LOCAL | {"load_model", "get_robot_model", "get_virtual_wall", "stop"}
+
+
+def refusals(thing, without=()):
+    """Calls each public function with right arguments: name -> sentence of its refusal, or nothing"""
+    found = {}
+    for name, (parameters, *_) in functions(type(thing)):
+        if name not in without:
+            try:
+                call(name, required(parameters), thing)
+                found[name] = ""
+            except ERRORS as error:
+                found[name] = str(error)
+                assert not unlike_ours(str(error)), (name, error)
+    return found
+
+
+def accepted(found):
+    return {name for name, sentence in found.items() if not sentence}
 
 
 def test_while_another_thread_moves_the_robot_other_operations_are_refused(robot):
-    moving, ended, wrong = threading.Event(), threading.Event(), []
+    moving, ended = threading.Event(), threading.Event()
 
     def hold(state, period):
         moving.set()
@@ -377,54 +413,65 @@ def test_while_another_thread_moves_the_robot_other_operations_are_refused(robot
     worker.start()
     try:
         assert moving.wait(60)
-        for name, call in IN_USE.items():
-            try:
-                call(robot)
-                wrong.append(f"{name}: not refused")
-            except ERRORS as error:
-                if unlike_ours(str(error)):
-                    wrong.append(f"{name}: {type(error)} {error}")
+        found = refusals(robot, without={"stop"})  # it would end the motion
+        assert LOCAL <= accepted(found) <= ANSWERED_IN_MOTION
     finally:
         ended.set()
         worker.join()
-    assert not wrong, "\n".join(wrong)
 
 
-AFTER_FORK = {
-    "Robot": {
-        "before the process was forked": lambda x: x["robot"].read_once(),
-        "forked and belongs to the other process": lambda x: x["robot"].control_torques(never_called),
-        "Connect again": lambda x: x["robot"].set_K(np.eye(4)),
-    },
-    "Gripper": {
-        "before the process was forked": lambda x: x["hand"].read_once(),
-        "Connect again": lambda x: x["hand"].move(0.02, 0.1),
-    },
-    "ActiveControl": {"before the process was forked": lambda x: x["motion"].write_once(Torques(SEVEN))},
-    "VacuumGripper": {
-        "before the process was forked": lambda x: x["vacuum"].read_once(),
-        "Connect again": lambda x: x["vacuum"].vacuum(5, timedelta(seconds=1)),
-        "belongs to the other process": lambda x: x["vacuum"].drop_off(timedelta(seconds=1)),
-        "Connect again in this one": lambda x: x["vacuum"].stop(),
-    },
-}
+@pytest.mark.parametrize("kind", ["Gripper", "VacuumGripper", "Model"])
+def test_two_threads_may_use_one_object(kind, things):
+    with ThreadPoolExecutor(2) as threads:
+        for found in threads.map(refusals, [things[kind]] * 2):
+            reasons = {sentence for sentence in found.values() if sentence}
+            assert all("aborted" in each or "another read operation" in each for each in reasons)
+    assert not any(refusals(things[kind]).values())
+
+
+def test_a_lost_robot_is_reported_by_each_function(name):
+    with FrankaSim(KINDS[name](), Panda(name="vacuum", hand="vacuum", base=(0, 2, 0))) as server:
+        robot, hand = server[name].connect(), server[name].gripper()
+        vacuum, model = pyfranka.VacuumGripper(server["vacuum"].address), robot.load_model()
+        server.kill()
+        assert accepted(refusals(robot)) == LOCAL
+        assert accepted(refusals(hand)) == accepted(refusals(vacuum)) == set()
+        assert all(not sentence for sentence in refusals(model).values())
+
+
 IN_FORKED_PROCESS = """
 import os, sys
 sys.path[:0] = {path!r}
 import pyfranka
-from test_bad_input_client import AFTER_FORK, SEVEN, Torques, faults_of
+from test_bad_input_client import LOCAL, SEVEN, Torques, accepted, faults_of, refusals
+
+def check(robot, model, others, motion):
+    found = refusals(robot)
+    assert accepted(found) == LOCAL, found
+    assert not any(refusals(model).values())
+    for found in (found, *map(refusals, others)):
+        for name in set(found) - LOCAL:
+            lacking = "version" in found[name]  # refused before, because this robot's version lacks it
+            assert lacking or "forked" in found[name] and "Connect again in this one" in found[name], name
+    write = {{"before the process was forked": lambda x: x.write_once(Torques(SEVEN))}}
+    assert not faults_of({{"write_once": write}}, motion)
 
 robot = pyfranka.Robot({address!r}, pyfranka.RealtimeConfig.Ignore)
 hand, vacuum = pyfranka.Gripper({address!r}), pyfranka.VacuumGripper({vacuum!r})
+model = robot.load_model()
 motion = robot.start_torque_control()
 motion.read_once()
 child = os.fork()
 if child == 0:
-    wrong = faults_of(AFTER_FORK, dict(robot=robot, hand=hand, motion=motion, vacuum=vacuum))
-    print("\\n".join(wrong), flush=True)
-    motion.close()
-    del robot, hand, motion, vacuum  # as at the end of the interpreter
-    os._exit(bool(wrong))
+    status = 1
+    try:
+        check(robot, model, (hand, vacuum), motion)
+        motion.close()
+        del robot, hand, motion, vacuum  # as at the end of the interpreter
+        status = 0
+    finally:
+        sys.excepthook(*sys.exc_info()) if status else None
+        os._exit(status)
 ended = os.waitstatus_to_exitcode(os.waitpid(child, 0)[1])
 motion.write_once(Torques(SEVEN))
 motion.read_once()
