@@ -256,6 +256,7 @@ PLOT = {
         "The number of a joint must be 1 to 7, not 0": lambda x: plot(x, joints=[0]),
         "The number of a joint must be 1 to 7, not 8": lambda x: plot(x, joints=[8]),
         "There is no signal to plot": lambda x: plot(x, []),
+        "must have one unit and the same joints or axes": lambda x: plot(x, ["q+rpy"]),
     },
     "plot_abort": {
         "recording must be": lambda x: plot_abort(None),

@@ -5,12 +5,14 @@
 import re
 import subprocess
 import sys
+from itertools import combinations, product
 from pathlib import Path
 
 import matplotlib
 import numpy as np
 import pyfranka
 import pytest
+from matplotlib.legend import Legend
 from pyfranka import franka_plot, plot
 from pyfranka.plot.recording import ERRORS, FIELDS, Abort, Recording, kind_of, of_log
 from pyfranka.plot.signals import EVIDENCE, SIGNALS, worst
@@ -136,6 +138,42 @@ def test_an_abort_is_drawn_with_its_reason_and_its_limit(robots, tmp_path):
         assert legend.get_window_extent().x1 <= figure.bbox.x1, (
             "the names of the lines are within the picture"
         )
+
+
+def panels():
+    """Each signal, each pair that can share a panel, and some of three."""
+    alike = {}
+    for name, signal in SIGNALS.items():
+        alike.setdefault((signal.unit, signal.parts), []).append(name)
+    pairs = ("+".join(pair) for names in alike.values() for pair in combinations(names, 2))
+    return [*SIGNALS, *pairs, "cmd.q_d+q+q_d", "cmd.tau_J_d+tau_J+tau_J_d"]
+
+
+def is_signal(line):
+    """Not a limit, which is dashed, and not a mark of an error."""
+    return line.get_linestyle() != "--" and line.get_color() != plot.figure.VIOLATION
+
+
+@pytest.mark.parametrize(
+    "motion, limits, joints",
+    [(jump_of_velocity, "auto", ()), (jump_of_twist, "all", (2, 7)), (jump_of_torque, "none", (7,))],
+)
+def test_all_lines_are_visible_and_in_the_legend(robots, motion, limits, joints):
+    """With several signals one legend has their styles, another one the colors of their parts."""
+    recording = of_log(aborted(robots["panda"], motion).log, robots["panda"].server_version())
+    figure = plot.plot(recording, panels(), limits=limits, joints=joints)
+    for panel, axes in zip(panels(), figure.axes):
+        lines = [line for line in axes.lines if is_signal(line)]
+        legends = [each for each in axes.findobj(Legend) if not each.get_patches()]
+        entries = [line for legend in legends for line in legend.get_lines()]
+        assert all(each.get_texts() for each in legends), panel
+        colors = [each.get_color() for each in entries if each.get_color() != "black"]
+        styles = [each.get_linestyle() for each in entries if each.get_color() == "black"] or ["-"]
+        looks = [(line.get_color(), line.get_linestyle()) for line in lines]
+        assert sorted(looks) == sorted(product(colors, styles)) and len({*looks}) == len(looks), panel
+        low, high = axes.get_ylim()
+        for line in lines:
+            assert low <= np.nanmin(line.get_ydata()) <= np.nanmax(line.get_ydata()) <= high, panel
 
 
 def test_a_file_may_be_a_text_or_like_a_path(robots, tmp_path):

@@ -57,8 +57,8 @@ class Panel:
                 raise BadInput(f'There is no signal "{name}"; franka_plot --list names all.')
         if len(names) > len(STYLES):
             raise BadInput(f"{text}: one panel shows at most {len(STYLES)} signals.")
-        if len({SIGNALS[name].unit for name in names}) > 1:
-            raise BadInput(f"{text}: signals of one panel must have one unit.")
+        if len({(SIGNALS[name].unit, SIGNALS[name].parts) for name in names}) > 1:
+            raise BadInput(f"{text}: signals of one panel must have one unit and the same joints or axes.")
         return cls(names)
 
 
@@ -112,23 +112,26 @@ class Plot:
         self._draw_mode_legend(recording)
         self.figure.suptitle(title or _title(recording), fontsize=11)
 
-    def _chosen(self, count: int) -> list[int]:
-        return [i for i in range(count) if not self._parts or count < 6 or i + 1 in self._parts]
+    def _chosen(self, values: Array) -> list[int]:
+        """The columns to draw: those of the chosen parts that have numbers."""
+        count, known = values.shape[1], np.isfinite(values).any(axis=0)
+        return [
+            i for i in range(count) if known[i] and (not self._parts or count < 6 or i + 1 in self._parts)
+        ]
 
     def _draw_panel(self, axes: Axes, panel: Panel, recording: Recording, step: int) -> None:
         axes.grid(color="#e4e4e4", linewidth=0.6)
         axes.set_axisbelow(True)
         drawn: list[tuple[str, Array]] = []
-        for name, style in zip(panel.names, STYLES):
+        for name in panel.names:
             values = SIGNALS[name].value(recording)
-            if values is None or not np.isfinite(values).any():
+            if values is None or not self._chosen(values):
                 continue
-            for i in self._chosen(values.shape[1]):
+            for i in self._chosen(values):
                 color = COLORS[i % len(COLORS)]
                 label = SIGNALS[name].parts[i] if not drawn else None
-                axes.plot(
-                    recording.time[::step], values[::step, i], style, color=color, linewidth=1.1, label=label
-                )
+                x, y, style = recording.time[::step], values[::step, i], STYLES[len(drawn)]
+                axes.plot(x, y, style, color=color, linewidth=1.1, label=label)
             drawn.append((name, values))
         axes.set_ylabel(_label(panel))
         axes.margins(x=0.01)
@@ -137,7 +140,7 @@ class Plot:
             axes.text(0.5, 0.5, text, transform=axes.transAxes, ha="center", va="center", color=LIMIT)
             return
         if self._limits != "none":
-            self._draw_limits(axes, *drawn[0], recording, step)
+            self._draw_limits(axes, drawn, recording, step)
         if len(drawn) > 1:
             handles = [
                 Line2D([], [], color="black", linestyle=style, label=name)
@@ -146,23 +149,25 @@ class Plot:
             axes.add_artist(axes.legend(handles=handles, loc="lower left", fontsize=7, framealpha=0.8))
         axes.legend(loc="center left", bbox_to_anchor=(1.005, 0.5), fontsize=8, frameon=False)
 
-    def _draw_limits(self, axes: Axes, name: str, values: Array, recording: Recording, step: int) -> None:
+    def _draw_limits(
+        self, axes: Axes, drawn: Sequence[tuple[str, Array]], recording: Recording, step: int
+    ) -> None:
+        """The limits of the first signal, and a scale that shows all signals."""
         limits = recording.limits
-        signal = SIGNALS[name]
+        signal, values = SIGNALS[drawn[0][0]], drawn[0][1]
         if limits is None or signal.limits is None:
             return
         lower, upper = signal.limits(recording, limits)
         shape = values.shape
         lower, upper = np.broadcast_to(lower, shape), np.broadcast_to(upper, shape)
-        chosen = self._chosen(shape[1])
-        low, high = np.nanmin(values[:, chosen]), np.nanmax(values[:, chosen])
+        shown = np.concatenate([each[:, self._chosen(each)] for _, each in drawn], axis=1)
+        low, high = np.nanmin(shown), np.nanmax(shown)
         span = max(high - low, 1e-9)
         hidden = []
         low, high = low - 0.1 * span, high + 0.1 * span
         groups: dict[tuple[bytes, bytes], list[int]] = {}
-        for i in chosen:
-            if np.isfinite(values[:, i]).any():
-                groups.setdefault((lower[:, i].tobytes(), upper[:, i].tobytes()), []).append(i)
+        for i in self._chosen(values):
+            groups.setdefault((lower[:, i].tobytes(), upper[:, i].tobytes()), []).append(i)
         for members in groups.values():
             for bound in (lower, upper):
                 line = bound[:, members[0]]
