@@ -51,7 +51,7 @@ def parameters(path: Path):
     return pytest.param(path, id=named(path), marks=marks)
 
 
-@pytest.mark.parametrize("path", map(parameters, MORE_PAGES))
+@pytest.mark.parametrize("path", [*map(parameters, MORE_PAGES)])
 def test_page_does_what_it_says(path, tmp_path):
     with virtual_screen(SCREEN):
         pictures = follow(read(path), tmp_path)

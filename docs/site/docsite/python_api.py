@@ -115,7 +115,9 @@ def comment_of_constant(module: types.ModuleType, name: str) -> str:
     for each in (module, *others):
         file = getattr(each, "__file__", None)
         if file and vars(each).get(name) is getattr(module, name):
-            for path in (Path(file), Path(file).with_suffix(".pyi")):
+            # catkin's package in devel has a file that only leads to that of the sources.
+            stubs = [Path(folder) / "__init__.pyi" for folder in getattr(each, "__path__", [])]
+            for path in (Path(file), *stubs):
                 found = above.search(path.read_text(encoding="utf-8")) if path.is_file() else None
                 if found:
                     return re.sub(r"^# ", "", found[1], flags=re.M).replace("\n", " ").strip()
