@@ -160,7 +160,8 @@ void bindVacuum(py::module_& module) {
            "CommandException, NetworkException.\n\n>>> "
            "gripper.drop_off(datetime.timedelta(seconds=1))\nTrue")
       .def("stop", &VacuumGripper::stop, py::call_guard<release>(),
-           "Ends what the gripper is doing. Returns whether it did.\n\n>>> gripper.stop()\nTrue")
+           "Ends what the gripper is doing. Returns whether it did.\n\nRaises CommandException, "
+           "NetworkException.\n\n>>> gripper.stop()\nTrue")
       .def("read_once", &VacuumGripper::readOnce, py::call_guard<release>(),
            "Waits for the next VacuumGripperState. Raises NetworkException when none comes.\n\n>>> "
            "gripper.read_once().vacuum >= 0\nTrue");

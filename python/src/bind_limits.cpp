@@ -87,7 +87,8 @@ void bindLimits(py::module_& module) {
           "The same of its rotation [rad/s and so on].")
       .def("velocity_range", &velocityRanges, py::arg("q"),
            "Lowest and highest joint velocities [rad/s] at joint positions, 7 or rows of 7 [rad]: "
-           "those of an FR3 shrink towards the ends of its joints.\n\n>>> lowest, highest = "
+           "those of an FR3 shrink towards the ends of its joints. Raises ValueError for "
+           "another shape.\n\n>>> lowest, highest = "
            "pyfranka.ArmLimits(10).velocity_range(fr3.read_once().q)\n>>> lowest.shape\n(7,)");
 }
 

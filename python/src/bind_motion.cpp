@@ -122,7 +122,8 @@ void bindTools(py::module_& module) {
       "is_valid_elbow",
       [](const py::object& elbow) { return franka::isValidElbow(arrayOf<2>(elbow, "elbow")); },
       py::arg("elbow"),
-      "Whether the sign of joint 4, the second number, is exactly +1 or -1.\n\n>>> "
+      "Whether the sign of joint 4, the second number, is exactly +1 or -1. Raises ValueError for "
+      "another number of values.\n\n>>> "
       "pyfranka.is_valid_elbow([0.3, -1.0])\nTrue");
   module.def(
       "is_homogeneous_transformation",
@@ -131,7 +132,8 @@ void bindTools(py::module_& module) {
       },
       py::arg("transform"),
       "Whether a 4x4 matrix is one: last row (0, 0, 0, 1); rows, columns of length 1 within "
-      "1e-5.\n\n>>> pyfranka.is_homogeneous_transformation(numpy.eye(4))\nTrue");
+      "1e-5. Raises ValueError for another shape.\n\n>>> "
+      "pyfranka.is_homogeneous_transformation(numpy.eye(4))\nTrue");
   module.def("has_realtime_kernel", &franka::hasRealtimeKernel,
              "Whether the kernel is one for real time (PREEMPT_RT).\n\n>>> if not "
              "pyfranka.has_realtime_kernel():\n...     config = pyfranka.RealtimeConfig.Ignore");
@@ -142,7 +144,7 @@ void bindTools(py::module_& module) {
       },
       py::arg("error_message") = "",
       "Gives this thread the highest real-time priority. Returns whether the system allowed it. "
-      "The argument has no effect.");
+      "The argument has no effect. Raises nothing.");
 }
 
 }  // namespace
@@ -187,7 +189,8 @@ void bindMotion(py::module_& module) {
         return copied;
       },
       py::arg("command"),
-      "The same command, marked as the last one of its motion.\n\n>>> "
+      "The same command, marked as the last one of its motion. Raises TypeError for anything "
+      "else.\n\n>>> "
       "pyfranka.motion_finished(pyfranka.Torques([0.0] * 7))\nTorques([0, 0, 0, 0, 0, 0, 0]), the "
       "last one of its motion");
 

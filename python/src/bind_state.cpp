@@ -257,7 +257,8 @@ void bindState(py::module_& module) {
                " s>";
       });
   module.def("log_to_csv", &franka::logToCSV, py::arg("log"),
-             "The records of a ControlException as comma separated values.\n\n>>> "
+             "The records of a ControlException as comma separated values. Raises TypeError for "
+             "anything else.\n\n>>> "
              "len(pyfranka.log_to_csv(error.log).splitlines()) > len(error.log)\nTrue");
 }
 
