@@ -112,7 +112,7 @@ def test_guiding_ends_a_motion_and_leaves_the_arm_free(sim, client):
     assert state.mode == GUIDING
     assert client.reply()[1][0] not in (0, LAYOUTS[client.version].reflex)
     before = client.state_until(lambda s: s.mode == GUIDING).joints("q")
-    sim.remote.push(f"{sim.name}_hand", (0, 5, 0), 500)
+    sim.remote.push(f"{sim.name}_hand", (0, 5, 0), ticks=500)
     moved = client.state_until(lambda s: max(abs(a - b) for a, b in zip(s.joints("q"), before)) > 0.02)
     assert moved.mode == GUIDING
     sim.remote.set_guiding(False)

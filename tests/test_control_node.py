@@ -110,7 +110,7 @@ class Node(ControlNode):
         for times in (1, 2, 4, 8, 16):
             seconds = (settling + 0.4) * times
             self.kept = {}
-            self.arm.operator.push(f"{self.arm.name}_link7", PUSH, round(1000 * seconds))
+            self.arm.operator.push(f"{self.arm.name}_link7", PUSH, ticks=round(1000 * seconds))
             felt = self.states_of_push(seconds)
             # A state of an earlier moment may arrive late, so the last one must show an arm at rest.
             if felt and felt[-1].time - felt[0].time > settling and max(map(abs, felt[-1].dq)) < STILL:
@@ -166,7 +166,8 @@ def configured(resting):
     """The same with frames and a load."""
     for name, (values, _) in good_values().items():
         resting.sets(name, **values)
-    resting.arm.operator.push(f"{resting.arm.name}_link7", (0, 0, 0), 10)  # the world runs: states show it
+    # While the world runs, states show it.
+    resting.arm.operator.push(f"{resting.arm.name}_link7", (0, 0, 0), ticks=10)
     hand = good_values()["set_EE_frame"][1]["NE_T_EE"]
     wait_for(lambda: apart(resting.arm.state.NE_T_EE, hand) < 1e-6, "The new frame")
     wait_for(lambda: shown_pose_is_apart(resting.arm.state) < 1e-5, "The pose of the new frame")
@@ -336,7 +337,7 @@ def test_a_reflex_is_published_and_logged(robot, resting):
     arm = resting.arm
     resting.sets("set_full_collision_behavior", **thresholds(upper_force=4.0))
     resting.start()
-    arm.operator.push(f"{robot}_link7", PUSH, BRIEFLY)
+    arm.operator.push(f"{robot}_link7", PUSH, ticks=BRIEFLY)
     wait_for(lambda: arm.is_in("in reflex") and arm.has_error, "The reflex")
     wait_for(lambda: arm.state.current_errors.cartesian_reflex, "The flag of the reflex")
     # A diagnostics message at the time of the reflex may still hold the last state of the motion.

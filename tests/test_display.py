@@ -156,6 +156,6 @@ def test_the_viewer_names_the_errors(screen, tmp_path):
         first = np.flatnonzero(text.any(axis=0))[0]
         name = text[:, first : first + NAME]
         assert not stands_in(name, viewer.lines()[1])
-        remote.push("panda_link4", (0, 400, 0), 50)
+        remote.push("panda_link4", (0, 400, 0), ticks=50)
         assert "joint_reflex" in remote.wait(lambda now: now.mode == "Reflex").errors
         wait_for(lambda: stands_in(name, viewer.lines()[1]), "the error's name", PATIENCE)

@@ -174,7 +174,7 @@ def test_cartesian_impedance(programs, kind):
     with FrankaSim(KINDS[kind](realism="ideal")) as sim:
         program = Program(programs / "cartesian_impedance", sim.robot.address)
         assert "push the hand" in program.line()
-        sim.robot.remote.push(f"{kind}_hand", [0, 10, 0], 4000)
+        sim.robot.remote.push(f"{kind}_hand", [0, 10, 0], ticks=4000)
         (yielded,) = numbers(program.end())
     assert yielded == pytest.approx(10 / 200, rel=0.05), "of the spring, and a small overshoot"
 
@@ -187,7 +187,7 @@ def test_impedances_on_a_starved_machine(programs, kind, name):
         program = Program(programs / name, sim.robot.address)
         if name == "cartesian_impedance":
             program.line()
-            sim.robot.remote.push(f"{kind}_hand", [0, 10, 0], 4000)
+            sim.robot.remote.push(f"{kind}_hand", [0, 10, 0], ticks=4000)
         program.end()
         assert sim.robot.remote.state().mode == "Idle"
 

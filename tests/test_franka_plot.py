@@ -112,7 +112,7 @@ def test_a_window_follows_a_robot_on_the_network(tmp_path):
         with window(before, "robot", sim.robot.address, "--seconds", "3", "-s", "O_F_ext_hat_K,q"):
             remote.step(3500)  # the window is full of a robot at rest
             wait_for(lambda: colors(before) and colors(after) and changed(before, after) == 0, pause=1.0)
-            remote.push("panda_link4", (0, 400, 0), 50)
+            remote.push("panda_link4", (0, 400, 0), ticks=50)
             remote.wait(lambda now: now.mode == "Reflex")
             wait_for(
                 lambda: colors(after) > 50 and changed(before, after) > 2000,

@@ -54,7 +54,7 @@ def service_calls() -> list[list[str]]:
 def test_recovery_without_ros_runs():
     (program,) = [text for text in blocks("recovery", "python") if "rospy" not in text]
     with simulated("panda", "lockstep") as robot:
-        robot.remote.push("panda_link4", (0, 400, 0), 50)
+        robot.remote.push("panda_link4", (0, 400, 0), ticks=50)
         state = robot.remote.wait(lambda now: now.mode == "Reflex")
         run(program.replace("127.0.0.1", robot.address), Path.cwd())
         assert state.mode == "Reflex" and robot.remote.state().mode == "Idle"

@@ -341,7 +341,7 @@ def test_a_motion_continues_without_the_master(tmp_path, urdf):
 def test_a_node_waiting_for_a_recovery_exits_on_interrupt(master):
     master.set(ONE + "/shutdown_timeout", SHORT_END)
     with moving(master) as (node, robot):
-        robot.remote.push("panda_link7", (0, 0, -220), 60)
+        robot.remote.push("panda_link7", (0, 0, -220), ticks=60)
         node.must_print("reflex")
         with woken_at_last(robot.server.process):
             recovery = master.run("/usr/bin/python3", "-c", ASK_RECOVERY, str(robot.server.process.pid))

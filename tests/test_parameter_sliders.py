@@ -98,7 +98,7 @@ class Robot:
     @staticmethod
     def push():
         """Pushes straight up along the end effector's axis, for longer than the test."""
-        Remote(ADDRESS).push("panda_link7", (0, 0, PUSH), 900000)
+        Remote(ADDRESS).push("panda_link7", (0, 0, PUSH), ticks=900000)
 
     def yields(self, distance):
         """Waits until it has been at the position of a spring under the push for a while of its time."""

@@ -132,7 +132,7 @@ def test_the_follower_follows_a_pushed_leader(robot, tmp_path):
         def moved():
             return [np.abs(np.array(arms.last[name].q) - q).max() for name, q in zip(arms.names, begin)]
 
-        Remote(LEADER).push("leader_link7", (0, 12, 0), 300)
+        Remote(LEADER).push("leader_link7", (0, 12, 0), ticks=300)
         wait_for(lambda: moved()[0] > 0.05, "A motion of the pushed leader", LIMIT)  # [rad]
         wait_for(lambda: moved()[1] > 0.05, "A motion of the follower", LIMIT)
         wait_for(lambda: error() < 1e-3 and arms.speed() < 0.05, "The follower's arrival", LIMIT)

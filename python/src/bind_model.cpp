@@ -3,6 +3,7 @@
 // The robot's own model and ModelKDL, with the same functions.
 #include <franka/model.h>
 #include <franka/robot_state.h>
+#include <franka_core/robot_state.h>
 
 #include <memory>
 #include <stdexcept>
@@ -35,8 +36,9 @@ constexpr const char* kOfLoad =
     "center "
     "of mass, 3x3 [kg m^2], mass [kg], center of mass in F, 3 [m].";
 
+/// Functions of a state, which has all that they need.
 template <typename State, typename Model>
-void bindKinematics(py::class_<Model>& type) {
+void bindForState(py::class_<Model>& type) {
   defNamed(
       type, "pose", kOfState,
       [](const Model& self, Frame frame, const State& state) {
@@ -45,15 +47,6 @@ void bindKinematics(py::class_<Model>& type) {
       py::arg("frame"), py::arg("state"),
       "Pose of a frame in O, 4x4.\n\n>>> model.pose(pyfranka.Frame.EndEffector, state).shape\n(4, "
       "4)");
-  type.def(
-      "pose",
-      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
-         const py::object& EE_T_K) {
-        return copy(self.pose(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
-                              arrayOf<16>(EE_T_K, "EE_T_K")),
-                    Shape::kMatrix4);
-      },
-      py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
   defNamed(
       type, "zero_jacobian", kOfState,
       [](const Model& self, Frame frame, const State& state) {
@@ -68,15 +61,6 @@ void bindKinematics(py::class_<Model>& type) {
         return copy(self.zeroJacobian(Frame::kEndEffector, state), Shape::kJacobian);
       },
       py::arg("state"), "The same of the end effector.");
-  type.def(
-      "zero_jacobian",
-      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
-         const py::object& EE_T_K) {
-        return copy(self.zeroJacobian(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
-                                      arrayOf<16>(EE_T_K, "EE_T_K")),
-                    Shape::kJacobian);
-      },
-      py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
   defNamed(
       type, "body_jacobian", kOfState,
       [](const Model& self, Frame frame, const State& state) {
@@ -85,32 +69,10 @@ void bindKinematics(py::class_<Model>& type) {
       py::arg("frame"), py::arg("state"),
       "Jacobian of a frame in its own axes, 6x7.\n\n>>> "
       "model.body_jacobian(pyfranka.Frame.EndEffector, state).shape\n(6, 7)");
-  type.def(
-      "body_jacobian",
-      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
-         const py::object& EE_T_K) {
-        return copy(self.bodyJacobian(frame, arrayOf<7>(q, "q"), arrayOf<16>(F_T_EE, "F_T_EE"),
-                                      arrayOf<16>(EE_T_K, "EE_T_K")),
-                    Shape::kJacobian);
-      },
-      py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
-}
-
-template <typename State, typename Model>
-void bindDynamics(py::class_<Model>& type) {
   defNamed(
       type, "mass", kOfState,
       [](const Model& self, const State& state) { return copy(self.mass(state), Shape::kMass); },
       py::arg("state"), "Mass matrix, 7x7 [kg m^2].\n\n>>> model.mass(state).shape\n(7, 7)");
-  type.def(
-      "mass",
-      [](const Model& self, const py::object& q, const py::object& I_total, double m_total,
-         const py::object& F_x_Ctotal) {
-        return copy(self.mass(arrayOf<7>(q, "q"), arrayOf<9>(I_total, "I_total"), m_total,
-                              arrayOf<3>(F_x_Ctotal, "F_x_Ctotal")),
-                    Shape::kMass);
-      },
-      py::arg("q"), py::arg("I_total"), py::arg("m_total"), py::arg("F_x_Ctotal"), kOfLoad);
   defNamed(
       type, "coriolis", kOfState,
       [](const Model& self, const State& state) {
@@ -118,18 +80,6 @@ void bindDynamics(py::class_<Model>& type) {
       },
       py::arg("state"),
       "Coriolis torques C(q, dq) dq, 7 [Nm].\n\n>>> model.coriolis(state).shape\n(7,)");
-  type.def(
-      "coriolis",
-      [](const Model& self, const py::object& q, const py::object& dq, const py::object& I_total,
-         double m_total, const py::object& F_x_Ctotal) {
-        return copy(
-            self.coriolis(arrayOf<7>(q, "q"), arrayOf<7>(dq, "dq"), arrayOf<9>(I_total, "I_total"),
-                          m_total, arrayOf<3>(F_x_Ctotal, "F_x_Ctotal")),
-            Shape::kVector);
-      },
-      py::arg("q"), py::arg("dq"), py::arg("I_total"), py::arg("m_total"), py::arg("F_x_Ctotal"),
-      "The same for joint positions, 7 [rad], joint velocities, 7 [rad/s], and a load as for "
-      "mass.");
   defNamed(
       type, "gravity", kOfState,
       [](const Model& self, const State& state) {
@@ -139,16 +89,68 @@ void bindDynamics(py::class_<Model>& type) {
   defNamed(
       type, "gravity", kOfState,
       [](const Model& self, const State& state, const py::object& gravity_earth) {
-        return copy(self.gravity(state, arrayOf<3>(gravity_earth, "gravity_earth")),
-                    Shape::kVector);
+        return copy(self.gravity(state, finite<3>(gravity_earth, "gravity_earth")), Shape::kVector);
       },
       py::arg("state"), py::arg("gravity_earth"), "The same with another gravity in O, 3 [m/s^2].");
+}
+
+template <typename Model>
+void bindForArrays(py::class_<Model>& type) {
+  type.def(
+      "pose",
+      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
+         const py::object& EE_T_K) {
+        return copy(self.pose(frame, finite<7>(q, "q"), finite<16>(F_T_EE, "F_T_EE"),
+                              finite<16>(EE_T_K, "EE_T_K")),
+                    Shape::kMatrix4);
+      },
+      py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
+  type.def(
+      "zero_jacobian",
+      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
+         const py::object& EE_T_K) {
+        return copy(self.zeroJacobian(frame, finite<7>(q, "q"), finite<16>(F_T_EE, "F_T_EE"),
+                                      finite<16>(EE_T_K, "EE_T_K")),
+                    Shape::kJacobian);
+      },
+      py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
+  type.def(
+      "body_jacobian",
+      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
+         const py::object& EE_T_K) {
+        return copy(self.bodyJacobian(frame, finite<7>(q, "q"), finite<16>(F_T_EE, "F_T_EE"),
+                                      finite<16>(EE_T_K, "EE_T_K")),
+                    Shape::kJacobian);
+      },
+      py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
+  type.def(
+      "mass",
+      [](const Model& self, const py::object& q, const py::object& I_total,
+         const py::object& m_total, const py::object& F_x_Ctotal) {
+        return copy(self.mass(finite<7>(q, "q"), finite<9>(I_total, "I_total"),
+                              number(m_total, "m_total"), finite<3>(F_x_Ctotal, "F_x_Ctotal")),
+                    Shape::kMass);
+      },
+      py::arg("q"), py::arg("I_total"), py::arg("m_total"), py::arg("F_x_Ctotal"), kOfLoad);
+  type.def(
+      "coriolis",
+      [](const Model& self, const py::object& q, const py::object& dq, const py::object& I_total,
+         const py::object& m_total, const py::object& F_x_Ctotal) {
+        return copy(
+            self.coriolis(finite<7>(q, "q"), finite<7>(dq, "dq"), finite<9>(I_total, "I_total"),
+                          number(m_total, "m_total"), finite<3>(F_x_Ctotal, "F_x_Ctotal")),
+            Shape::kVector);
+      },
+      py::arg("q"), py::arg("dq"), py::arg("I_total"), py::arg("m_total"), py::arg("F_x_Ctotal"),
+      "The same for joint positions, 7 [rad], joint velocities, 7 [rad/s], and a load as for "
+      "mass.");
   type.def(
       "gravity",
-      [](const Model& self, const py::object& q, double m_total, const py::object& F_x_Ctotal,
-         const py::object& gravity_earth) {
-        return copy(self.gravity(arrayOf<7>(q, "q"), m_total, arrayOf<3>(F_x_Ctotal, "F_x_Ctotal"),
-                                 arrayOf<3>(gravity_earth, "gravity_earth")),
+      [](const Model& self, const py::object& q, const py::object& m_total,
+         const py::object& F_x_Ctotal, const py::object& gravity_earth) {
+        return copy(self.gravity(finite<7>(q, "q"), number(m_total, "m_total"),
+                                 finite<3>(F_x_Ctotal, "F_x_Ctotal"),
+                                 finite<3>(gravity_earth, "gravity_earth")),
                     Shape::kVector);
       },
       py::arg("q"), py::arg("m_total"), py::arg("F_x_Ctotal"),
@@ -175,7 +177,8 @@ void bindModelKdl(py::module_& module) {
   py::class_<franka_hw::ModelKDL> kdl(
       module, "ModelKDL", py::module_local(),
       "The arm's model on KDL, from a URDF; no robot needed. Its functions raise ValueError for an "
-      "array of another shape, and TypeError for what is neither a state nor an array.\n\n>>> kdl "
+      "array of another shape or with a NaN, and TypeError for what is neither a state nor an "
+      "array.\n\n>>> kdl "
       "= pyfranka.ModelKDL(urdf, "
       "\"panda_link0\", \"panda_link8\")\n>>> kdl.gravity(pyfranka.RobotState()).shape\n(7,)");
   kdl.def(py::init(&modelFromUrdf), py::arg("urdf"), py::arg("root"), py::arg("tip"),
@@ -184,8 +187,8 @@ void bindModelKdl(py::module_& module) {
   kdl.def("__repr__", [](const franka_hw::ModelKDL&) {
     return "<ModelKDL of a URDF: pose, Jacobians, mass, coriolis, gravity>";
   });
-  bindKinematics<RobotState>(kdl);
-  bindDynamics<RobotState>(kdl);
+  bindForState<RobotState>(kdl);
+  bindForArrays(kdl);
 }
 
 #else
@@ -236,8 +239,8 @@ void bindModel(py::module_& module) {
   model.def("__repr__", [](const franka::Model&) {
     return "<Model of a connected robot: pose, Jacobians, mass, coriolis, gravity>";
   });
-  bindKinematics<RobotState>(model);
-  bindDynamics<RobotState>(model);
+  bindForState<RobotState>(model);
+  bindForArrays(model);
 
   bindModelKdl(module);
 }
@@ -246,14 +249,16 @@ void bindSimModel(py::module_& module) {
   py::class_<SimModel> model(
       module, "ArmModel", py::module_local(),
       "The model of a simulated robot's own control. Its functions raise ValueError for an array "
-      "of another shape, and TypeError for what is neither a state nor an array.\n\n>>> arm = "
+      "of another shape or with a NaN, and TypeError for what is neither a state nor an "
+      "array.\n\n>>> arm = "
       "sim[\"panda\"]\n>>> "
       "arm.command(torque=arm.model.coriolis(arm.state))");
   model.def("__repr__", [](const SimModel&) {
     return "<ArmModel of a simulated robot: pose, Jacobians, mass, coriolis, gravity>";
   });
-  bindKinematics<franka_core::RobotState>(model);
-  bindDynamics<franka_core::RobotState>(model);
+  bindForState<franka_core::RobotState>(model);
+  bindForState<RobotState>(model);
+  bindForArrays(model);
 }
 
 }  // namespace pyfranka

@@ -358,7 +358,7 @@ void bindReading(py::module_& module, py::class_<Robot>& robot) {
       .def(
           "get_upper_joint_velocity_limits",
           [](const Robot& self, const py::object& q) {
-            return copy(self.getUpperJointVelocityLimits(arrayOf<7>(q, "q")), Shape::kVector);
+            return copy(self.getUpperJointVelocityLimits(finite<7>(q, "q")), Shape::kVector);
           },
           py::arg("q"),
           "Highest velocities that the rate limiter allows at q [rad], 7 [rad/s].\n\n>>> "
@@ -366,7 +366,7 @@ void bindReading(py::module_& module, py::class_<Robot>& robot) {
       .def(
           "get_lower_joint_velocity_limits",
           [](const Robot& self, const py::object& q) {
-            return copy(self.getLowerJointVelocityLimits(arrayOf<7>(q, "q")), Shape::kVector);
+            return copy(self.getLowerJointVelocityLimits(finite<7>(q, "q")), Shape::kVector);
           },
           py::arg("q"),
           "Lowest velocities, likewise.\n\n>>> "

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Robots of simulations; pyfranka/sim gives them their Python interface.
 #include <franka_core/limits.h>
+#include <franka_core/motion_limits.h>
 #include <franka_core/numbers.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <pybind11/stl.h>

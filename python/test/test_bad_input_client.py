@@ -102,11 +102,12 @@ def not_a_number(value):
     return [NAN] if isinstance(value, (int, float)) and not isinstance(value, bool) else []
 
 
-def wrong_calls(cls, make):
+def wrong_calls(cls, make, **others):
     """A table of calls with one wrong value each; the sentences name its argument, by its last word."""
     for name, signatures in functions(cls):
         for parameters in signatures:
             keywords = {each.name: right(each.name) for each in parameters}
+            keywords |= {each: value for each, value in others.items() if each in keywords}
             for argument, value in keywords.items():
                 for wrong in make(value):
                     wrongly = partial(call, name, {**keywords, argument: wrong})
@@ -116,9 +117,6 @@ def wrong_calls(cls, make):
 def required(parameters):
     return {each.name: right(each.name) for each in parameters if each.default is each.empty}
 
-
-# What is not checked: the results are not numbers either.
-COMPUTED = ("get_upper_joint_velocity_limits", "get_lower_joint_velocity_limits", *vars(pyfranka.Model))
 
 # "function" -> a part of the sentence -> the call; x is an object of the class.
 ROBOT = {
@@ -295,6 +293,9 @@ def condition(robot):
         state.EE_T_K.tolist(),
         state.m_load,
         state.F_x_Cload.tolist(),
+        state.I_load.tolist(),
+        str(state.current_errors),
+        str(state.last_motion_errors),
     )
 
 
@@ -304,35 +305,117 @@ def server(franka_sim_session):
 
 
 @pytest.fixture(scope="module")
-def things(server, served, robots):
-    """An object of each class; hands have one client at a time."""
-    vacuum, robot = pyfranka.VacuumGripper(server.robot.address), robots["fr3"]
-    return {
-        type(each).__name__: each for each in (robot, served["fr3"].gripper(), vacuum, robot.load_model())
+def things_of_both(server, served, robots):
+    """An object of each class for each robot; hands have one client at a time."""
+    vacuum = pyfranka.VacuumGripper(server.robot.address)
+    objects = {
+        kind: (robots[kind], served[kind].gripper(), vacuum, robots[kind].load_model()) for kind in KINDS
     }
+    return {kind: {type(each).__name__: each for each in made} for kind, made in objects.items()}
 
 
+@pytest.fixture
+def things(things_of_both, name):
+    return things_of_both[name]
+
+
+# A Panda refuses these before it looks at values.
+OF_FR3 = ("start_async_joint_position_control",)
 TABLES = {"Robot": ROBOT, "Gripper": GRIPPER, "VacuumGripper": VACUUM, "Model": MODEL}
 
 
 @pytest.mark.parametrize("kind", TABLES)
-def test_wrong_arguments_are_refused_with_a_sentence_and_change_nothing(kind, things):
+def test_wrong_arguments_are_refused_with_a_sentence_and_change_nothing(kind, things, name):
     thing, cls = things[kind], getattr(pyfranka, kind)
+    of_fr3 = () if name == "fr3" else OF_FR3
     before = condition(things["Robot"]), things["Gripper"].read_once().width
     wrong = faults_of(TABLES[kind], thing, kind)
-    for make in (of_wrong_type, of_wrong_shape):
-        wrong += faults_of(dict(wrong_calls(cls, make)), thing, kind)
-    for name, (parameters, *_) in functions(cls):
-        unknown = partial(call, name, {**required(parameters), "nothing": 1})
-        wrong += faults_of({name: {"argument 'nothing'": unknown}}, thing, kind)
+    wrong += faults_of(dict(wrong_calls(cls, of_wrong_type)), thing, kind)
+    shapes = {
+        where: cases for where, cases in wrong_calls(cls, of_wrong_shape) if not where.startswith(of_fr3)
+    }
+    wrong += faults_of(shapes, thing, kind)
+    for function, (parameters, *_) in functions(cls):
+        unknown = partial(call, function, {**required(parameters), "nothing": 1})
+        wrong += faults_of({function: {"argument 'nothing'": unknown}}, thing, kind)
     for where, cases in wrong_calls(cls, not_a_number):
         (wrongly,) = cases.values()
-        if where.startswith(COMPUTED):
-            wrongly(thing)
-        else:
-            wrong += faults_of({where: {"": wrongly}}, thing, kind)
+        wrong += faults_of({where: {"": wrongly}}, thing, kind)
     assert not wrong, "\n".join(wrong)
     assert (condition(things["Robot"]), things["Gripper"].read_once().width) == before
+
+
+@pytest.mark.parametrize("kind", ["ArmModel", "ModelKDL"])
+def test_other_models_refuse_wrong_arguments_as_the_robots_own_does(kind, robots, name):
+    if kind == "ArmModel":
+        arm = pyfranka.sim.Simulation(robots=[name])[name]
+        thing, others = arm.model, {"state": arm.state}
+    else:
+        urdf = robots["fr3"].get_robot_model()
+        thing, others = pyfranka.ModelKDL(urdf, *re.findall(r'link name="(\w*link[08])"', urdf)), {}
+    wrong = []
+    for make in (of_wrong_type, of_wrong_shape, not_a_number):
+        cases = dict(wrong_calls(type(thing), make, **others))
+        assert len(cases) > 10
+        wrong += faults_of(cases, thing, kind)
+    assert not wrong, "\n".join(wrong)
+    assert np.isfinite(thing.mass(others.get("state", STATE))).all()
+
+
+Handler = pyfranka.AsyncPositionControlHandler
+ASYNC = {
+    "Configuration": {
+        "velocities must be a list, each a number, not 'fast'": lambda x: Handler.Configuration("fast"),
+        "tolerance must be a number, not 'near'": lambda x: Handler.Configuration(SEVEN, "near"),
+        "argument 'speed'": lambda x: Handler.Configuration(SEVEN, speed=1),
+    },
+    "JointPositionTarget": {
+        "positions must be a list, each a number, not 5": lambda x: Handler.JointPositionTarget(5),
+        "joint_positions": lambda x: setattr(Handler.JointPositionTarget(SEVEN), "joint_positions", "home"),
+    },
+    "configure": {
+        "robot must be a Robot, not None": lambda x: Handler.configure(None, Handler.Configuration(SEVEN)),
+        "configuration must be": lambda x: Handler.configure(x, SEVEN),
+    },
+}
+NO_CONFIGURATIONS = {
+    "wrong shape": Handler.Configuration([1.0] * 3),
+    "NaN": Handler.Configuration([NAN] * 7),
+    "negative": Handler.Configuration([-1.0] * 7),
+    "NaN as the tolerance": Handler.Configuration([1.0] * 7, NAN),
+}
+
+
+def test_bad_input_of_an_asynchronous_motion_is_refused_with_a_sentence(robots):
+    """What is wrong by its type raises; what is wrong by its value is in the result, as in libfranka."""
+    fr3 = robots["fr3"]
+    before = condition(fr3)
+    wrong = faults_of(ASYNC, fr3, "AsyncPositionControlHandler")
+    for name, configuration in NO_CONFIGURATIONS.items():
+        result = Handler.configure(fr3, configuration)
+        assert result.handler is None and result.error_message.endswith("."), name
+    refused = Handler.configure(robots["panda"], Handler.Configuration([1.0] * 7))
+    assert refused.handler is None and refused.error_message.endswith(".")
+    assert condition(fr3) == before
+
+    handler = Handler.configure(fr3, Handler.Configuration([1.0] * 7)).handler
+    methods = {
+        "set_joint_position_target": {"target must be": lambda x: x.set_joint_position_target(SEVEN)},
+        "get_target_feedback": {"state must be": lambda x: x.get_target_feedback(5)},
+        "stop_control": {"it takes no arguments": lambda x: x.stop_control(5)},
+    }
+    wrong += faults_of(methods, handler, "AsyncPositionControlHandler")
+    for positions in (SEVEN[:3], [NAN] * 7):
+        result = handler.set_joint_position_target(Handler.JointPositionTarget(positions))
+        assert not result.was_successful and result.error_message.endswith("."), positions
+    assert handler.get_target_feedback().status == pyfranka.TargetStatus.kIdle
+    handler.stop_control()
+    assert not wrong, "\n".join(wrong)
+    target = Handler.JointPositionTarget(fr3.read_once().q.tolist())
+    assert "configure a new" in handler.set_joint_position_target(target).error_message
+    assert handler.get_target_feedback().status == pyfranka.TargetStatus.kAborted
+    handler.stop_control()
+    assert condition(fr3) == before
 
 
 def test_bad_input_of_franka_sim_is_refused_with_a_sentence(server):

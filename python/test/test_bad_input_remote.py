@@ -129,7 +129,8 @@ REMOTE = {
     "report": {"A time limit": lambda x: x.report(-1)},
     "set_load": {
         "'load' takes numbers, not 'heavy'": lambda x: x.set_load("heavy"),
-        "The center of mass must have 3 numbers, not 2": lambda x: x.set_load(0.5, (0, 0)),
+        "F_x_Cload must have 3 numbers, not 2": lambda x: x.set_load(0.5, (0, 0)),
+        "load_inertia is 3x3": lambda x: x.set_load(0.5, ZERO, EYE),
         "": lambda x: x.set_load(NAN),
         "-1": lambda x: x.set_load(-1.0),
         "not a finite number": lambda x: x.set_load(0.5, (NAN, 0, 0)),
@@ -172,7 +173,8 @@ REMOTE = {
         "The name of a body is one word, not 5": lambda x: x.push(5, ZERO),
         "nothing": lambda x: x.push("nothing", ZERO),
         "The force must have 3 numbers": lambda x: x.push("stone", 1.0),
-        "The duration is a whole number": lambda x: x.push("stone", ZERO, 0.5),
+        "The torque must have 3 numbers": lambda x: x.push("stone", ZERO, 100),
+        "The duration is a whole number": lambda x: x.push("stone", ZERO, ticks=0.5),
         "": lambda x: x.push("stone", (NAN, 0, 0)),
     },
     "place_body": {

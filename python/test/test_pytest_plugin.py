@@ -243,19 +243,25 @@ def test_paths_may_be_like_paths(tmp_path):
         assert find_program(given) == program and type(find_program(given)) is str
     own = tmp_path / "own.urdf"
     own.write_text((Path(__file__).resolve().parents[2] / OWN).read_text())
-    robot = Panda(base=(-0.5, 0, 0), urdf=Place(own), load=(0.3, (0, 0, 0.05)))
+    inertia = np.diag([1e-3, 2e-3, 3e-3])
+    robot = Panda(base=(-0.5, 0, 0), urdf=Place(own), load=(0.3, (0, 0, 0.05), inertia))
     with FrankaSim(robot, world=Place("stone.xml"), program=Place(program)) as sim:
         assert sim.robot.remote.body_position("stone").shape == (3,)
-        assert sim.robot.connect().read_once().m_load == pytest.approx(0.3)
+        state = sim.robot.connect().read_once()
+        assert state.m_load == pytest.approx(0.3) and state.I_load == pytest.approx(inertia)
     with FrankaSim(Panda(hand=False)) as sim, pytest.raises(pyfranka.NetworkException):
         sim.robot.gripper()
-    for wrong, error in (
-        (5, TypeError),
-        ("ur5", ValueError),
-        (Panda(load=(1, (0, 0, 0), np.eye(3))), ValueError),
-    ):
-        with pytest.raises(error, match="robots are|no robot 'ur5'|inertia of a load"):
+    for wrong, error in ((5, TypeError), ("ur5", ValueError)):
+        with pytest.raises(error, match="robots are|no robot 'ur5'"):
             FrankaSim(wrong)
+
+
+def test_the_fixture_takes_the_arguments_of_franka_sim_and_of_a_robot(franka_sim):
+    sim = franka_sim("fr3", name="left", patience="forever", start="locked", desk=True)
+    assert sim.robot.name == "left" and sim.robot.desk.startswith("https://")
+    assert not sim.robot.remote.report().brakes_open
+    with pytest.raises(TypeError, match="'colour'"):
+        franka_sim("fr3", colour="white")
 
 
 def test_the_examples_of_the_documentation_work(project, capsys):

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Remote: each line of franka_sim's control port, its effects, refusals and time limits."""
 
+import inspect
 import re
 import signal
 import socket
@@ -158,7 +159,7 @@ def test_a_client_and_the_errors_of_its_motion_are_reported(server):
 
     def push(state, period):
         if not pushed:
-            pushed.append(robot.remote.push("panda_hand", (0, 80, 0), 200))
+            pushed.append(robot.remote.push("panda_hand", (0, 80, 0), ticks=200))
         return pyfranka.JointPositions(state.q_d)
 
     with pytest.raises(pyfranka.ControlException, match="reflex"):
@@ -184,6 +185,12 @@ def test_load_and_walls(robot, remote):
     client = robot.connect()
     state = client.read_once()
     assert state.m_load == pytest.approx(0.5) and state.F_x_Cload == pytest.approx([0, 0, 0.05])
+    assert not state.I_load.any()
+    inertia = numpy.array([[3.0, 0.1, 0.2], [0.1, 4.0, 0.3], [0.2, 0.3, 5.0]]) * 1e-3
+    for form in (inertia, inertia.ravel().tolist()):
+        remote.set_load(0.7, load_inertia=form)
+        state = client.read_once()
+        assert state.I_load == pytest.approx(inertia) and not state.F_x_Cload.any()
     remote.set_load(0)
     assert client.read_once().m_load == 0
     remote.wall(2, (0.3, 0, 0.2), (1, 1, 0.5), numpy.array([0, 0, 0, 2.0]))
@@ -235,15 +242,48 @@ def test_places_and_pushes_in_the_world(server):
     assert left.remote.body_position("stone")[:2] == pytest.approx([0.3, -0.6], abs=0.02)
     assert 0 < left.remote.body_position("stone")[2] < 0.1
     before = panda.remote.wait().q
-    panda.remote.push("panda_hand", numpy.array([0, 8.0, 0]), 1000000)  # time runs as fast as possible
+    panda.remote.push("panda_hand", numpy.array([0, 8.0, 0]), ticks=1000000)  # time runs as fast as possible
     pushed = panda.remote.wait(lambda state: abs(state.q - before).max() > 1e-4)
     assert pushed.mode == "Idle"
     panda.remote.reset()
-    panda.remote.push("panda_hand", (0, 8, 0), 1000)
+    panda.remote.push("panda_hand", (0, 8, 0), ticks=1000)
     assert panda.remote.wait().q == pytest.approx(before, abs=1e-4)
     left.remote.reset()
     left.remote.wait()
     assert left.remote.body_position("stone") == pytest.approx(panda.remote.body_position("stone"))
+
+
+def test_a_torque_turns_a_body_about_its_axis(server):
+    remote = server["panda"].remote
+    remote.reset()
+    stone = remote.scene().bodies.index("stone")
+    for sign in (1, -1):
+        remote.place_body("stone", (0.3, -0.6, 0.04))
+        remote.wait()
+        remote.push("stone", (0, 0, 0.1), (0, 0, sign * 0.02), ticks=20)
+        remote.wait()
+        w, x, y, z = remote.poses()[stone, 3:]
+        turn = Rotation.from_quat([x, y, z, w]).as_rotvec()
+        assert sign * turn[2] > 0.1 and abs(turn[:2]).max() < 0.01, turn
+    with pytest.raises(LineRefused, match="The torque on body 'stone'"):
+        remote.push("stone", (0, 0, 0), (0, 0, 1e6))
+
+
+def test_what_a_simulation_in_process_does_too_has_the_same_arguments():
+    """Of the same name, or `hand_` and the name: the first arguments, with the same defaults."""
+    words = pyfranka.sim
+    shared = set()
+    for name, method in vars(Remote).items():
+        for cls in (words.Simulation, words.SimulatedRobot, words.Gripper):
+            prefix = "hand_" if cls is words.Gripper else ""
+            twin = vars(cls).get(name.removeprefix(prefix)) if name.startswith(prefix) else None
+            if inspect.isfunction(method) and inspect.isfunction(twin) and not name.startswith("_"):
+                own = [p.replace(annotation=p.empty) for p in inspect.signature(method).parameters.values()]
+                other = [p.replace(annotation=p.empty) for p in inspect.signature(twin).parameters.values()]
+                own = [parameter for parameter in own if parameter.name != "timeout"]
+                assert own == other[: len(own)], name
+                shared.add(name)
+    assert {"push", "set_load", "place_body", "step", "recover", "state_hash", "hand_grasp"} <= shared
 
 
 def test_the_scene_describes_the_world_to_draw(server):
@@ -432,7 +472,7 @@ def test_step_follows_earlier_commands(remote, robot):
         remote.reset()
         remote.wait()
         begin = remote.time
-        remote.push(f"{robot.name}_link7", (0, 5, 0), 300)
+        remote.push(f"{robot.name}_link7", (0, 5, 0), ticks=300)
         remote.step(10)
         spans.append(remote.time - begin)
     assert spans[0] == pytest.approx(spans[1], abs=1e-9) and spans[0] > 0.31
@@ -441,7 +481,7 @@ def test_step_follows_earlier_commands(remote, robot):
 def test_a_world_that_does_not_come_to_rest_is_reported(server):
     remote = server["panda"].remote
     remote.reset()
-    remote.push("panda_hand", (0, 5, 0), 60000)
+    remote.push("panda_hand", (0, 5, 0), ticks=60000)
     with pytest.raises(LineRefused, match="has not come to rest within 10 s of its time"):
         remote.wait()
     before = remote.time

@@ -14,6 +14,7 @@ import subprocess
 import sys
 import threading
 import warnings
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy as np
@@ -349,6 +350,23 @@ def test_every_public_class_shows_itself():
     assert repr(pyfranka.plot.Collector("arm")) == "<Collector of 'arm': 0 states>"
 
 
+def test_the_model_takes_copies_of_states(sim, arm):
+    arm.set_load(0.5, [0.01, 0.02, 0.05], np.diag([1e-3, 2e-3, 3e-3]))
+    arm.joint_impedance(arm.state.q + 0.1)
+    sim.step(100)
+    live, kept, model = arm.state, arm.state.copy(), arm.model
+    assert np.abs(kept.dq).min() > 0.0 and kept.m_load == 0.5
+    for frame in (pyfranka.Frame.Joint4, pyfranka.Frame.Stiffness):
+        for function in (model.pose, model.zero_jacobian, model.body_jacobian):
+            np.testing.assert_array_equal(function(frame, kept), function(frame, live))
+    for function in (model.mass, model.coriolis, model.gravity, model.zero_jacobian):
+        np.testing.assert_array_equal(function(kept), function(live))
+    np.testing.assert_array_equal(model.gravity(kept, [0, 1, 2]), model.gravity(live, [0, 1, 2]))
+    np.testing.assert_array_equal(
+        model.mass(kept), model.mass(kept.q, kept.I_total, kept.m_total, kept.F_x_Ctotal)
+    )
+
+
 def test_states_can_be_pickled(sim, arm):
     arm.command(joint_positions=arm.state.q_d + 0.5)
     sim.step(20)
@@ -556,6 +574,23 @@ def test_each_thread_may_draw(name):
             worker.join()
         pictures.append(sim.render(width=64, height=48).rgb)
     assert len(pictures) == 4 and all((one == pictures[0]).all() for one in pictures)
+
+
+def test_several_threads_may_draw_several_simulations_at_once(name):
+    robots = [KINDS[name](base=BASE)]
+    with Simulation("stone.xml", robots) as one, Simulation("stone.xml", robots) as other:
+        other.reset(objects={"stone": [0, 0.3, 0.5]})
+        alone = [sim.render(width=64, height=48).rgb for sim in (one, other)]
+        together = threading.Barrier(2)
+
+        def draw(sim):
+            together.wait()
+            return [sim.render(width=64, height=48).rgb for _ in range(10)]
+
+        with ThreadPoolExecutor(2) as threads:
+            for first, pictures in zip(alone, threads.map(draw, (one, other))):
+                assert all((picture == first).all() for picture in pictures)
+        assert (alone[0] != alone[1]).any()
 
 
 def in_a_forked_process(work):

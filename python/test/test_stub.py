@@ -156,22 +156,78 @@ def is_function(value):
     return inspect.isroutine(getattr(value, "__func__", value))
 
 
-def overloads(function):
-    """Arguments and defaults of each overload. A default without a literal is Ellipsis."""
+def typed_overloads(function):
+    """The signature of each overload."""
     function = getattr(function, "__func__", function)
+    # Of a property's function, which has no name, the arguments are the beginning.
     name = getattr(function, "__name__", "")
     text = getattr(function, "__doc__", "") or ""
     if inspect.isfunction(function):
+        each = typing.get_overloads(function) or [function]
         text = "\n".join(
-            f"{name}{inspect.signature(one)}" for one in typing.get_overloads(function) or [function]
+            re.sub(r"(: |> )'(.*?)'", r"\1\2", f"{name}{inspect.signature(one)}") for one in each
         )
-    signatures = map(_signature, re.findall(rf"^(?:\d+\. )?{name}\((.*)\) -> ", text, re.MULTILINE))
-    return [re.sub("'<.*?>'", "'Ellipsis'", str(without_types(each))) for each in signatures]
+    found = re.findall(rf"^(?:\d+\. )?(?:{name})?\((.*)\) -> (.*)$", text, re.MULTILINE)
+    return [_signature(arguments).replace(return_annotation=result) for arguments, result in found]
+
+
+def overloads(function):
+    """Arguments and defaults of each overload. A default without a literal is Ellipsis."""
+    return [re.sub("'<.*?>'", "'Ellipsis'", str(without_types(each))) for each in typed_overloads(function)]
+
+
+def without_self(signature):
+    return [each for each in signature.parameters.values() if each.name not in ("self", "cls", "type")]
 
 
 def without_types(signature):
-    kept = [each for each in signature.parameters.values() if each.name not in ("self", "cls", "type")]
-    return signature.replace(parameters=[each.replace(annotation=each.empty) for each in kept])
+    kept = without_self(signature)
+    kept = [each.replace(annotation=each.empty) for each in kept]
+    return signature.replace(parameters=kept, return_annotation=signature.empty)
+
+
+def declared_as(native, wanted):
+    """Whether a type of the stub is what pybind11 shows; of functions, tuples and
+    `object` it shows no more."""
+    native = re.sub(r"\b(_?pyfranka\.)+", "", native).replace("[3]", "")
+    optional = re.fullmatch(r"Optional\[(.*)\]", native)
+    if optional:
+        return wanted.endswith(" | None") and declared_as(optional[1], wanted.removesuffix(" | None"))
+    if native == "object":
+        return True
+    if native == "AsyncPositionControlHandler":  # a pointer
+        return wanted.removesuffix(" | None") == native
+    if native in ("function", "tuple", "dict"):
+        return wanted.startswith({"function": "typing.Callable["}.get(native, native + "["))
+    if native.startswith("numpy.ndarray[numpy.float64]"):
+        return wanted in ("Array", "ArrayLike")
+    return wanted in (native, native.replace("List", "list"), native.replace("List", "typing.Sequence"))
+
+
+def test_a_wrong_type_in_the_stub_would_be_seen():
+    assert declared_as("Optional[pyfranka.Torques]", "Torques | None")
+    assert declared_as("List[pyfranka.Record]", "typing.Sequence[Record]")
+    assert not declared_as("Optional[pyfranka.Torques]", "Torques")
+    assert not declared_as("pyfranka.RobotState", "GripperState")
+    assert not declared_as("numpy.ndarray[numpy.float64]", "float")
+
+
+@pytest.mark.parametrize("path, owner", [((), pyfranka), *classes()], ids=lambda value: str(value))
+def test_functions_and_properties_have_the_types_of_the_module(path, owner):
+    stub, actual = reduce(lambda body, name: vars(body[name]), path, DECLARED), members(owner)
+    for name in public({*actual, *stub}) - {"sweep"}:
+        declared, value = stub.get(name), actual.get(name)
+        if isinstance(value, property) and type(owner).__name__ == "pybind11_type":
+            (native,) = typed_overloads(value.fget)
+            own = stub.get("__annotations__", {}).get(name)
+            own = own or inspect.signature(declared.fget).return_annotation
+            assert declared_as(native.return_annotation, own), name
+        elif is_function(declared) and is_function(value) and not inspect.isfunction(value):
+            for own, native in zip(typed_overloads(declared), typed_overloads(value), strict=True):
+                assert declared_as(native.return_annotation, own.return_annotation), name
+                shown = {each.name: each.annotation for each in native.parameters.values()}
+                for each in without_self(own):
+                    assert declared_as(shown[each.name], each.annotation), (name, each)
 
 
 @pytest.mark.parametrize("path, owner", [((), pyfranka), *classes()], ids=lambda value: str(value))

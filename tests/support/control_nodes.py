@@ -20,7 +20,7 @@ from waiting import wait_for
 
 OK, WARN, ERROR = 0, 1, 2  # levels of diagnostics
 ONE, COMBINED = "/franka_control", "/combined_panda"
-PUSH = (0, 0, -220), 60  # far beyond the thresholds [N, ms]
+PUSH = {"force": (0, 0, -220), "ticks": 60}  # far beyond the thresholds [N, ms]
 SUCCEEDED = (GoalStatus.SUCCEEDED, "")
 TRAJECTORY_ERROR = 0.01  # [rad]
 MODES = {
@@ -132,11 +132,11 @@ class Arm:
 
     def push(self) -> None:
         """Pushes the arm until its reflex."""
-        self.operator.push(f"{self.name}_link7", *PUSH)
+        self.operator.push(f"{self.name}_link7", **PUSH)
 
     def wait_for_end_of_push(self) -> None:
         """After the reflex: a recovery during the push would end in another reflex."""
-        end = self.operator.time + 2e-3 * PUSH[1]
+        end = self.operator.time + 2e-3 * PUSH["ticks"]
         wait_for(lambda: self.operator.time > end, "The end of the push")
 
     def service(self, name: str) -> str:

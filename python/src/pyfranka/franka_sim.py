@@ -35,7 +35,7 @@ from pathlib import Path
 from pyfranka._deprecation import renamed, warn
 from pyfranka.remote import PORT, Remote
 from pyfranka.sim.arguments import no_robot, path, whole
-from pyfranka.sim.setups import FR3, KINDS, Panda
+from pyfranka.sim.setups import FR3, Panda, described
 
 if typing.TYPE_CHECKING:
     from numpy.typing import ArrayLike
@@ -55,13 +55,6 @@ ATTEMPTS = 50  # to find a free one (chosen here)
 
 class FrankaSimError(RuntimeError):
     """franka_sim could not be started, ended by itself or did not end; the text is what it has written."""
-
-
-def described(kind: str, **options: typing.Any) -> Panda | FR3:
-    """The description of a robot of a kind, "panda" or "fr3". options: those of Panda and FR3."""
-    if kind not in KINDS:
-        raise ValueError(no_robot(kind, KINDS))
-    return KINDS[kind](**options)
 
 
 def SimRobot(
@@ -105,8 +98,7 @@ class ServedRobot:
         self.protocol = robot.protocol or robot._protocols[-1]  # the newest version that it speaks
         self.remote = Remote(robot.address)  # its control interface
         if robot.load is not None:
-            mass, center, _ = typing.cast("tuple[float, ArrayLike, ArrayLike]", robot.load)
-            self.remote.set_load(mass, center)
+            self.remote.set_load(*typing.cast("tuple[float, ArrayLike, ArrayLike]", robot.load))
 
     def __repr__(self) -> str:
         return f"<{self.kind} '{self.name}' at {self.address}>"
@@ -178,7 +170,7 @@ class FrankaSim:
         arguments: Sequence[str] = (),
         program: str | os.PathLike[str] = "",
     ):
-        self._asked = [_checked(each) for each in robots or ("panda",)]
+        self._asked = [described(each) for each in robots or ("panda",)]
         values = {"pace": pace, "world": path(world, "world") or None, "patience": patience, "wait": wait}
         values |= {"linger": linger, "desk": desk or None, "desk-user": desk_user, "start": start}
         values["viewer"] = viewer or None
@@ -419,16 +411,3 @@ def _kill(process: subprocess.Popen[bytes], owner: int) -> None:
     if os.getpid() == owner:
         process.kill()
         process.wait()
-
-
-# A robot to serve.
-def _checked(robot: typing.Any) -> Panda | FR3:
-    if isinstance(robot, str):
-        return described(robot)
-    if not isinstance(robot, (Panda, FR3)):
-        raise TypeError(f"robots are Panda(...), FR3(...) and their kinds, not {robot!r}.")
-    if robot.load is not None and any(typing.cast("tuple[float, ...]", robot.load[2])):
-        raise ValueError(
-            "The inertia of a load cannot be set on the network before a client does: give mass and center."
-        )
-    return robot

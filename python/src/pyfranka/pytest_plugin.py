@@ -92,13 +92,16 @@ class Factory:
         **options: typing.Any,
     ) -> FrankaSim:
         """A running franka_sim with these robots, pyfranka.sim.Panda and FR3 or their kinds; without one, a
-        panda. options are those of Panda and FR3, such as name and realism, for robots that are given as
-        their kind.
+        panda. options: further ones of FrankaSim, such as patience; and those of Panda and FR3, such as name
+        and realism, for robots that are given as their kind.
 
         Raises FrankaSimError with the program's own sentence.
         """
+        from inspect import signature
+
         from pyfranka._deprecation import warn
-        from pyfranka.franka_sim import FrankaSim, described
+        from pyfranka.franka_sim import FrankaSim
+        from pyfranka.sim.setups import described
 
         if "arm_id" in options:
             warn("The option arm_id", "name")
@@ -106,15 +109,15 @@ class Factory:
         realism = self._setting("realism")
         if realism and "realism" not in options:
             options["realism"] = realism
-        kinds = robots or ("panda",)
-        given = [described(each, **options) if isinstance(each, str) else each for each in kinds]
+        for_server = {name: options.pop(name) for name in signature(FrankaSim).parameters if name in options}
+        given = [described(each, **options) for each in robots or ("panda",)]
         return self._stack.enter_context(
             FrankaSim(
                 *given,
                 world=world,
                 pace=(self._setting("pace") or "lockstep") if pace is None else pace,
                 arguments=arguments,
-                program=self._setting("program"),
+                **{"program": self._setting("program"), **for_server},
             )
         )
 

@@ -40,6 +40,8 @@ Array = NDArray[numpy.float64]
 # The port of the control interface.
 PORT = 1340
 NO_TURN = (1.0, 0.0, 0.0, 0.0)
+NOTHING = (0.0, 0.0, 0.0)
+NO_INERTIA = (0.0,) * 9
 # Chosen here: `hash` and `wait` may take 10 s of simulated time on a busy machine.
 TIME_LIMIT = 60.0  # [s]
 PAUSE = 0.01  # [s] between two looks (chosen here)
@@ -461,13 +463,21 @@ class Remote:
         """
         return report_of(self.send("report", timeout))
 
-    def set_load(self, mass: float, center: ArrayLike = (0, 0, 0), timeout: float | None = None) -> None:
-        """The load that the robot assumes: mass [kg], center of mass in the flange's frame, 3 [m].
+    def set_load(
+        self,
+        mass: float,
+        F_x_Cload: ArrayLike = NOTHING,
+        load_inertia: ArrayLike = NO_INERTIA,
+        timeout: float | None = None,
+    ) -> None:
+        """The load that the robot assumes: mass [kg], center of mass in F, 3 [m], inertia, 3x3 or 9 numbers
+        column by column [kg m^2].
 
-        >>> remote.set_load(0.5, (0.0, 0.0, 0.05))
+        >>> remote.set_load(0.5, (0.0, 0.0, 0.05), 0.001 * numpy.eye(3))
         >>> remote.set_load(0.0)
         """
-        self.send(words.line("load", [mass], words.numbers(center, 3, "The center of mass")), timeout)
+        parts = [words.numbers(F_x_Cload, 3, "F_x_Cload"), words.matrix(load_inertia, 3, "load_inertia")]
+        self.send(words.line("load", [mass], *parts), timeout)
 
     load = renamed("Remote.load()", "set_load()")(set_load)
 
@@ -520,7 +530,7 @@ class Remote:
         """
         self.send("hand homing", timeout)
 
-    def hand_move(self, width: float, speed: float, timeout: float | None = None) -> None:
+    def hand_move(self, width: float, speed: float = 0.1, timeout: float | None = None) -> None:
         """Moves the fingers to a width [m] at a speed [m/s]; returns when they are there. LineRefused if an
         object blocks them.
 
@@ -597,17 +607,23 @@ class Remote:
 
     # ---- the world ---------------------------------------------------------------------------------------
 
-    def push(self, body: str, force: ArrayLike, ticks: int = 1, timeout: float | None = None) -> None:
-        """A force, 3 [N] in world axes, at a body's origin, for so many milliseconds from now. Returns when
-        it has begun; wait() or step() let it end.
+    def push(
+        self,
+        body: str,
+        force: ArrayLike,
+        torque: ArrayLike = NOTHING,
+        ticks: int = 1,
+        timeout: float | None = None,
+    ) -> None:
+        """A force, 3 [N], and a torque, 3 [Nm], at a body's origin, world axes, for so many milliseconds from
+        now. Returns when it has begun; wait() or step() let it end.
 
         >>> remote.push("stone", (0.0, 0.0, 1.0), ticks=10)
         >>> remote.step(10)
         """
-        parts = words.line(
-            f"push {words.word(body, 'The name of a body')}", words.numbers(force, 3, "The force")
-        )
-        self.send(f"{parts} {words.whole(ticks, 'The duration')}", timeout)
+        parts = [words.numbers(force, 3, "The force"), words.numbers(torque, 3, "The torque")]
+        line = words.line(f"push {words.word(body, 'The name of a body')}", *parts)
+        self.send(f"{line} {words.whole(ticks, 'The duration')}", timeout)
 
     def place_body(
         self, body: str, position: ArrayLike, orientation: ArrayLike = NO_TURN, timeout: float | None = None

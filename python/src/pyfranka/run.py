@@ -32,8 +32,8 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from pyfranka.command_line import Parser
-from pyfranka.franka_sim import FrankaSim, FrankaSimError, described, last_lines
-from pyfranka.sim.setups import KINDS
+from pyfranka.franka_sim import FrankaSim, FrankaSimError, last_lines
+from pyfranka.sim.setups import KINDS, described
 
 __all__ = ["main"]
 

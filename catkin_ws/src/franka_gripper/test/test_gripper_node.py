@@ -283,7 +283,7 @@ def test_a_blocked_move_ends_and_reports_the_width(hand_with_stone):
 def test_a_lost_object_shows_in_the_width(hand_with_stone):
     assert hand_with_stone.grasp(0.03, force=5.0).result()[:2] == (SUCCEEDED, True)
     # Out of the fingers, but not out of the world.
-    hand_with_stone.server.robot.remote.push("stone", (20, 0, 0), 60)
+    hand_with_stone.server.robot.remote.push("stone", (20, 0, 0), ticks=60)
     assert hand_with_stone.fingers.until(lambda width: width < 0.005)
 
 

@@ -4,6 +4,7 @@
 #include <franka/rate_limiting.h>
 #include <franka_core/finite.h>
 #include <franka_core/joint_limiter.h>
+#include <franka_core/motion_limits.h>
 #include <franka_core/transform.h>
 #include <franka_sim/robot/plant.h>
 #include <franka_sim_mujoco/command_shaper.h>
@@ -46,7 +47,7 @@ void filter(const ShapingOptions& options, const std::array<double, N>& last,
   }
 }
 
-franka_core::JointVelocityRange rangeOf(const franka_sim::MotionLimits& limits,
+franka_core::JointVelocityRange rangeOf(const franka_core::MotionLimits& limits,
                                         const Joints& q) noexcept {
   if (limits.position_velocity) {
     return franka_core::rangeAt(
@@ -60,7 +61,7 @@ franka_core::JointVelocityRange rangeOf(const franka_sim::MotionLimits& limits,
   return range;
 }
 
-void limitVelocities(const franka_core::RobotState& state, const franka_sim::MotionLimits& limits,
+void limitVelocities(const franka_core::RobotState& state, const franka_core::MotionLimits& limits,
                      Joints& dq) noexcept {
   dq =
       franka_core::limitVelocities(rangeOf(limits, state.q_d), withMargin(limits.arm.ddq),
@@ -68,7 +69,7 @@ void limitVelocities(const franka_core::RobotState& state, const franka_sim::Mot
 }
 
 Joints shapePositions(const ShapingOptions& options, Joints q, const franka_core::RobotState& state,
-                      const franka_sim::MotionLimits& limits) {
+                      const franka_core::MotionLimits& limits) {
   filter(options, state.q_d, q);
   if (options.rate_limiting) {
     Joints dq;
@@ -85,7 +86,7 @@ Joints shapePositions(const ShapingOptions& options, Joints q, const franka_core
 
 Joints shapeVelocities(const ShapingOptions& options, Joints dq,
                        const franka_core::RobotState& state,
-                       const franka_sim::MotionLimits& limits) {
+                       const franka_core::MotionLimits& limits) {
   filter(options, state.dq_d, dq);
   if (options.rate_limiting) {
     limitVelocities(state, limits, dq);
@@ -95,7 +96,7 @@ Joints shapeVelocities(const ShapingOptions& options, Joints dq,
 
 std::array<double, 16> shapePose(const ShapingOptions& options, std::array<double, 16> pose,
                                  const franka_core::RobotState& state,
-                                 const franka_sim::MotionLimits& limits) {
+                                 const franka_core::MotionLimits& limits) {
   if (isFiltered(options)) {
     pose = franka::cartesianLowpassFilter(kTick, pose, state.O_T_EE_c, options.cutoff_frequency);
   }
@@ -113,7 +114,7 @@ std::array<double, 16> shapePose(const ShapingOptions& options, std::array<doubl
 
 std::array<double, 6> shapeTwist(const ShapingOptions& options, std::array<double, 6> twist,
                                  const franka_core::RobotState& state,
-                                 const franka_sim::MotionLimits& limits) {
+                                 const franka_core::MotionLimits& limits) {
   filter(options, state.O_dP_EE_c, twist);
   if (options.rate_limiting) {
     const auto& [v, a, j] = limits.arm.translation;
@@ -130,7 +131,7 @@ void setElbow(const std::array<double, 2>& elbow, franka_core::RobotCommand& com
 }
 
 void shapeElbow(const ShapingOptions& options, const std::array<double, 2>& elbow,
-                const franka_core::RobotState& state, const franka_sim::MotionLimits& limits,
+                const franka_core::RobotState& state, const franka_core::MotionLimits& limits,
                 franka_core::RobotCommand& command) {
   if (!command.valid_elbow || !franka_core::allFinite(elbow)) {
     return;
@@ -147,7 +148,7 @@ void shapeElbow(const ShapingOptions& options, const std::array<double, 2>& elbo
 }
 
 Joints shapeTorques(const ShapingOptions& options, Joints torque,
-                    const franka_core::RobotState& state, const franka_sim::MotionLimits& limits) {
+                    const franka_core::RobotState& state, const franka_core::MotionLimits& limits) {
   filter(options, state.tau_J_d, torque);
   return options.rate_limiting
              ? franka::limitRate(withMargin(limits.arm.dtau), torque, state.tau_J_d)
@@ -156,7 +157,7 @@ Joints shapeTorques(const ShapingOptions& options, Joints torque,
 
 // The controllers' command, with one function per kind. Values that are not finite pass unchanged.
 void shapeAll(const ShapingOptions& options, ControlMode mode, const ArmCommands& desired,
-              const franka_core::RobotState& state, const franka_sim::MotionLimits& limits,
+              const franka_core::RobotState& state, const franka_core::MotionLimits& limits,
               franka_core::RobotCommand& command) {
   if (contains(mode, ControlMode::JointTorque) && options.torques &&
       franka_core::allFinite(desired.torque)) {
@@ -209,7 +210,7 @@ franka_core::RobotCommand unshaped(ControlMode mode, const ArmCommands& desired)
 franka_core::RobotCommand shapeCommand(const ShapingOptions& options, ControlMode mode,
                                        const ArmCommands& desired,
                                        const franka_core::RobotState& state,
-                                       const franka_sim::MotionLimits& limits) noexcept {
+                                       const franka_core::MotionLimits& limits) noexcept {
   franka_core::RobotCommand command = unshaped(mode, desired);
   command.message_id = state.message_id;
   try {

@@ -23,7 +23,7 @@ MOST_WORLDS = 100_000  # chosen here: some hundred gigabytes
 
 
 def _worlds(
-    world: str | os.PathLike[str], robots: Sequence[_Setup] | None, seeds: Sequence[int], threads: int
+    world: str | os.PathLike[str], robots: Sequence[_Setup | str] | None, seeds: Sequence[int], threads: int
 ) -> list[Simulation]:
     """Simulations with these seeds. What cannot be simulated is refused after the first one."""
 
@@ -60,7 +60,7 @@ class SimulationBatch(Sequence[Simulation]):
         self,
         number: int,
         world: str | os.PathLike[str] = "",
-        robots: Sequence[_Setup] | None = None,
+        robots: Sequence[_Setup | str] | None = None,
         seed: int = 1,
         threads: int | None = None,
         observe: Iterable[str] | None = None,
@@ -71,7 +71,7 @@ class SimulationBatch(Sequence[Simulation]):
             observe = [text(name, "A name of observe") for name in items(observe, "observe", "names")]
         sequence = numpy.random.SeedSequence(seed_of(seed))
         self.seeds = tuple(int(s) for s in sequence.generate_state(number))
-        robots = robots if robots is None else items(robots, "robots", "Panda(...) and FR3(...)")
+        robots = robots if robots is None else items(robots, "robots", "Panda(...), FR3(...) and their kinds")
         self._worlds = _worlds(world, robots, self.seeds, threads)
         self._worlds[0]._warn_of_overlaps(3)  # all have the same robots at the same places
         self._native = _sim.Batch([one._native for one in self._worlds], threads, observe)
@@ -98,6 +98,8 @@ class SimulationBatch(Sequence[Simulation]):
         return f"<SimulationBatch of {len(self)} worlds, the first: {self[0]!r}>"
 
     def __enter__(self) -> SimulationBatch:
+        for one in self._worlds:
+            one.__enter__()
         return self
 
     def __exit__(self, *error: object) -> None:

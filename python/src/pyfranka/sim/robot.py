@@ -403,7 +403,9 @@ class SimulatedRobot:
         """
         self._native.set_K(EE_T_K)
 
-    def set_load(self, mass: float, F_x_Cload: ArrayLike, load_inertia: ArrayLike) -> None:
+    def set_load(
+        self, mass: float, F_x_Cload: ArrayLike = (0.0, 0.0, 0.0), load_inertia: ArrayLike = (0.0,) * 9
+    ) -> None:
         """The load that the robot assumes: mass [kg], center of mass in F, 3 [m], inertia, 3x3
         [kg m^2].
 

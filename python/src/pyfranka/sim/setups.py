@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike
 
 from pyfranka._native import _sim
 
-from .arguments import inertia, items, numbers, path, text, whole
+from .arguments import inertia, items, no_robot, numbers, path, text, whole
 
 NOT_IN_NAMES = re.compile(r"[\s\"'<>&/:]")  # of XML, and of names in names
 
@@ -181,3 +181,14 @@ class FR3(_Setup):
 
 # The kinds of robots by their names.
 KINDS: dict[str, type[Panda] | type[FR3]] = {Panda.kind: Panda, FR3.kind: FR3}
+
+
+def described(robot: Panda | FR3 | str, **options: typing.Any) -> Panda | FR3:
+    """A robot as it is given: described, or by its kind, "panda" or "fr3", and the options of its class."""
+    if isinstance(robot, str):
+        if robot not in KINDS:
+            raise ValueError(no_robot(robot, KINDS))
+        return KINDS[robot](**options)
+    if not isinstance(robot, (Panda, FR3)):
+        raise TypeError(f"robots are Panda(...), FR3(...) and their kinds, not {robot!r}.")
+    return robot

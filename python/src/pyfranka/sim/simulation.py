@@ -23,7 +23,7 @@ from pyfranka._native import _sim
 
 from .arguments import items, mapping, no_robot, numbers, path, seed_of, text
 from .robot import Array, SimulatedRobot
-from .setups import FR3, Panda, _Setup
+from .setups import _Setup, described
 
 NO_TURN = (1.0, 0.0, 0.0, 0.0)
 ATTENTION = 0.02  # [s] between looks at the network (chosen here)
@@ -83,8 +83,8 @@ class Simulation:
     `name in sim`, `len(sim)` and `sim.items()` are about its robots.
 
     world: an MJCF or SDF file, or the name of one that is installed with franka_sim (stone.xml, push.xml,
-    hand_over.xml); empty: an empty world. robots: Panda and FR3. seed: of all randomness; the same seed and
-    the same calls give the same bits.
+    hand_over.xml); empty: an empty world. robots: Panda, FR3 or their kinds. seed: of all
+    randomness; the same seed and the same calls give the same bits.
 
     Raises RuntimeError or ValueError with a sentence for a world or a robot that cannot be used.
 
@@ -95,21 +95,20 @@ class Simulation:
     """
 
     def __init__(
-        self, world: str | os.PathLike[str] = "", robots: Sequence[_Setup] | None = None, seed: int = 1
+        self, world: str | os.PathLike[str] = "", robots: Sequence[_Setup | str] | None = None, seed: int = 1
     ):
         self._make(world, robots, seed)
         self._warn_of_overlaps(3)
 
-    def _make(self, world: str | os.PathLike[str], robots: Sequence[_Setup] | None, seed: int) -> None:
+    def _make(self, world: str | os.PathLike[str], robots: Sequence[_Setup | str] | None, seed: int) -> None:
         """Any thread may call it."""
         world, seed = path(world, "world"), seed_of(seed)
         taken: set[str] = set()
-        robots = [Panda()] if robots is None else items(robots, "robots", "Panda(...) and FR3(...)")
-        for robot in robots:
-            if not isinstance(robot, (Panda, FR3)):
-                raise TypeError(f"robots are Panda(...) and FR3(...), not {robot!r}.")
+        what = "Panda(...), FR3(...) and their kinds"
+        given = [described(each) for each in (["panda"] if robots is None else items(robots, "robots", what))]
+        for robot in given:
             robot._require_in_process()
-        named = [robot._named(taken) for robot in robots]
+        named = [robot._named(taken) for robot in given]
         setups = [robot._seeded(seed + i) for i, robot in enumerate(named)]
         self._random = numpy.random.default_rng(seed)
         self._attendant: threading.Thread | None = None
@@ -439,6 +438,9 @@ class Simulation:
 
     def render(self, camera: str = "", width: int = 640, height: int = 480) -> Picture:
         """A picture of a camera; without a name, of a view of the whole world. Needs no display.
+
+        Any thread may draw; those that draw at once, of several simulations, take turns. Raises RuntimeError
+        in a process that was forked after a picture was drawn.
 
         >>> sim.render(width=64, height=48).rgb.shape
         (48, 64, 3)

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/fci/state_codec.h>
+#include <franka_core/motion_limits.h>
 #include <franka_core/numbers.h>
 #include <franka_core/smooth_step.h>
 #include <franka_sim/robot/control_unit_parameters.h>
@@ -42,7 +43,7 @@ double stepVelocity(double share) noexcept {
 
 // In the direction of the motion [rad/s].
 double OperatorMotion::velocityLimit(std::size_t joint, double q) const noexcept {
-  const MotionLimits& limits = unit_->limits();
+  const franka_core::MotionLimits& limits = unit_->limits();
   return to_[joint] > from_[joint] ? limits.highestVelocity(joint, q)
                                    : -limits.lowestVelocity(joint, q);
 }
@@ -50,7 +51,7 @@ double OperatorMotion::velocityLimit(std::size_t joint, double q) const noexcept
 // Joint velocity limits may depend on the position, so the way is sampled.
 double OperatorMotion::shortestDuration(double speed) const noexcept {
   constexpr int kSamples = 200;
-  const MotionLimits& limits = unit_->limits();
+  const franka_core::MotionLimits& limits = unit_->limits();
   double duration = 0.1;
   for (std::size_t i = 0; i < to_.size(); i++) {
     const double way = to_[i] - from_[i];

@@ -61,9 +61,11 @@ void addLink(LineServer& lines, fci::SimRobot& robot) {
 }
 
 void addWorld(LineServer& lines, fci::Host& host, World& world) {
-  lines.add("push BODY FX FY FZ MILLISECONDS", [&](const Words& words) {
-    const std::uint64_t ticks = toTicks(words.at(4));
-    pushBody(world, words.at(0), toVector(words, 1), {}, ticks);
+  lines.add("push BODY FX FY FZ [TX TY TZ] MILLISECONDS", [&](const Words& words) {
+    const bool with_torque = words.size() > 5;
+    const std::uint64_t ticks = toTicks(words.at(with_torque ? 7 : 4));
+    const auto torque = with_torque ? toVector(words, 4) : std::array<double, 3>{};
+    pushBody(world, words.at(0), toVector(words, 1), torque, ticks);
     host.runFree(ticks);
     return "";
   });
@@ -181,8 +183,13 @@ void addWalls(LineServer& lines, fci::SimRobot& robot) {
 }
 
 void addRobot(LineServer& lines, fci::SimRobot& robot, const fci::Host& host, const World& world) {
-  lines.add("load MASS X Y Z", [&robot](const Words& words) {
-    const franka_core::Payload load{toNumber(words.at(0)), toVector(words, 1), {}};
+  lines.add("load MASS X Y Z [INERTIA]", [&robot](const Words& words) {
+    franka_core::Payload load{toNumber(words.at(0)), toVector(words, 1), {}};
+    if (words.size() > 4) {
+      for (std::size_t i = 0; i < load.inertia.size(); i++) {
+        load.inertia[i] = toNumber(words.at(4 + i));
+      }
+    }
     fci::setLoad(robot, load);
     return "";
   });

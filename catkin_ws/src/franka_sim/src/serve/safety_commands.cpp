@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/motion_limits.h>
 #include <franka_core/numbers.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/serve/operator_commands.h>

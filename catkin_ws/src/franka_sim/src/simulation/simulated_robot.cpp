@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/fci/texts.h>
+#include <franka_core/motion_limits.h>
 #include <franka_core/robot_error.h>
 #include <franka_core/rotations.h>
 #include <franka_core/smooth_step.h>

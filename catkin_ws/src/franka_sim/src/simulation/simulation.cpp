@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_core/motion_limits.h>
 #include <franka_sim/physics/world_properties.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <franka_sim/simulation/robot_setup.h>
@@ -83,7 +84,7 @@ void Simulation::restore(const SimulationSnapshot& snapshot) {
 
 void Simulation::checkPositions(const SimulatedRobot& robot, const std::array<double, 7>& q) {
   for (std::size_t i = 0; i < q.size(); i++) {
-    const MotionLimits& limits = robot.units().unit().limits();
+    const franka_core::MotionLimits& limits = robot.units().unit().limits();
     const franka_core::JointRange range = limits.reach(i);
     if (!(q[i] >= range.lowest && q[i] <= range.highest)) {
       throw std::invalid_argument("Joint " + std::to_string(i + 1) + " of '" +

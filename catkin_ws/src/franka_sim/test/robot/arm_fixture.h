@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/motion_limits.h>
 #include <gtest/gtest.h>
 
 #include "fake_arm.h"

@@ -4,8 +4,11 @@
 
 #include <franka_core/robot_state.h>
 #include <franka_hw/control_mode.h>
-#include <franka_sim/robot/limits.h>
 #include <franka_sim_mujoco/arm_commands.h>
+
+namespace franka_core {
+struct MotionLimits;
+}
 
 namespace franka_sim_mujoco {
 
@@ -33,6 +36,6 @@ struct ShapingOptions {
 franka_core::RobotCommand shapeCommand(const ShapingOptions& options, franka_hw::ControlMode mode,
                                        const ArmCommands& desired,
                                        const franka_core::RobotState& state,
-                                       const franka_sim::MotionLimits& limits) noexcept;
+                                       const franka_core::MotionLimits& limits) noexcept;
 
 }  // namespace franka_sim_mujoco

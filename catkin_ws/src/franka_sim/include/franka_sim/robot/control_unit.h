@@ -5,7 +5,6 @@
 #include <franka_core/fci/commands.h>
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/control_unit_parameters.h>
-#include <franka_sim/robot/limits.h>
 #include <franka_sim/robot/plant.h>
 
 #include <array>
@@ -18,6 +17,10 @@
 /// @file
 /// The requests of a control unit: those of the FCI, and those of the operator or the server. Their
 /// answers: ControlUnit::request.
+
+namespace franka_core {
+struct MotionLimits;
+}
 
 namespace franka_sim {
 
@@ -198,8 +201,8 @@ class ControlUnit {
   UnitStatus status() const noexcept;
   /// The parameters with the changes by requests.
   const ControlUnitParameters& configuration() const noexcept;
-  /// The limits of motions.
-  const MotionLimits& limits() const noexcept;
+  /// The limits of motions (franka_core/motion_limits.h).
+  const franka_core::MotionLimits& limits() const noexcept;
   /// The virtual wall with that number; nullptr if there is no such number. See VirtualWalls.
   const franka_core::fci::CartesianLimit* virtualWall(std::int32_t id) const noexcept;
 

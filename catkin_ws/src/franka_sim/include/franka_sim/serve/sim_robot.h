@@ -4,6 +4,7 @@
 
 #include <franka_core/arm_model.h>
 #include <franka_core/fci/protocol.h>
+#include <franka_core/robot_error.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/robot/whole_robot.h>
 #include <franka_sim/serve/host.h>
