@@ -64,6 +64,19 @@ def on_the_page():
 
 
 @BUILDS_IMAGES
+def test_the_stage_packages_makes_them_and_so_does_install_in_a_clone(tmp_path):
+    with bare_debian(tmp_path) as bare:
+        Image(bare, TOP, {}).build(stages_of(DOCKERFILE.read_text())["packages"])
+        made = bare.root / "source" / "dist" / "deb"
+        assert (made / "Packages").exists() and len(list(made.glob("ros-franka-*.deb"))) > 10
+        shutil.rmtree(made)
+        bare.must("env", "CCACHE_DIR=/ccache", "/source/ci/install", timeout=5400)
+        version = bare.must("/opt/franka_ros/env.sh", "rosversion", "franka_control")
+        assert version == re.search(r"^## (\S+)", (TOP / "CHANGELOG.md").read_text(), re.MULTILINE)[1] + "\n"
+        assert "is installed already" in bare.must("/source/ci/install")
+
+
+@BUILDS_IMAGES
 def test_the_runtime_image_is_as_small_as_the_page_says(image):
     assert gigabytes(image) == pytest.approx(on_the_page()[0], abs=0.1)
 

@@ -23,16 +23,9 @@ MODULES = ("", ".franka_sim", ".gym", ".lerobot", ".plot", ".sim", ".sweeps")
 ROBOT, GRIPPER = "172.16.0.2", "172.16.0.3"
 # Names without an example, with the reason. A new name gets an example.
 PROGRAM = "a program's entry, with the program's own help"
-CHANGES_ALL = "its effect outlasts the call: other examples could not run any more"
-OF_DESK = "needs a robot with Desk's rules"
 OF_GYMNASIUM = "Gymnasium's own"
 WITHOUT = {
     "pyfranka.set_current_thread_to_highest_scheduler_priority": "no test runs at real-time priority",
-    **{
-        f"pyfranka.sim.Remote.{name}": CHANGES_ALL
-        for name in ("deactivate_fci", "operating_mode", "set_power", "quit", "inject")
-    },
-    **{f"pyfranka.sim.Remote.{name}": OF_DESK for name in ("lock_joints", "unlock_joints", "acknowledge")},
     "pyfranka.plot.read_bag": "needs a bag of ROS",
     "pyfranka.lerobot.convert_recording": "needs a recording of some seconds",
     "pyfranka.lerobot.main": PROGRAM,

@@ -121,6 +121,24 @@ def play(env, seed, steps=None):
     return seen
 
 
+@pytest.mark.parametrize(
+    ("arguments", "sentence"),
+    [
+        ({"env": 5}, "Expected env to be a `gymnasium.Env`"),
+        ({"folder": 5}, "folder must be the name of a file, not 5."),
+        ({"task": 5}, "task must be a text, not 5."),
+        ({"only_success": "yes"}, "only_success must be True or False, not 'yes'."),
+    ],
+)
+def test_a_recorder_with_wrong_arguments_is_refused_and_writes_nothing(arguments, sentence, folder):
+    with pytest.raises(TypeError) as refused:
+        pyfranka.gym.RecordEpisodes(
+            **{"env": gymnasium.make("pyfranka/Reach-v0"), "folder": folder, **arguments}
+        )
+    assert sentence in str(refused.value)
+    assert not folder.exists()
+
+
 def test_episodes_of_an_environment_are_read_back(folder, ffmpeg):
     options = {"observation": "state+pictures", "size": (32, 24), "frequency": 25, "robot": "fr3"}
     inner = gymnasium.make("pyfranka/Push-v0", max_episode_steps=4, **options)

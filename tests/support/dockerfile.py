@@ -1,7 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 """Builds stages of the project's Dockerfile in a bare Debian, without Docker: the instructions that it uses,
-and no others. A mount of RUN is a copy that is there while the command runs."""
+and no others. A mount of RUN is a copy that is there while the command runs; the folder of a cache stays."""
 
 import json
 import re
@@ -11,7 +11,7 @@ import subprocess
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from bare_debian import BareDebian
+from bare_debian import BareDebian, copy_project
 
 
 @dataclass
@@ -72,7 +72,11 @@ class Image:
 
     def _do_copy(self, value: str) -> None:
         source, target = value.split()
-        there = self.bare.root / target.lstrip("/")
+        there = self.bare.root / str(Path(self.folder, target)).lstrip("/")
+        if source == ".":
+            there.rmdir()
+            copy_project(there)
+            return
         there.parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(self.context / source, there)
 
@@ -84,10 +88,13 @@ class Image:
                 dict(part.split("=", 1) for part in option.removeprefix("--mount=").split(",")).get(key, "")
                 for key in ("type", "target", "from", "source")
             )
-            assert kind == "bind", f"{kind} is a mount that this helper does not know"
+            assert kind in ("bind", "cache"), f"{kind} is a mount that this helper does not know"
+            if kind == "cache":
+                (self.bare.root / target.lstrip("/")).mkdir(exist_ok=True)
+                continue
             copies.append(self.bare.root / target.lstrip("/"))
             shutil.copytree(self.mounts[stage, source], copies[-1])
-        result = self._run(["/bin/sh", "-c", command], 1800)
+        result = self._run(["/bin/sh", "-c", command], 5400)
         assert result.returncode == 0, f"RUN {value}: {result.stdout[-3000:]}{result.stderr[-3000:]}"
         for copy in copies:
             shutil.rmtree(copy)

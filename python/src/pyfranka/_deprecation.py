@@ -14,7 +14,9 @@ Function = typing.TypeVar("Function", bound=typing.Callable[..., typing.Any])
 
 def warn(old: str, new: str, stacklevel: int = 3) -> None:
     """Warns of an old name, for the caller of the function that calls this one."""
-    warnings.warn(f"{old} is now {new}.", DeprecationWarning, stacklevel=stacklevel)
+    warnings.warn(
+        f"{old} is now {new}; the old name goes with 0.3.", DeprecationWarning, stacklevel=stacklevel
+    )
 
 
 def renamed(old: str, new: str) -> typing.Callable[[Function], Function]:
@@ -26,7 +28,7 @@ def renamed(old: str, new: str) -> typing.Callable[[Function], Function]:
             warn(old, new)
             return function(*args, **kwargs)
 
-        call.__doc__ = f"Deprecated: {old} is now {new}."
+        call.__doc__ = f"Deprecated: {old} is now {new}; the old name goes with 0.3."
         return typing.cast(Function, call)
 
     return decorate

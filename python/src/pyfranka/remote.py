@@ -286,15 +286,28 @@ class Remote:
         self.send("fci on", timeout)
 
     def deactivate_fci(self, timeout: float | None = None) -> None:
-        """Clients may not connect: a motion is aborted and the client disconnected."""
+        """Clients may not connect: a motion is aborted and the client disconnected.
+
+        >>> with FrankaSim("fr3") as server:
+        ...     server.robot.remote.deactivate_fci()
+        """
         self.send("fci off", timeout)
 
     def lock_joints(self, timeout: float | None = None) -> None:
-        """Closes the brakes with Desk's rules; returns when they have closed."""
+        """Closes the brakes with Desk's rules; returns when they have closed.
+
+        >>> with FrankaSim("panda", start="locked") as server:
+        ...     server.robot.remote.unlock_joints()
+        ...     server.robot.remote.lock_joints()
+        """
         self.send("joints lock", timeout)
 
     def unlock_joints(self, timeout: float | None = None) -> None:
-        """Opens the brakes, joint by joint with Desk's rules; returns when they are open."""
+        """Opens the brakes, joint by joint with Desk's rules; returns when they are open.
+
+        >>> with FrankaSim("fr3", start="locked") as server:
+        ...     server.robot.remote.unlock_joints()
+        """
         self.send("joints unlock", timeout)
 
     @renamed("Remote.brakes()", "close_brakes() and open_brakes()")
@@ -312,7 +325,11 @@ class Remote:
     def operating_mode(
         self, mode: typing.Literal["execution", "programming"], timeout: float | None = None
     ) -> None:
-        """Of an FR3; programming ends the FCI."""
+        """Of an FR3; programming ends the FCI.
+
+        >>> with FrankaSim("fr3", start="locked") as server:
+        ...     server.robot.remote.operating_mode("programming")
+        """
         self.send(f"operating_mode {words.word(mode, 'The mode')}", timeout)
 
     def set_input(
@@ -375,11 +392,20 @@ class Remote:
         self.send("self_test" if due is None else words.line("self_test due", [due]), timeout)
 
     def acknowledge(self, error: str, timeout: float | None = None) -> None:
-        """Acknowledges an error of the safety controller, such as td2Timeout."""
+        """Acknowledges an error of the safety controller, such as td2Timeout.
+
+        >>> with FrankaSim("fr3", start="locked") as server:
+        ...     server.robot.remote.inject("td2Timeout", True)
+        ...     server.robot.remote.acknowledge("td2Timeout")
+        """
         self.send(f"acknowledge {words.word(error, 'The name of an error')}", timeout)
 
     def inject(self, error: str, active: bool, joint: int = 0, timeout: float | None = None) -> None:
-        """Lets the safety controller have an error, or not. joint: 1 to 7, for those of a joint."""
+        """Lets the safety controller have an error, or not. joint: 1 to 7, for those of a joint.
+
+        >>> with FrankaSim("fr3", start="locked") as server:
+        ...     server.robot.remote.inject("jointLimitViolation", True, joint=2)
+        """
         parts = [
             words.word(error, "The name of an error"),
             *([str(words.whole(joint, "A joint"))] if joint else []),
@@ -441,7 +467,11 @@ class Remote:
     )
 
     def set_power(self, on: bool, timeout: float | None = None) -> None:
-        """Off: the robot is not reachable. On: it starts, with Desk's rules locked."""
+        """Off: the robot is not reachable. On: it starts, with Desk's rules locked.
+
+        >>> with FrankaSim("fr3") as server:
+        ...     server.robot.remote.set_power(False)
+        """
         self.send(f"power {words.switch(on)}", timeout)
 
     power = renamed("Remote.power()", "set_power()")(set_power)
@@ -755,7 +785,11 @@ class Remote:
         self.send("reset", timeout)
 
     def quit(self, timeout: float | None = None) -> None:
-        """Ends the program, with all its robots; returns when nothing listens there."""
+        """Ends the program, with all its robots; returns when nothing listens there.
+
+        >>> with FrankaSim("fr3") as server:
+        ...     server.robot.remote.quit()
+        """
         limit = self.timeout if timeout is None else words.seconds(timeout)
         deadline = time.monotonic() + limit
         self.send("quit", limit)

@@ -64,6 +64,8 @@ class RecordEpisodes(gymnasium.Wrapper[Any, Any, Any, Any]):
             for number in range(where.stop - where.start)
         ]
         self._task = text(task, "task") or (env.spec.id if env.spec else type(env.unwrapped).__name__)
+        if not isinstance(only_success, bool):
+            raise TypeError(f"only_success must be True or False, not {only_success!r}.")
         self._only_success = only_success
         self._observation: Any = None
         self.dataset = Dataset(folder, int(fps), getattr(options, "robot", ""), {"observation.state": names})
