@@ -4,6 +4,7 @@
 
 import fcntl
 import os
+import re
 import subprocess
 import sys
 import time
@@ -12,6 +13,7 @@ from pathlib import Path
 
 import pytest
 from bare_debian import possible
+from page_output import Example, examples
 
 TOP = Path(__file__).resolve().parent.parent
 WORKSPACE = TOP / "catkin_ws"
@@ -57,6 +59,20 @@ def make_once(name: str, command: list[str | Path], timeout: float) -> None:
         assert result.returncode == 0, (result.stdout + result.stderr)[-6000:]
         made.touch()
         os.utime(made, (begin, begin))
+
+
+@pytest.fixture(scope="session")
+def wheel() -> Path:
+    """The wheel of pyfranka."""
+    result = subprocess.run([TOP / "franka", "wheel"], text=True, capture_output=True, timeout=3000)
+    assert result.returncode == 0, result.stdout[-3000:] + result.stderr[-3000:]
+    return Path(re.search(r"The wheel: (\S+)", result.stdout).group(1))
+
+
+@pytest.fixture(scope="session")
+def quick_start() -> Example:
+    """The first program of the page about Python."""
+    return examples("python.md")[0]
 
 
 @pytest.fixture(scope="session")

@@ -16,15 +16,12 @@ from email.parser import Parser
 from pathlib import Path
 
 import pytest
-from bare_debian import BareDebian, bare_debian, possible
 from fci_session import simulated
-from genuine_clients import LOCKS, client_python, files, locked, pip
-from page_output import Example, examples
+from genuine_clients import files, pip
 
 TOP = Path(__file__).resolve().parent.parent
 SUPPORT = TOP / "tests" / "support"
 PICK_AND_PLACE = SUPPORT / "wheel_pick_and_place.py"
-GENUINE_CLIENT = SUPPORT / "wheel_genuine_client.py"
 PACKAGE = TOP / "python" / "src" / "pyfranka"
 # The build of the wheel has a limit of its own: from an empty compiler cache it takes minutes.
 pytestmark = pytest.mark.timeout(func_only=True)
@@ -49,19 +46,6 @@ OF_MODULES = {
     "sweeps": ("console_scripts", "pyfranka-sweep", "pyfranka.sweeps:main"),
     "meshes": ("console_scripts", "pyfranka-meshes", "pyfranka.meshes:main"),
 }
-
-
-@pytest.fixture(scope="session")
-def wheel() -> Path:
-    result = subprocess.run([TOP / "franka", "wheel"], text=True, capture_output=True, timeout=3000)
-    assert result.returncode == 0, result.stdout[-3000:] + result.stderr[-3000:]
-    return Path(re.search(r"The wheel: (\S+)", result.stdout).group(1))
-
-
-@pytest.fixture(scope="session")
-def quick_start() -> Example:
-    """The first program of the page."""
-    return examples("python.md")[0]
 
 
 @pytest.fixture(scope="session")
@@ -227,22 +211,13 @@ def test_the_quick_start_of_the_page_runs(environment, quick_start):
     quick_start.check(environment.python(quick_start.code))
 
 
-@pytest.fixture(scope="session")
-def carried() -> dict:
-    """What pick and place gives in the workspace."""
-    return json.loads(subprocess.check_output([sys.executable, PICK_AND_PLACE], text=True, timeout=300))
-
-
-def check_pick_and_place(seen: dict):
-    assert seen["grasped"] and seen["held"] and seen["away"] < 0.01
-
-
-def test_pick_and_place_has_the_bits_of_the_workspace(environment, carried):
+def test_pick_and_place_has_the_bits_of_the_workspace(environment):
     result = environment.run("python", PICK_AND_PLACE)
     assert result.returncode == 0, result.stderr
     seen = json.loads(result.stdout)
-    check_pick_and_place(seen)
-    assert seen["hash"] == carried["hash"]
+    assert seen["grasped"] and seen["held"] and seen["away"] < 0.01
+    in_workspace = subprocess.check_output([sys.executable, PICK_AND_PLACE], text=True, timeout=300)
+    assert seen["hash"] == json.loads(in_workspace)["hash"]
 
 
 def test_libraries_of_a_sourced_workspace_are_not_used(environment):
@@ -488,109 +463,6 @@ def test_the_plugin_is_found_by_its_entry_point(environment):
 # ---- long form -------------------------------------------------------------------------------------------
 
 
-# Prints how often the page of a robot of its own is there, and whether it has a text.
-DESK_PAGE = """
-import ssl, subprocess, sys, urllib.request
-program = [sys.prefix + "/bin/franka_sim", "--ip", "127.0.61.10", "--desk"]
-with subprocess.Popen(program, stdout=subprocess.PIPE, text=True) as served:
-    try:
-        while "https://" not in (line := served.stdout.readline()):
-            assert line, "franka_sim has ended"
-        trusting = ssl._create_unverified_context()
-        address = next(word for word in line.split() if word.startswith("https://"))
-        page = urllib.request.urlopen(address.rstrip(".,"), context=trusting, timeout=30).read()
-        print(page.count(b"<html"), len(page) > 500)
-    finally:
-        served.terminate()
-"""
-ON_BARE_DEBIAN = pytest.mark.long_form("makes a bare Debian")
-
-
-@pytest.fixture(scope="session")
-def bare(wheel, tmp_path_factory):
-    """A bare Debian of this machine's release with Python's venv, in it an environment with the wheel."""
-    if reason := possible():
-        pytest.skip(reason)
-    with bare_debian(tmp_path_factory.mktemp("bare"), "python3-venv") as bare:
-        install_on(bare, wheel)
-        yield bare
-
-
-def install_on(bare: BareDebian, wheel: Path):
-    shutil.copy(wheel, bare.root / "root")
-    for file in (PICK_AND_PLACE, GENUINE_CLIENT, LOCKS / "wheel.txt", LOCKS / "panda.txt"):
-        shutil.copy(file, bare.root / "root")
-    bare.must("python3", "-m", "venv", "/env")
-    bare.must("/env/bin/pip", "install", "--quiet", *locked("wheel", Path("/root")))
-    bare.must("/env/bin/pip", "install", "--quiet", "--no-index", f"/root/{wheel.name}")
-
-
-def check_simulation_on(bare: BareDebian, quick_start: Example):
-    quick_start.check(bare.must("/env/bin/python", "-c", quick_start.code))
-    seen = json.loads(bare.must("/env/bin/python", f"/root/{PICK_AND_PLACE.name}"))
-    check_pick_and_place(seen)
-    # Pictures need drivers, which are not here.
-    assert seen["picture"].startswith("No pictures can be drawn (EGL: libEGL.so.1 cannot be loaded")
-    assert "install the packages libegl1 and libgl1-mesa-dri, or libosmesa6" in seen["picture"]
-    window = bare.run("/env/bin/franka_sim", "--viewer", "--ip", "127.0.61.3")
-    assert window.returncode == 1 and "install the package libglfw3" in window.stderr, window
-    return seen["hash"]
-
-
-def check_meshes_on(bare: BareDebian):
-    assert "the meshes are in place" not in bare.must("/env/bin/pyfranka-meshes")
-    assert "the meshes are in place" in bare.must("/env/bin/pyfranka-meshes")
-    code = """
-        import pyfranka.meshes
-        from pyfranka.sim import FR3, Panda, Simulation
-        for robot in ("panda", "fr3"):
-            with open(f"/tmp/{robot}.urdf", "w") as file:
-                file.write(pyfranka.meshes.urdf(robot))
-        with_meshes = [Panda(urdf="/tmp/panda.urdf"), FR3(base=(0, 1, 0), urdf="/tmp/fr3.urdf")]
-        for robots in (with_meshes, [Panda(), FR3(base=(0, 1, 0))]):
-            with Simulation(robots=robots) as sim:
-                sim.step(100)
-                print(sim["panda"].state_hash(), sim["fr3"].state_hash())
-    """
-    with_meshes, without = bare.must("/env/bin/python", "-c", textwrap.dedent(code)).splitlines()
-    assert with_meshes == without, "meshes change no motion"
-
-
-def check_desk_on(bare: BareDebian, wheel: Path):
-    bare.must("/env/bin/pip", "install", "--quiet", f"/root/{wheel.name}[desk]")
-    assert bare.must("/env/bin/python", "-c", DESK_PAGE).split() == ["1", "True"]
-
-
-def check_genuine_client_on(bare: BareDebian):
-    bare.must("python3", "-m", "venv", "/genuine")
-    bare.must(
-        "/genuine/bin/pip", "install", "--quiet", "--only-binary=:all:", *locked("panda", Path("/root"))
-    )
-    arguments = ["/genuine/bin/python", f"/root/{GENUINE_CLIENT.name}", "/env/bin/franka_sim", "127.0.61.4"]
-    assert json.loads(bare.must(*arguments)) == {"cycles": 1000, "mode": "RobotMode.kIdle"}
-
-
-@ON_BARE_DEBIAN
-def test_simulations_run_on_a_bare_debian(bare, quick_start, carried):
-    assert check_simulation_on(bare, quick_start) == carried["hash"]
-
-
-@ON_BARE_DEBIAN
-def test_desk_serves_its_page_on_a_bare_debian(bare, wheel):
-    check_desk_on(bare, wheel)
-
-
-@ON_BARE_DEBIAN
-def test_meshes_are_installed_on_a_bare_debian(bare):
-    check_meshes_on(bare)
-
-
-@ON_BARE_DEBIAN
-def test_genuine_panda_python_drives_its_robot_on_a_bare_debian(bare):
-    client_python("panda")  # skips if PyPI has none for this Python
-    check_genuine_client_on(bare)
-
-
 EPISODE = """
 import gymnasium, pyfranka.gym
 for robot in ("panda", "fr3"):
@@ -693,7 +565,8 @@ def test_a_plot_is_drawn_with_its_extra(complete):
 
 @with_extras
 def test_desk_serves_its_page_with_its_extra(complete):
-    assert complete.python(DESK_PAGE).split() == ["1", "True"]
+    result = complete.run("python", SUPPORT / "wheel_desk_page.py")
+    assert result.stdout.split() == ["1", "True"], result.stderr
 
 
 @pytest.mark.long_form("downloads the meshes")

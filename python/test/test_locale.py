@@ -48,8 +48,32 @@ def run(*arguments: str, **environment: str) -> str:
     )
 
 
-@pytest.mark.skipif(not Path("/usr/share/i18n/locales/de_DE").exists(), reason="locales is not installed")
-def test_a_decimal_comma_changes_nothing(tmp_path):
-    with_point = run(".", LC_ALL="C")
+NEEDS_LOCALES = pytest.mark.skipif(
+    not Path("/usr/share/i18n/locales/de_DE").exists(), reason="locales is not installed"
+)
+
+
+@pytest.fixture(scope="module")
+def with_point():
+    printed = run(".", LC_ALL="C")
+    assert len(printed.splitlines()) > 20
+    return printed
+
+
+@NEEDS_LOCALES
+def test_a_decimal_comma_from_the_beginning_changes_nothing(with_point, tmp_path):
     assert with_point == run(",", **decimal_comma.environment(tmp_path))
-    assert len(with_point.splitlines()) > 20
+
+
+@NEEDS_LOCALES
+@pytest.mark.parametrize(
+    ("language", "characters", "point"),
+    [("tr_TR", "ISO-8859-9", ","), ("ja_JP", "EUC-JP", "."), ("ps_AF", "UTF-8", "\u066b")],
+)
+def test_a_locale_with_other_letters_or_characters_changes_nothing(
+    language, characters, point, with_point, tmp_path
+):
+    """Turkish has another capital of i; the others write in several bytes, or no point that C knows."""
+    name = f"{language}.{characters}"
+    subprocess.run(["localedef", "-i", language, "-f", characters, tmp_path / name], check=True)
+    assert with_point == run(point, LC_ALL=name, LOCPATH=str(tmp_path))

@@ -260,8 +260,8 @@ def test_the_fixture_takes_the_arguments_of_franka_sim_and_of_a_robot(franka_sim
     sim = franka_sim("fr3", name="left", patience="forever", start="locked", desk=True)
     assert sim.robot.name == "left" and sim.robot.desk.startswith("https://")
     assert not sim.robot.remote.report().brakes_open
-    with pytest.raises(TypeError, match="'colour'"):
-        franka_sim("fr3", colour="white")
+    with pytest.raises(TypeError, match="'hue'"):
+        franka_sim("fr3", hue=5)
 
 
 def test_the_examples_of_the_documentation_work(project, capsys):

@@ -3,10 +3,14 @@
 """Every entrance of a transform in Python, and the line end_effector, takes the same rounded matrices
 (faults 22)."""
 
+import inspect
+import re
+
 import numpy as np
 import pyfranka
 import pyfranka.sim
 import pytest
+from pyfranka import libfranka
 from pyfranka.remote import LineRefused
 from transform_sweep import check, raised
 
@@ -43,11 +47,43 @@ def set_and_read(state, setter, field):
     return read
 
 
-def test_each_entrance_takes_a_matrix_or_its_columns_and_nothing_else(robot, simulation, simulated):
+def doors_of_states():
     state = pyfranka.RobotState()
+
+    def door(name):
+        return lambda T: setattr(state, name, T) or getattr(state, name).copy()
+
+    return {
+        f"RobotState.{name}": door(name)
+        for name, value in vars(pyfranka.RobotState).items()
+        if isinstance(value, property) and np.shape(getattr(state, name)) == (4, 4)
+    }
+
+
+def names_of_doors():
+    """Functions with an argument that is a transform by its name."""
+    for cls in (pyfranka.Robot, pyfranka.Model, pyfranka.ModelKDL, *map(vars(pyfranka.sim).get, IN_SIM)):
+        for name, function in vars(cls).items():
+            if inspect.isroutine(function) and name[0] != "_":
+                text = function.__doc__ or ""
+                lines = re.findall(rf"^(?:\d+\. )?{name}\((.*)\) -> ", text, re.MULTILINE)
+                text = str(inspect.signature(function)) if inspect.isfunction(function) else " ".join(lines)
+                for argument in set(re.findall(r"\w+_T_\w+", text)):
+                    yield f"{cls.__name__}.{name}", f"{cls.__name__}.{name}.{argument}"
+
+
+IN_SIM = ("ArmModel", "SimulatedRobot", "Remote")
+ELSEWHERE = {"Remote.end_effector"}  # in test_a_matrix_and_its_columns_set_the_same_end_effector
+
+
+def test_each_entrance_takes_a_matrix_or_its_columns_and_nothing_else(robot, robots, simulation, simulated):
+    urdf = robots["fr3"].get_robot_model()
+    kdl = pyfranka.ModelKDL(urdf, *re.findall(r'link name="(\w*link[08])"', urdf))
     with_client = {
-        "RobotState.O_T_EE": lambda T: setattr(state, "O_T_EE", T) or state.O_T_EE.copy(),
+        **doors_of_states(),
+        **doors_of_a_model(kdl, READY),
         "CartesianPose": lambda T: pyfranka.CartesianPose(T).O_T_EE,
+        "libfranka.CartesianPose": lambda T: np.reshape(libfranka.CartesianPose(T).O_T_EE, (4, 4), order="F"),
         "is_homogeneous": pyfranka.is_homogeneous_transformation,
         "Robot.set_EE": set_and_read(robot.read_once, robot.set_EE, "NE_T_EE"),
         "Robot.set_K": set_and_read(robot.read_once, robot.set_K, "EE_T_K"),
@@ -63,6 +99,9 @@ def test_each_entrance_takes_a_matrix_or_its_columns_and_nothing_else(robot, sim
         "SimulatedRobot.set_K": set_and_read(stepped, simulated.set_K, "EE_T_K"),
         **doors_of_a_model(simulated.model, READY),
     }
+    assert {f"RobotState.{name}" for name in ("O_T_EE", "O_T_EE_c", "F_T_NE", "EE_T_K")} <= set(with_client)
+    tested = {*with_client, *in_process} | ELSEWHERE
+    assert [names for names in names_of_doors() if not tested & {*names}] == []
     for door, take in {**with_client, **in_process}.items():
         results = [np.array(take(form)) for form in (TURNED, TURNED.tolist(), COLUMNS, COLUMNS.tolist())]
         for each in results[1:]:
