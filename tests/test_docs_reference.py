@@ -5,6 +5,7 @@
 test_docs_names.py does this for topics, services, actions and parameters. The long form builds the site.
 """
 
+import html
 import re
 import subprocess
 import sys
@@ -249,6 +250,14 @@ def test_pages_of_cpp_show_functions_members_and_groups(site):
     assert "Callbacks get the newest state" in page  # of a group of members
 
 
+@builds_the_site
+def test_no_page_about_python_shows_marks_of_markup(site):
+    for page in (site / "reference" / "python").glob("*.html"):
+        body = re.search(r"<article.*</article>", page.read_text(encoding="utf-8"), re.DOTALL)[0]
+        shown = html.unescape(re.sub(r"<[^>]+>", "", body))
+        assert not re.findall(r".*(?:\\[_*|`]|@(?:raises|returns|param)\b).*", shown), page.name
+
+
 # ---- command lines ---------------------------------------------------------------------------------------
 
 
@@ -358,7 +367,8 @@ def test_ranges_are_those_of_the_generated_configuration():
 
 def test_docstrings_become_restructured_text():
     text = [
-        "A *plain* text of `q_d` and name_.",
+        "A *plain* text of `q_d`, name_ and `a",
+        "span`.",
         "",
         "    code(1)",
         "",
@@ -367,9 +377,13 @@ def test_docstrings_become_restructured_text():
         "* one",
         "  more",
         "* two",
+        "",
+        ">>> set_load(2 * mass)",
+        "(1, *)",
     ]
     assert docstrings.to_rest(text) == [
-        "A \\*plain\\* text of ``q_d`` and name\\_.",
+        "A \\*plain\\* text of ``q_d``, name\\_ and ``a span``.",
         *("", "::", "", "    code(1)", "", "    code(2)", ""),
         *("", "* one", "  more", "", "* two", ""),
+        *(">>> set_load(2 * mass)", "(1, *)", ""),
     ]

@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """Docstrings as reStructuredText.
 
-Ours are plain text: paragraphs, lists with * or -, and indented code. pybind11 adds a signature for each
-overload.
+Ours are plain text: paragraphs, lists with * or -, indented code, and examples with >>>. pybind11 adds a
+signature for each overload.
 """
 
 import re
@@ -37,9 +37,11 @@ def is_code(block: list[str]) -> bool:
 
 
 def paragraph(block: list[str]) -> list[str]:
-    """A block of text: the signature of an overload, items of a list, or one paragraph."""
+    """A block of text: an example, the signature of an overload, items of a list, or one paragraph."""
     if not block:
         return []
+    if block[0].startswith(">>> "):
+        return block
     overload = OVERLOAD.fullmatch(block[0])
     if overload:
         return [
@@ -48,7 +50,7 @@ def paragraph(block: list[str]) -> list[str]:
             *paragraph(block[1:]),
         ]
     if not ITEM.match(block[0]):
-        return [escaped(line.strip()) for line in block]
+        return [escaped(" ".join(line.strip() for line in block))]
     lines = []
     for line in block:
         text = line.strip()

@@ -148,7 +148,7 @@ def _loaded(payload: bytes, paths: tuple[str, ...]) -> Function:
 
 
 def run_case(case: bytes, seed: int, payload: bytes, paths: tuple[str, ...], plain: bool) -> CaseResult:
-    """Runs on a worker. @returns result (its columns if plain), error, duration [s], worker"""
+    """Runs on a worker. Returns result (its columns if plain), error, duration [s], worker."""
     worker, begin = get_worker().address, time.perf_counter()
     try:
         function = _loaded(payload, paths)

@@ -41,7 +41,7 @@ The status is 0; 1 if there is nothing to plot; 2 for invalid arguments."""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the program; @returns its exit status."""
+    """Runs the program; returns its exit status."""
     words = _parser().parse_args(arguments)
     if words.list:
         return _list()

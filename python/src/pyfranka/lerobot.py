@@ -430,7 +430,7 @@ def _restored_on_failure(folder: Path) -> Iterator[None]:
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The program. @returns 0; 1 and no data set if a file cannot be converted; 2 for a wrong call"""
+    """The program. Returns 0; 1 and no data set if a file cannot be converted; 2 for a wrong call."""
     parser = Parser(
         prog="python3 -m pyfranka.lerobot",
         description="Writes recordings of franka_info record as episodes of a data set of LeRobot.",

@@ -52,7 +52,7 @@ class RobotError(RuntimeError):
 
 
 class Interrupted(Exception):
-    """A signal ended this program. @param number of the signal"""
+    """A signal ended this program. number: of the signal."""
 
     def __init__(self, number: int):
         super().__init__(number)

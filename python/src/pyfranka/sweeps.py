@@ -388,7 +388,7 @@ def _bar(progress: bool | None, cases: int, done: int) -> Iterator[Callable[[boo
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """The program pyfranka-sweep. @returns 0, 1 if cases failed, 2 for a wrong call, 130 if interrupted"""
+    """The program pyfranka-sweep. Returns 0, 1 if cases failed, 2 for a wrong call, 130 if interrupted."""
     parser = Parser(
         prog="pyfranka-sweep",
         description="Calls the function case(index, seed) of a Python file for many cases, on all cores or "

@@ -37,7 +37,7 @@ class CannotListen(Exception):
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
-    """Runs the program; @returns its exit status."""
+    """Runs the program; returns its exit status."""
     words = _parser().parse_args(arguments)
     try:
         settings, generated = _settings(words)

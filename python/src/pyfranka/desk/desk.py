@@ -65,7 +65,7 @@ class Desk:
         return self._profile
 
     def open_session(self, user: User) -> str:
-        """A new login, which is valid for all robots of this process. @returns its token."""
+        """A new login, which is valid for all robots of this process. Returns its token."""
         token = self.sessions.open(user.name)
         for desk in self.all:
             desk.sessions.add(token, user.name)

@@ -81,7 +81,7 @@ class EndEffectors:
         return self._json(self._known()[self._active])
 
     def add(self, value: Json) -> str:
-        """A new profile. @returns its id."""
+        """A new profile. Returns its id."""
         if len(self._known()) >= MAX_PROFILES:
             raise DeskError(
                 409, "Conflict", f"There are {MAX_PROFILES} profiles already. Delete one of them."

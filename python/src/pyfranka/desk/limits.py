@@ -35,7 +35,7 @@ class Throttle:
         self._buckets: OrderedDict[str, _Bucket] = OrderedDict()
 
     def use(self, address: str) -> float:
-        """Counts one use. @returns how long it has to wait [s]."""
+        """Counts one use. Returns how long it has to wait [s]."""
         bucket = self._bucket(address)
         bucket.tokens -= 1.0
         return max(0.0, -bucket.tokens / self._rate)
@@ -87,7 +87,7 @@ class Counted:
             self.remove(address)
 
     def add(self, address: str) -> bool:
-        """Counts one more. @returns False if there are too many."""
+        """Counts one more. Returns False if there are too many."""
         if self._of.total() >= self._limit or self._of[address] >= self._limit_of_address:
             return False
         self._of[address] += 1

@@ -65,7 +65,7 @@ class Tokens:
         return self.pending is not None and _equal(self.pending.token, token)
 
     def release(self, token: str) -> bool:
-        """Releases control, or withdraws the pending request. @returns whether the token was known."""
+        """Releases control, or withdraws the pending request. Returns whether the token was known."""
         if self.is_active(token):
             self._lose_active()
         elif self.is_pending(token):

@@ -44,9 +44,9 @@ __all__ = [
 
 
 def abort_figure(error: pyfranka.ControlException, version: int = 0) -> Figure:
-    """A figure of an aborted motion. @param version of the robot's protocol, for its limits
+    """A figure of an aborted motion. version: of the robot's protocol, for its limits.
 
-    @raises TypeError for another error, BadInput if it has no log
+    Raises TypeError for another error, BadInput if it has no log.
 
     >>> pyfranka.plot.abort_figure(error, robot.server_version).savefig(folder / "abort.png")
     """

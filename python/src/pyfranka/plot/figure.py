@@ -48,7 +48,7 @@ class Panel:
 
     @classmethod
     def of_text(cls, text: str) -> Panel:
-        """`q` or `q+q_d`. @raises BadInput with a sentence for unknown names, or too many"""
+        """`q` or `q+q_d`. Raises BadInput with a sentence for unknown names, or too many."""
         if not isinstance(text, str):
             raise BadInput(f"A signal is a name such as q or q+q_d, not {text!r}.")
         names = tuple(text.split("+"))
@@ -63,13 +63,13 @@ class Panel:
 
 
 def panels_of(texts: Sequence[str]) -> list[Panel]:
-    """@raises BadInput, TypeError with a sentence"""
+    """Raises BadInput, TypeError with a sentence."""
     texts = items(texts, "signals", "names such as q+q_d")
     return [Panel.of_text(text) for text in texts]
 
 
 def require_recording(recording: object) -> None:
-    """@raises TypeError with a sentence"""
+    """Raises TypeError with a sentence."""
     if not isinstance(recording, Recording):
         raise TypeError(f"recording must be what of_log() or read_log() has returned, not {recording!r}.")
 
@@ -77,8 +77,8 @@ def require_recording(recording: object) -> None:
 class Plot:
     """A figure with a panel below the other, drawn once or again and again.
 
-    @param parts numbers of joints (or axes), from 1; empty: all
-    @param limits "auto": those that a signal comes near to set the scale; "all": all do; "none"
+    parts: numbers of joints (or axes), from 1; empty: all.
+    limits: "auto": those that a signal comes near to set the scale; "all": all do; "none".
     """
 
     def __init__(self, panels: Sequence[Panel], *, parts: Sequence[int] = (), limits: str = "auto"):
@@ -98,7 +98,7 @@ class Plot:
     def draw(self, recording: Recording, *, title: str = "", most: int = 0, named: bool = True) -> None:
         """Draws a recording in the place of what was drawn before.
 
-        @param most points a line; 0: all @param named whether names stand at the errors
+        most: points a line; 0: all. named: whether names stand at the errors.
         """
         require_recording(recording)
         step = max(1, len(recording) // most) if most else 1
@@ -263,7 +263,7 @@ def plot(
 ) -> Figure:
     """A figure of a recording, with a panel for each of `signals` (`q`, or `q+q_d` in one).
 
-    @raises BadInput for unknown signals and those that share no panel; TypeError, ValueError for other values
+    Raises BadInput for unknown signals and those that share no panel; TypeError, ValueError for other values.
 
     >>> pyfranka.plot.plot(pyfranka.plot.of_log(error.log), ["q", "dq"]).savefig(folder / "log.png")
     """
@@ -283,8 +283,8 @@ def plot_abort(
 ) -> Figure:
     """A motion's last states and commands. The value that broke a limit is marked, with that limit.
 
-    @param signals panels; without any those in which the abort's errors show, and some more
-    @raises what plot() raises
+    signals: panels; without any those in which the abort's errors show, and some more.
+    Raises what plot() raises.
 
     >>> figure = pyfranka.plot.plot_abort(pyfranka.plot.of_log(error.log))
     >>> figure.savefig(folder / "abort.png")

@@ -17,7 +17,7 @@ POINTS = 1500  # a line, in a window that is drawn again and again
 
 
 class Window:
-    """A window of Tk with a figure and matplotlib's tool bar. @raises BadInput without a display"""
+    """A window of Tk with a figure and matplotlib's tool bar. Raises BadInput without a display."""
 
     def __init__(self, figure: Figure, title: str):
         try:

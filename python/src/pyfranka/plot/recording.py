@@ -106,7 +106,7 @@ class Abort:
     def of_text(cls, text: str) -> Abort:
         """Finds the names of errors in a text such as that of a ControlException.
 
-        @raises TypeError for anything else
+        Raises TypeError for anything else.
 
         >>> pyfranka.plot.Abort.of_text("The motion was aborted: joint_reflex.").errors
         ('joint_reflex',)
@@ -160,9 +160,9 @@ class Collector:
         return f"<Collector of {self.name!r}: {len(self._rows)} states>"
 
     def add(self, state: Any, time: float | None = None) -> None:
-        """Adds a state of pyfranka or a franka_msgs/FrankaState. @param time its own if not given [s]
+        """Adds a state of pyfranka or a franka_msgs/FrankaState. time: its own if not given [s].
 
-        @raises TypeError for another object
+        Raises TypeError for another object.
 
         >>> pyfranka.plot.Collector("robot").add(robot.read_once())
         """
@@ -181,7 +181,7 @@ class Collector:
         return len(self._rows)
 
     def recording(self, seconds: float = 0.0) -> Recording:
-        """The collected states, or their last seconds. @raises BadInput if there is nothing.
+        """The collected states, or their last seconds. Raises BadInput if there is nothing.
 
         >>> collector = pyfranka.plot.Collector("robot", version=robot.server_version)
         >>> collector.add(robot.read_once())
@@ -208,9 +208,9 @@ class Collector:
 
 
 def of_log(log: Sequence[pyfranka.Record], version: int = 0, name: str = "motion") -> Recording:
-    """The log of a ControlException. @param version of the robot, for its limits
+    """The log of a ControlException. version: of the robot, for its limits.
 
-    @raises BadInput if it is empty, TypeError for other lists
+    Raises BadInput if it is empty, TypeError for other lists.
 
     >>> pyfranka.plot.of_log(error.log, version=5).limits.dq.shape
     (7,)

@@ -42,7 +42,7 @@ def read_log(
 ) -> tuple[Recording, Abort | None]:
     """A motion log: the CSV of franka::logToCSV. The reason is in a text file, by default beside it.
 
-    @raises BadInput with a sentence if it is none
+    Raises BadInput with a sentence if it is none.
 
     >>> written = (folder / "motion.csv").write_text(pyfranka.log_to_csv(error.log))
     >>> recording, abort = pyfranka.plot.read_log(folder / "motion.csv")
@@ -115,7 +115,7 @@ def _read_reason(file: Path, reason: Path | None) -> Abort | None:
 
 
 def read_bag(file: str | os.PathLike[str], topic: str = "", version: int = 0) -> Recording:
-    """The states in a bag. @raises BadInput with a sentence if there are none, or of several robots"""
+    """The states in a bag. Raises BadInput with a sentence if there are none, or of several robots."""
     file = Path(path(file, "file"))
     try:
         import rosbag
@@ -184,7 +184,7 @@ class Live:
         """Ends the connection."""
 
     def await_first(self) -> None:
-        """@raises BadInput if no state comes"""
+        """Raises BadInput if no state comes."""
         waited = 0.0
         while not len(self.collector) and waited < FIRST_STATE and not self.ended.wait(0.02):
             waited += 0.02

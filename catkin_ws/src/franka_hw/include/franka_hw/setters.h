@@ -48,7 +48,7 @@ std::array<double, size> arrayOf(const Source& source) {
 }
 
 /// @name Implementation of the services
-/// @tparam Robot has the setters of franka::Robot, whose exceptions have texts for the user
+/// Robot has the setters of franka::Robot, whose exceptions have texts for the user.
 /// @{
 template <typename Robot>
 void configure(Robot& robot, const franka_msgs::SetJointImpedance::Request& request) {
