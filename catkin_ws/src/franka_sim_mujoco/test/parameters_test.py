@@ -236,9 +236,15 @@ class ParametersTest(unittest.TestCase):
 
     def listen_to_log(self):
         """@returns a list that all further messages of the log are added to, and its subscriber."""
-        messages = []
+        messages, master = [], rospy.get_master()
         log = rospy.Subscriber("/rosout", Log, messages.append)
-        wait_for(lambda: log.get_num_connections() >= len(self.publishers_of("/rosout")), "Every node's log")
+
+        def heard():
+            """Their number would not do: a node of the test before this one may still be among them."""
+            addresses = [master.lookupNode(node)[2] for node in self.publishers_of("/rosout")]
+            return all(map(log.impl.has_connection, addresses))
+
+        wait_for(heard, "Every node's log")
         return messages, log
 
     def expect_warning(self, messages, text):
