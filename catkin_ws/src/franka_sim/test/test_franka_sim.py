@@ -208,7 +208,7 @@ def test_invalid_control_commands_are_reported():
         assert send("dance").startswith("error: There is no command 'dance'")
         assert send("user_stop") == "error: Words are missing: user_stop on|off."
         assert send("user_stop maybe") == "error: 'maybe' is neither on nor off."
-        assert send("push") == "error: Words are missing: push BODY FX FY FZ MILLISECONDS."
+        assert send("push") == "error: Words are missing: push BODY FX FY FZ [TX TY TZ] MILLISECONDS."
         assert send("push nobody 1 0 0 10").startswith("error: ")
         assert send("push panda_hand nan 0 0 10") == "error: 'nan' is not a finite number."
         assert send("loss 2") == "error: The probability of a loss is a number from 0 to 1."
