@@ -82,6 +82,7 @@ def client(robot, operator):
         assert client.connect() == (0, version)
         if client.newest_state().mode == REFLEX:
             client.recover()
+        client.state_until(lambda state: state.mode == IDLE)  # not while it still stops or opens its brakes
         yield client
 
 
