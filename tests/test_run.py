@@ -6,6 +6,7 @@ import json
 import socket
 import subprocess
 import sys
+import textwrap
 from pathlib import Path
 
 import programs
@@ -192,3 +193,15 @@ def test_history_names_slow_flaky_and_failed_cases(project, capsys):
     assert run.print_history() == 0
     printed = capsys.readouterr().out
     assert "test_passes" in printed and "2  flaky" in printed
+
+
+def test_the_gate_has_no_realtime_priorities():
+    code = """
+        import subprocess, run
+        run.refuse_realtime_priorities()
+        print(subprocess.run(["chrt", "--fifo", "1", "true"], capture_output=True, text=True).stderr)
+    """
+    seen = subprocess.check_output(
+        [sys.executable, "-c", textwrap.dedent(code)], cwd=TOP / "tests", text=True, timeout=60
+    )
+    assert "Operation not permitted" in seen

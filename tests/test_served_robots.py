@@ -5,13 +5,26 @@
 Clients use fci_wire: each of their cycles is a call, so that services act between two cycles.
 """
 
+import select
 from concurrent.futures import ThreadPoolExecutor, wait
 from pathlib import Path
 
 import pytest
 import rospy
 from fci_motion import begin, drive, hold
-from fci_wire import COMMUNICATION, IDLE, LAYOUTS, MOVE, REFLEX, STOP, Client
+from fci_wire import (
+    COMMUNICATION,
+    IDLE,
+    JOINT_IMPEDANCE,
+    JOINT_POSITION,
+    LAYOUTS,
+    MOVE,
+    REFLEX,
+    START,
+    STOP,
+    Client,
+    move_request,
+)
 from franka_msgs.srv import SetLoad
 from franka_sim_mujoco.srv import (
     DeleteObject,
@@ -41,7 +54,7 @@ WAIT = 60.0  # wall seconds, for any start
 ROBOTS = {"panda": ("127.0.31.1", 5), "fr3": ("127.0.31.2", 10)}  # addresses and protocols
 READY = [0, -0.785398163, 0, -2.35619449, 0, 1.57079632679, 0.785398163397]
 USER_STOPPED = 5
-SUCCESS, PREEMPTED = 0, 2  # statuses of replies
+SUCCESS, MOTION_STARTED, PREEMPTED = 0, 1, 2  # statuses of replies
 OK = (True, "")
 NOTHING = [0.0] * 9  # as an inertia
 BALL = "<body name='ball'><freejoint/><geom type='sphere' size='0.05' mass='0.3'/></body>"
@@ -53,6 +66,7 @@ pytestmark = pytest.mark.own_process
 def world(tmp_path_factory):
     log = tmp_path_factory.mktemp("served") / "launch.log"
     with launched(str(HERE / "data" / "served_robots.launch"), log=log):
+        wait_for(lambda: rospy.get_time() > 0, "The world is paused until its last robot is spawned", WAIT)
         yield
 
 
@@ -82,7 +96,6 @@ def client(robot, operator):
         assert client.connect() == (0, version)
         if client.newest_state().mode == REFLEX:
             client.recover()
-        client.state_until(lambda state: state.mode == IDLE)  # not while it still stops or opens its brakes
         yield client
 
 
@@ -276,6 +289,19 @@ def test_a_paused_world_pauses_its_motions(client):
     motion.run(100)
     end = motion.end()
     assert (end["status"], end["mode"]) == (0, IDLE)
+
+
+@both
+def test_a_motion_that_is_requested_before_the_first_tick_starts_with_it(client):
+    """As in a world that is paused when it is launched."""
+    call("/gazebo/pause_physics", Empty)
+    assert call("/gazebo/reset", Trigger).success
+    client.request(START, move_request(client.version, JOINT_IMPEDANCE, JOINT_POSITION))
+    states = [client.state() for _ in range(20)]
+    assert not select.select([client.tcp], [], [], 0)[0] and states[-1].mode == IDLE
+    call("/gazebo/unpause_physics", Empty)
+    assert client.reply()[1][0] == MOTION_STARTED
+    client.state_until(lambda state: state.mode == MOVE)
 
 
 @pytest.mark.parametrize(("robot", "factor"), [("panda", 0.0), ("fr3", 1.0)], indirect=["robot"])

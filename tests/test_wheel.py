@@ -531,31 +531,6 @@ def test_copied_examples_run(complete):
     assert result.returncode == 0 or "No pictures can be drawn" in result.stderr, result.stderr
 
 
-@pytest.mark.long_form("compiles everything")
-def test_pip_builds_it_from_its_sources(quick_start, tmp_path):
-    packed = subprocess.run([TOP / "franka", "wheel", "--sdist"], text=True, capture_output=True, timeout=600)
-    assert packed.returncode == 0, packed.stdout + packed.stderr
-    sources = Path(re.search(r"The sources: (\S+)", packed.stdout).group(1))
-    assert sources.stat().st_size <= 3e6
-    shutil.unpack_archive(sources, tmp_path)
-    (folder,) = tmp_path.iterdir()
-    environ = {name: value for name, value in os.environ.items() if name not in OF_A_WORKSPACE}
-    environ |= {"CMAKE_CXX_COMPILER_LAUNCHER": "ccache", "CCACHE_BASEDIR": str(folder)}
-    environ |= {"CCACHE_NOHASHDIR": "1", "CMAKE_BUILD_PARALLEL_LEVEL": str(os.cpu_count())}
-    environ["PATH"] = f"/usr/bin:{Path(sys.executable).parent}:/bin"
-    command = [sys.executable, "-m", "pip", "wheel", "--no-index", "--no-deps", "--no-build-isolation"]
-    built = subprocess.run(
-        [*command, f"--wheel-dir={tmp_path}", folder],
-        env=environ,
-        text=True,
-        capture_output=True,
-        timeout=3000,
-    )
-    assert built.returncode == 0, built.stdout[-3000:] + built.stderr[-3000:]
-    (wheel,) = tmp_path.glob("pyfranka-*.whl")
-    quick_start.check(Environment(tmp_path, wheel).python(quick_start.code))
-
-
 @with_extras
 def test_a_plot_is_drawn_with_its_extra(complete):
     result = complete.run("franka_plot", "--help")

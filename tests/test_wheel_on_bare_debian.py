@@ -111,7 +111,9 @@ def test_genuine_panda_python_drives_its_robot_on_a_bare_debian(bare):
 def test_pip_builds_it_from_its_sources_in_an_environment_of_its_own(quick_start, tmp_path):
     """With the packages that the page names, and what pyproject.toml requires from PyPI."""
     packed = subprocess.run([TOP / "franka", "wheel", "--sdist"], text=True, capture_output=True, timeout=600)
+    assert packed.returncode == 0, packed.stdout + packed.stderr
     sources = Path(re.search(r"The sources: (\S+)", packed.stdout).group(1))
+    assert sources.stat().st_size <= 3e6
     install = read(TOP / "docs" / "franka_sim.md").block_with("apt-get install")
     install = install.replace("apt-get install", "apt-get install -y --no-install-recommends python3-dev")
     with bare_debian(tmp_path, "python3-venv") as bare:

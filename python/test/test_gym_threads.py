@@ -3,14 +3,12 @@
 """Environments that are closed, in use by another thread or forked: a sentence, and nothing half done."""
 
 import multiprocessing
-import threading
 
 import numpy as np
 import pyfranka.gym
 import pytest
 from gymnasium.error import ClosedEnvironmentError
-from sentences import unlike_ours
-from waiting import wait_for
+from sentences import check_refused_while_another_thread_steps, unlike_ours
 
 MAKE = {
     "Environment": lambda name: pyfranka.gym.Environment("Reach", robot=name, render_mode="rgb_array"),
@@ -48,30 +46,7 @@ def test_a_closed_environment_raises_at_each_call(env):
 
 
 def test_while_another_thread_steps_the_world_each_call_is_refused(env):
-    last, ended = simulations(env)[-1], threading.Event()
-
-    def step():
-        while not ended.is_set():
-            try:
-                last.step(3000)
-            except RuntimeError:  # the other thread was first
-                pass
-
-    worker = threading.Thread(target=step)
-    worker.start()
-    try:
-        for name, call in calls(env).items():
-
-            def is_refused(call=call):
-                try:
-                    call()  # may come between two steps
-                except RuntimeError as error:
-                    return "Another thread uses this simulation" in str(error)
-
-            wait_for(is_refused, f"The refusal of {name}", pause=0.0)
-    finally:
-        ended.set()
-        worker.join()
+    check_refused_while_another_thread_steps(simulations(env)[-1], calls(env).items())
     env.reset(seed=1)
     calls(env)["step"]()
 

@@ -27,7 +27,7 @@ SOURCES = sorted((TOP / "catkin_ws" / "src" / "franka_sim" / "src").glob("*/*_co
 PAGE = TOP / "docs" / "franka_sim.md"
 READY = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
 # Methods without a line of their own.
-HELPERS = {"send", "close", "remove_wall"}
+HELPERS = {"address", "port", "send", "close", "remove_wall"}
 OTHER_LINES = {
     **dict.fromkeys(("close_brakes", "open_brakes"), "brakes"),
     **dict.fromkeys(("activate_fci", "deactivate_fci"), "fci"),
@@ -70,7 +70,7 @@ def clock(monkeypatch):
     for module in ("pyfranka.remote", "pyfranka._remote_connection"):
         monkeypatch.setattr(f"{module}.time", clock)
     monkeypatch.setattr("pyfranka.remote.MIN_ANSWER_TIME", 30.0)
-    monkeypatch.setattr("pyfranka.remote.MIN_TIME_OF_RETRY", 30.0)
+    monkeypatch.setattr("pyfranka._remote_connection.MIN_TIME_OF_RETRY", 30.0)
     return clock
 
 

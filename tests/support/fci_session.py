@@ -6,7 +6,7 @@ import json
 import os
 import subprocess
 import sys
-from contextlib import contextmanager, suppress
+from contextlib import contextmanager
 from pathlib import Path
 
 from lines import Lines
@@ -36,13 +36,6 @@ def simulated(
     robot = KINDS[kind](address=address, realism=realism, base=base, hand=hand, protocol=protocol)
     with FrankaSim(robot, pace=pace, **options) as server:
         yield server.robot
-
-
-def go_first(pid: int = 0) -> None:
-    """Gives a process (0: this thread) the real-time priority of a robot's client, if the system allows it,
-    so that the machine's load does not disturb the test."""
-    with suppress(PermissionError, ProcessLookupError):
-        os.sched_setscheduler(pid, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, os.sched_param(50))
 
 
 class ClientProcess:

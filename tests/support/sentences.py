@@ -3,6 +3,9 @@
 """Errors for users: whether a text is a sentence of ours."""
 
 import re
+import threading
+
+from waiting import wait_for
 
 ERRORS = (ValueError, TypeError, KeyError, IndexError, RuntimeError)
 # Of pybind11, numpy and Python, which name no argument of the user.
@@ -40,3 +43,32 @@ def faults_of(cases, thing, owner=""):
                 if part not in text or unlike_ours(text):
                     wrong.append(f"{where}: {unlike_ours(text) or 'another sentence'}: {type(error)} {text}")
     return wrong
+
+
+def check_refused_while_another_thread_steps(sim, calls):
+    """Each call (its name, the function) is refused while another thread steps the simulation."""
+    ended = threading.Event()
+
+    def step():
+        while not ended.is_set():
+            try:
+                sim.step(3000)
+            except RuntimeError:  # the other thread was first
+                pass
+
+    worker = threading.Thread(target=step)
+    worker.start()
+    try:
+        for name, call in calls:
+
+            def is_refused(call=call):
+                try:
+                    call()  # may come between two steps
+                except RuntimeError as error:
+                    return "Another thread uses this simulation" in str(error)
+
+            wait_for(is_refused, f"The refusal of {name}", pause=0.0)
+    finally:
+        ended.set()
+        worker.join()
+    sim.step()

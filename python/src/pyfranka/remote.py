@@ -15,14 +15,10 @@ from __future__ import annotations
 
 import base64
 import json
-import os
 import re
-import socket
-import threading
 import time
 import typing
-from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy
@@ -30,7 +26,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from pyfranka import _remote_words as words
 from pyfranka._deprecation import renamed, warn
-from pyfranka._remote_connection import Connection, left
+from pyfranka._remote_connection import PAUSE, SharedConnection, left
 from pyfranka.refusals import split_refusal
 from pyfranka.robot_report import Report, report_of
 
@@ -40,15 +36,12 @@ Array = NDArray[numpy.float64]
 # The port of the control interface.
 PORT = 1340
 NO_TURN = (1.0, 0.0, 0.0, 0.0)
-NOTHING = (0.0, 0.0, 0.0)
+ZERO = (0.0, 0.0, 0.0)
 NO_INERTIA = (0.0,) * 9
 # Chosen here: `hash` and `wait` may take 10 s of simulated time on a busy machine.
 TIME_LIMIT = 60.0  # [s]
-PAUSE = 0.01  # [s] between two looks (chosen here)
 # The last request of wait() may take this long beyond the limit: else it would have no time for its answer.
 MIN_ANSWER_TIME = 1.0  # [s] (chosen here)
-MIN_TIME_OF_RETRY = 0.5  # [s] that are left when a refused line is tried again (chosen here)
-FULL = re.compile(r"error: \d+ clients use this control interface")
 STATE = re.compile(
     r"(?P<mode>.+?), client of protocol (?P<protocol>\d+), errors (?P<errors>.*), q(?P<q>(?: \S+){7})"
     r"(?:; (?P<fault>.*))?"
@@ -162,12 +155,10 @@ class Remote:
     def __init__(self, address: str, port: int = PORT, timeout: float = TIME_LIMIT):
         if not address or not isinstance(address, str):
             raise ValueError("Give the address of the robot, such as 127.0.0.1.")
-        self.address, self.port, self.timeout = address, words.whole(port, "The port"), words.seconds(timeout)
-        if not 1 <= self.port <= 65535:
-            raise ValueError(f"The port is 1 to 65535, not {self.port}.")
-        self._connection: Connection | None = None
-        self._held = False
-        self._lock, self._process = threading.RLock(), os.getpid()
+        port, self.timeout = words.whole(port, "The port"), words.seconds(timeout)
+        if not 1 <= port <= 65535:
+            raise ValueError(f"The port is 1 to 65535, not {port}.")
+        self._connection = SharedConnection(address, port)
 
     def __reduce__(self) -> tuple[type[Remote], tuple[str, int, float]]:
         return type(self), (self.address, self.port, self.timeout)
@@ -175,14 +166,27 @@ class Remote:
     def __repr__(self) -> str:
         return f"Remote({self.address!r}, {self.port})"
 
+    @property
+    def address(self) -> str:
+        """Where the robot is.
+
+        >>> remote.address
+        '172.16.0.2'
+        """
+        return self._connection.address
+
+    @property
+    def port(self) -> int:
+        """The port of its control interface.
+
+        >>> remote.port
+        1340
+        """
+        return self._connection.port
+
     def __enter__(self) -> Remote:
-        with self._locked(self.timeout):
-            self._held = True
-            try:
-                self.send("time")  # a client that has sent a line is not replaced by another one
-            except BaseException:
-                self.close()
-                raise
+        with self._connection.keep(self.timeout):
+            self.send("time")  # a client that has sent a line is not replaced by another one
         return self
 
     def __exit__(self, *error: object) -> None:
@@ -194,10 +198,7 @@ class Remote:
         >>> with pyfranka.sim.Remote("172.16.0.2") as kept:
         ...     kept.close()
         """
-        self._held = False
-        connection, self._connection = self._connection, None
-        if connection:
-            connection.close()
+        self._connection.close()
 
     def send(self, line: str, timeout: float | None = None) -> str:
         """Sends a line as it stands, without its end. Returns what follows `ok`, or an empty string.
@@ -214,15 +215,15 @@ class Remote:
         except UnicodeEncodeError:
             raise ValueError(f"The line {line!r} cannot be sent as UTF-8.") from None
         limit = self.timeout if timeout is None else words.seconds(timeout)
-        with self._locked(limit):
-            answer = self._exchange(line, time.monotonic() + limit, limit)
+        answer = self._connection.exchange(line, limit)
         word, _, value = answer.partition(" ")
         if word == "ok":
             return value
         if word == "error:":
             raise LineRefused(value)
         raise ConnectionError(
-            f"What answers at {self._place()} is not a control interface of franka_sim: '{answer[:80]}'."
+            f"What answers at {self._connection.place} is not a control interface of franka_sim: "
+            f"'{answer[:80]}'."
         )
 
     def commands(self, timeout: float | None = None) -> list[str]:
@@ -496,7 +497,7 @@ class Remote:
     def set_load(
         self,
         mass: float,
-        F_x_Cload: ArrayLike = NOTHING,
+        F_x_Cload: ArrayLike = ZERO,
         load_inertia: ArrayLike = NO_INERTIA,
         timeout: float | None = None,
     ) -> None:
@@ -594,7 +595,9 @@ class Remote:
         text = self.send("state", timeout)
         match = STATE.fullmatch(text)
         if not match:
-            raise ConnectionError(f"The state of the robot at {self._place()} cannot be read: '{text}'.")
+            raise ConnectionError(
+                f"The state of the robot at {self._connection.place} cannot be read: '{text}'."
+            )
         errors = {} if match["errors"] == "none" else dict(ERROR.findall(match["errors"]))
         q = numpy.array(match["q"].split(), dtype=float)
         return RemoteState(match["mode"], int(match["protocol"]), errors, q, match["fault"] or "")
@@ -641,7 +644,7 @@ class Remote:
         self,
         body: str,
         force: ArrayLike,
-        torque: ArrayLike = NOTHING,
+        torque: ArrayLike = ZERO,
         ticks: int = 1,
         timeout: float | None = None,
     ) -> None:
@@ -770,8 +773,8 @@ class Remote:
         while not condition(state := self.state(max(least, left(deadline)))):
             if time.monotonic() + PAUSE > deadline:
                 raise TimeoutError(
-                    f"The robot at {self._place()} has not come to the awaited state within {limit:g} s: "
-                    f"{state}."
+                    f"The robot at {self._connection.place} has not come to the awaited state within "
+                    f"{limit:g} s: {state}."
                 )
             time.sleep(PAUSE)
         return state
@@ -794,57 +797,9 @@ class Remote:
         deadline = time.monotonic() + limit
         self.send("quit", limit)
         self.close()
-        while self._listens(deadline):
+        while self._connection.robot_listens(deadline):
             if time.monotonic() > deadline:
-                raise TimeoutError(f"franka_sim at {self._place()} has not ended within {limit:g} s.")
-            time.sleep(PAUSE)
-
-    # ---- the connection ----------------------------------------------------------------------------------
-
-    def _place(self) -> str:
-        return f"{self.address}, port {self.port}"
-
-    @contextmanager
-    def _locked(self, limit: float) -> Iterator[None]:
-        if self._process != os.getpid():
-            self._leave_other_process()
-        if not self._lock.acquire(timeout=limit):
-            raise TimeoutError(f"Another thread has used this Remote for more than {limit:g} s.")
-        try:
-            yield
-        finally:
-            self._lock.release()
-
-    def _leave_other_process(self) -> None:
-        """After a fork the connection belongs to the other process, in which a thread may hold the lock."""
-        self._lock, self._process = threading.RLock(), os.getpid()
-        connection, self._connection = self._connection, None
-        if connection:
-            connection.close()  # this process's copy; the other one's stays open
-
-    def _listens(self, deadline: float) -> bool:
-        try:
-            socket.create_connection((self.address, self.port), timeout=left(deadline)).close()
-            return True
-        except OSError:
-            return False
-
-    # The answer to a line. While the robot has too many clients, the line is refused and not executed.
-    def _exchange(self, line: str, deadline: float, limit: float) -> str:
-        while True:
-            connection = self._connection or Connection(self.address, self.port, deadline, limit)
-            self._connection = None
-            keep = False
-            try:
-                answer = connection.exchange(line, deadline, limit)
-                refused = FULL.match(answer) is not None
-                keep = self._held and not refused
-            finally:
-                if keep:
-                    self._connection = connection
-                else:
-                    connection.close()
-            # A try that ends at the time limit could not report why there was no answer.
-            if not refused or time.monotonic() + PAUSE + MIN_TIME_OF_RETRY > deadline:
-                return answer
+                raise TimeoutError(
+                    f"franka_sim at {self._connection.place} has not ended within {limit:g} s."
+                )
             time.sleep(PAUSE)

@@ -99,10 +99,15 @@ Served RobotServer::serveOne(Connection& client, bool stops_only) {
   codec::Request request;
   const CodecError error =
       codec::decodeRequest(version, {stream.data, header.size}, header, request);
+  const RobotMode mode = handler_.state().robot_mode;
+  const auto is = [&request, error](Command command) {
+    return error == CodecError::kNone && codec::commandOf(request) == command;
+  };
   // Clients send StopMove after an abort as well, when there is nothing to stop.
-  const bool stop = error == CodecError::kNone && codec::commandOf(request) == Command::kStopMove &&
-                    handler_.state().robot_mode == RobotMode::kMove;
-  const bool later = stops_only || answered_setter_count_ == kMaxAnswered;
+  const bool stop = is(Command::kStopMove) && mode == RobotMode::kMove;
+  // In a world that is paused from its start on, a motion waits as any motion in a paused world.
+  const bool early = is(Command::kMove) && mode == RobotMode::kIdle && !handler_.measured();
+  const bool later = stops_only || early || answered_setter_count_ == kMaxAnswered;
   if (later && version_ != 0 && !stop) {
     return Served::kHeldBack;
   }

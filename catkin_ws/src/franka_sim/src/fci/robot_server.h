@@ -38,6 +38,8 @@ class ArmRequestHandler {
   virtual void disconnected() noexcept = 0;
   /// Whether clients may connect. When it becomes false, a connected client is dropped.
   virtual bool active() const noexcept = 0;
+  /// Whether the arm has had a tick since its start or reset; motions wait for it.
+  virtual bool measured() const noexcept = 0;
 
   /// The answer to any request except Connect and those for models. Move returns kMotionStarted, or
   /// the reason for its refusal. StopMove and AutomaticErrorRecovery may return nothing now and the
@@ -202,6 +204,7 @@ class UnitRequestHandler final : public ArmRequestHandler {
   void connected(std::uint16_t version) noexcept override;
   void disconnected() noexcept override { unit_.request(ClientLost{}); }
   bool active() const noexcept override { return unit_.status().fci_active; }
+  bool measured() const noexcept override { return unit_.status().measured; }
   std::optional<Status> handle(const franka_core::fci::Request& request) noexcept override;
   std::optional<franka_core::fci::CartesianLimit> wall(std::int32_t id) const noexcept override;
   std::optional<Status> takeAnswer(PendingAnswer which) noexcept override;

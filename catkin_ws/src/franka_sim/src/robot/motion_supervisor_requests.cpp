@@ -202,6 +202,7 @@ UnitStatus MotionSupervisor::status() const noexcept {
   status.brakes_closed = brakesClosed();
   status.user_stop_pressed = operator_.user_stop;
   status.fci_active = operator_.fci_active;
+  status.measured = estimator_->started();
   status.settling = !rest_.isFinished() || mode() == RobotMode::kAutomaticErrorRecovery ||
                     modes_.closesBrakes() != brakesClosed();
   const std::array<double, 7>& dq = estimator_->estimate().dq;

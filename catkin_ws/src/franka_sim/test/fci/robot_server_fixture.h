@@ -29,6 +29,7 @@ class FakeRequestHandler final : public ArmRequestHandler {
   void connected(std::uint16_t version) noexcept override { last_version = version; }
   void disconnected() noexcept override { disconnections++; }
   bool active() const noexcept override { return on; }
+  bool measured() const noexcept override { return ticked; }
   std::optional<Status> handle(const codec::Request& request) noexcept override {
     last = request;
     handled++;
@@ -69,7 +70,7 @@ class FakeRequestHandler final : public ArmRequestHandler {
   std::optional<Status> motion_end, stop_end, recovery_end;
   codec::Request last;
   int handled{0}, disconnections{0};
-  bool on{true};
+  bool on{true}, ticked{true};
   std::uint16_t last_version{0};
 
  private:

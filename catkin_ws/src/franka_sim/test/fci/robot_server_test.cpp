@@ -364,6 +364,25 @@ TEST_F(RobotServerTest, DefersAllRequestsExceptStops) {
   EXPECT_EQ(handler_.handled, before + 3);
 }
 
+TEST_F(RobotServerTest, HoldsAMotionUntilTheFirstTickUnlessItsModeRefusesIt) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  handler_.ticked = false;
+  const int before = handler_.handled;
+  client.request(codec::MoveRequest{});
+  serve();
+  EXPECT_EQ(handler_.handled, before);
+  handler_.ticked = true;
+  serve();
+  EXPECT_EQ(handler_.handled, before + 1);
+  handler_.ticked = false;
+  client.request(codec::SetLoadRequest{});
+  handler_.shown.robot_mode = RobotMode::kUserStopped;
+  client.request(codec::MoveRequest{});
+  serve();
+  EXPECT_EQ(handler_.handled, before + 3);
+}
+
 TEST_F(RobotServerTest, KeepsTheStateThatShowsAnAbortUntilTheClientsNextRequest) {
   TestClient client(server_.port());
   connect(client, 5);

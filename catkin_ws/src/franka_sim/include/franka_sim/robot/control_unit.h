@@ -108,6 +108,7 @@ struct UnitStatus {
   bool brakes_closed{false};  ///< the joints are locked (UserStopped, Other, once the arm rests)
   bool user_stop_pressed{false};  ///< the button's state, whatever the mode
   bool fci_active{true};          ///< clients may control the arm
+  bool measured{false};  ///< the arm was observed since the start or restart: motions can start
   /// Time must advance even if no client answers: the arm brakes or recovers.
   bool settling{false};
   /// No joint moves, or so slowly that a sensor would not see it.
