@@ -5,11 +5,12 @@
 The reference of pyfranka is genuine panda-python in the same run; runs of the two alternate.
 """
 
-import statistics
+import os
 import subprocess
 import sys
 import time
 from contextlib import ExitStack
+from dataclasses import dataclass
 from pathlib import Path
 
 from fci_session import simulated
@@ -35,14 +36,33 @@ def line_of(lines: Lines, library: str) -> str:
     return line
 
 
-def factors(library: str, pairs: int, wall: float = WALL) -> list[float]:
-    """Times real time of each pair, over the same `wall` seconds."""
+def processor_times(pids: list[int]) -> tuple[float, float]:
+    """What processes have taken together, in their own code and in the kernel [s]."""
+    fields = [Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split() for pid in pids]
+    ticks = os.sysconf("SC_CLK_TCK")
+    return sum(int(each[11]) for each in fields) / ticks, sum(int(each[12]) for each in fields) / ticks
+
+
+@dataclass
+class Run:
+    """Some pairs at once. factor: sum of their times real time. robot, client, kernel: processor time of an
+    exchange [us], in the code of the one, of the other, and of the kernel for both."""
+
+    factor: float
+    robot: float
+    client: float
+    kernel: float
+
+
+def run_pairs(library: str, pairs: int, wall: float = WALL) -> Run:
+    """All pairs run over the same `wall` seconds."""
     with ExitStack() as stack:
-        clients = []
+        robots, clients = [], []
         for _ in range(pairs):
             sim = stack.enter_context(simulated("panda", "lockstep"))
             client = stack.enter_context(start_client(library, sim.address))
             stack.callback(client.kill)  # without effect on one that has ended
+            robots.append(sim.server.process.pid)
             clients.append(client)
         outputs = [Lines(client.stdout) for client in clients]
         for output in outputs:
@@ -52,7 +72,15 @@ def factors(library: str, pairs: int, wall: float = WALL) -> list[float]:
             assert client.stdin is not None
             client.stdin.write(f"{begin} {begin + wall}\n")
             client.stdin.flush()
-        return [1e-3 * int(line_of(output, library)) / wall for output in outputs]
+        time.sleep(begin - time.monotonic())
+        both = robots, [client.pid for client in clients]
+        before = [processor_times(pids) for pids in both]
+        time.sleep(0.9 * wall)  # until clients end
+        after = [processor_times(pids) for pids in both]
+        cycles = sum(int(line_of(output, library)) for output in outputs)
+    own = [1e6 * (after[i][0] - before[i][0]) / (0.9 * cycles) for i in range(2)]
+    kernel = sum(1e6 * (after[i][1] - before[i][1]) / (0.9 * cycles) for i in range(2))
+    return Run(1e-3 * cycles / wall, *own, kernel)
 
 
 def pairs() -> None:
@@ -63,10 +91,14 @@ def pairs() -> None:
     libraries = list(LIBRARIES) if genuine else ["pyfranka"]
     sums = {}
     for count in PAIRS:
-        tries = [{library: sum(factors(library, count)) for library in libraries} for _ in range(TRIES)]
+        tries = [{library: run_pairs(library, count) for library in libraries} for _ in range(TRIES)]
         for library in libraries:
-            sums[count, library] = statistics.median(one[library] for one in tries)
-            figure(f"{count} at once, {library}", sums[count, library], "x")
+            runs = sorted((one[library] for one in tries), key=lambda run: run.factor)
+            median = runs[TRIES // 2]
+            sums[count, library] = median.factor
+            figure(f"{count} at once, {library}", median.factor, "x")
+            parts = f"robot {median.robot:.1f}, client {median.client:.1f}, kernel {median.kernel:.1f} us"
+            print(f"    processor time of an exchange: {parts}")
     best = max(sums.values())
     for count in PAIRS:
         own = sums[count, "pyfranka"]

@@ -6,17 +6,26 @@
 //   times_real_time  the robot's time over the wall's; in lock-step the speed of the pair
 //   lost             commands that the robot counts as lost
 //   p50_us, p999_us  from an answer's sending to the next state's arrival; in lock-step the
-//   server's
-//                    turn-round with physics, and the way there and back
+//                    server's turn-round with physics, and the way there and back
+//   bare_p50_us, bare_p999_us  the same of two threads that only exchange datagrams of these sizes
+//                    and wait without sleep, as often, in the same run: the reference
+#include <arpa/inet.h>
 #include <franka/active_control_base.h>
 #include <franka/exception.h>
 #include <franka/robot.h>
+#include <franka_core/fci/command_codec.h>
+#include <franka_core/fci/state_codec.h>
 #include <franka_core/numbers.h>
+#include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
+#include <thread>
 #include <vector>
 
 namespace {
@@ -75,6 +84,59 @@ Seen hold(franka::Robot& robot, double seconds) {
   return seen;
 }
 
+/// A UDP socket of localhost that does not wait.
+class Socket {
+ public:
+  Socket() : descriptor_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0)) {
+    address_.sin_family = AF_INET;
+    address_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    socklen_t size = sizeof(address_);
+    if (bind(descriptor_, reinterpret_cast<sockaddr*>(&address_), size) != 0 ||
+        getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address_), &size) != 0) {
+      throw std::runtime_error("no UDP socket");
+    }
+  }
+  Socket(const Socket&) = delete;
+  Socket& operator=(const Socket&) = delete;
+  ~Socket() { close(descriptor_); }
+
+  void sendTo(const Socket& other, std::size_t size) {
+    const auto* to = reinterpret_cast<const sockaddr*>(&other.address_);
+    sendto(descriptor_, buffer_.data(), size, 0, to, sizeof(other.address_));
+  }
+  void receive() {
+    while (recv(descriptor_, buffer_.data(), buffer_.size(), 0) < 0) {
+    }
+  }
+
+ private:
+  int descriptor_;
+  sockaddr_in address_{};
+  std::array<char, 4096> buffer_{};
+};
+
+/// Durations of round trips [us] of a command and a state between two threads.
+std::vector<double> pingPong(std::uint16_t version, std::size_t count) {
+  Socket client, robot;
+  const std::size_t command = franka_core::fci::commandSize(version);
+  const std::size_t state = franka_core::fci::stateSize(version);
+  std::thread echo([&] {
+    for (std::size_t i = 0; i < count; i++) {
+      robot.receive();
+      robot.sendTo(client, state);
+    }
+  });
+  std::vector<double> microseconds(count);
+  for (double& passed : microseconds) {
+    const Clock::time_point sent = Clock::now();
+    client.sendTo(robot, command);
+    client.receive();
+    passed = std::chrono::duration<double, std::micro>(Clock::now() - sent).count();
+  }
+  echo.join();
+  return microseconds;
+}
+
 double percentile(std::vector<double>& values, double share) {
   const auto place =
       values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1));
@@ -93,10 +155,12 @@ int main(int argc, char** argv) {
   try {
     franka::Robot robot(argv[1], franka::RealtimeConfig::kIgnore);
     Seen seen = hold(robot, seconds);
+    std::vector<double> bare = pingPong(robot.serverVersion(), seen.microseconds.size());
     std::printf(
-        "{\"times_real_time\": %.3f, \"lost\": %.0f, \"p50_us\": %.1f, \"p999_us\": %.1f}\n",
+        "{\"times_real_time\": %.3f, \"lost\": %.0f, \"p50_us\": %.1f, \"p999_us\": %.1f, "
+        "\"bare_p50_us\": %.1f, \"bare_p999_us\": %.1f}\n",
         seen.robot_seconds / seen.wall_seconds, seen.lost, percentile(seen.microseconds, 0.5),
-        percentile(seen.microseconds, 0.999));
+        percentile(seen.microseconds, 0.999), percentile(bare, 0.5), percentile(bare, 0.999));
     return 0;
   } catch (const franka::Exception& error) {
     std::fprintf(stderr, "client_of_franka_sim_bench: %s\n", error.what());
