@@ -51,6 +51,32 @@ function(franka_compile_several_sources_at_once folder)
   endforeach()
 endfunction()
 
+# genmsg's check of each message is a program in every build, of one that changes nothing the largest part. It ends the build
+# if a message has got another type since CMake ran; here CMake runs again by itself.
+if(NOT COMMAND _add_custom_target)  # what CMake calls the original once it is defined anew
+  function(add_custom_target name)
+    if(name MATCHES "_generate_messages_check_deps_")
+      set(file "${ARGV6}")  # of COMMAND, environment, Python, its script, package, file, types
+      if(NOT EXISTS "${file}")
+        message(FATAL_ERROR "genmsg's check of messages has other arguments than expected: ${ARGV}")
+      endif()
+      set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS "${file}")
+      _add_custom_target(${name})
+      return()
+    endif()
+    set(arguments "")
+    foreach(i RANGE 0 ${ARGC})
+      if(i LESS ARGC)
+        string(APPEND arguments " [==[${ARGV${i}}]==]")
+      endif()
+    endforeach()
+    cmake_language(EVAL CODE "_add_custom_target(${arguments})")
+  endfunction()
+endif()
+
+# A program is not linked again because a shared library that it uses has changed.
+set(CMAKE_LINK_DEPENDS_NO_SHARED ON)
+
 cmake_policy(SET CMP0057 NEW)  # IN_LIST; the workspace itself asks for an old CMake
 if(PROJECT_NAME IN_LIST franka_unity_projects)
   cmake_language(DEFER CALL franka_compile_several_sources_at_once ${CMAKE_CURRENT_SOURCE_DIR})

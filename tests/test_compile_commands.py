@@ -1,10 +1,11 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The workspace compiles several sources of a library at a time; compile_commands.json names each of them."""
+"""How the workspace is built: several sources of a library at a time, named in compile_commands.json."""
 
 import importlib.util
 import json
 import re
+import subprocess
 from pathlib import Path
 
 TOP = Path(__file__).resolve().parent.parent
@@ -52,3 +53,11 @@ def test_each_project_of_the_list_is_one_of_the_repository():
     packages = [*WORKSPACE.glob("src/*/package.xml"), *WORKSPACE.glob("src/*/*/package.xml")]
     projects = {path.parent.name for path in packages}
     assert len(names) > 15 and set(names) <= projects
+
+
+def test_cmake_runs_again_when_a_message_changes_and_no_program_checks_them_in_each_build():
+    query = ["ninja", "-C", WORKSPACE / "build", "-t", "query", "build.ninja"]
+    inputs = subprocess.check_output(query, text=True, timeout=60)
+    messages = [path for kind in ("msg", "srv") for path in (WORKSPACE / "src").glob(f"**/{kind}/*.{kind}")]
+    assert len(messages) > 50 and not [path for path in messages if str(path) not in inputs]
+    assert "genmsg_check_deps" not in (WORKSPACE / "build" / "build.ninja").read_text()
