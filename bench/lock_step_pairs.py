@@ -78,9 +78,9 @@ def run_pairs(library: str, pairs: int, wall: float = WALL) -> Run:
         time.sleep(0.9 * wall)  # until clients end
         after = [processor_times(pids) for pids in both]
         cycles = sum(int(line_of(output, library)) for output in outputs)
-    own = [1e6 * (after[i][0] - before[i][0]) / (0.9 * cycles) for i in range(2)]
-    kernel = sum(1e6 * (after[i][1] - before[i][1]) / (0.9 * cycles) for i in range(2))
-    return Run(1e-3 * cycles / wall, *own, kernel)
+    used = [[1e6 * (after[i][k] - before[i][k]) / (0.9 * cycles) for k in range(2)] for i in range(2)]
+    (robot, robot_kernel), (client_own, client_kernel) = used
+    return Run(1e-3 * cycles / wall, robot, client_own, robot_kernel + client_kernel)
 
 
 def pairs() -> None:

@@ -2,11 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 """The delays of a machine's threads: the reference for results in real time."""
 
+import os
 import threading
 import time
+from contextlib import suppress
 from typing import Self
-
-from fci_session import go_first
 
 PERIOD = 1e-3  # [s] of a robot's cycles
 
@@ -28,7 +28,8 @@ class Stalls:
         self._thread.join()
 
     def _watch(self) -> None:
-        go_first()
+        with suppress(PermissionError):
+            os.sched_setscheduler(0, os.SCHED_FIFO | os.SCHED_RESET_ON_FORK, os.sched_param(50))
         while not self._ended.is_set():
             begin = time.monotonic()
             time.sleep(PERIOD)

@@ -43,6 +43,10 @@ function(franka_compile_several_sources_at_once folder)
         # The compiler takes sources that are included for headers, and warns of tests whose fixture has no linkage.
         target_compile_options(${target} PRIVATE -O1 -Wno-subobject-linkage)
       endif()
+      if(target MATCHES "^(franka_sim_ros|franka_sim_mujoco_node|franka_gripper_sim|_pyfranka)$")
+        # Services, topics and bindings: optimizing their templates takes longer than everything that they save.
+        target_compile_options(${target} PRIVATE -O1)
+      endif()
       set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch_size})
       # CMake includes the sources by absolute paths. As __FILE__ they would reach the binaries, and a clone in another
       # folder would find nothing in the compiler's cache.
@@ -53,7 +57,7 @@ endfunction()
 
 # genmsg's check of each message is a program in every build, of one that changes nothing the largest part. It ends the build
 # if a message has got another type since CMake ran; here CMake runs again by itself.
-if(NOT COMMAND _add_custom_target)  # what CMake calls the original once it is defined anew
+if(NOT COMMAND _add_custom_target)  # what CMake calls the original once it is defined again
   function(add_custom_target name)
     if(name MATCHES "_generate_messages_check_deps_")
       set(file "${ARGV6}")  # of COMMAND, environment, Python, its script, package, file, types

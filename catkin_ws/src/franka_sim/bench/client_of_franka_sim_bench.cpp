@@ -9,24 +9,22 @@
 //                    server's turn-round with physics, and the way there and back
 //   bare_p50_us, bare_p999_us  the same of two threads that only exchange datagrams of these sizes
 //                    and wait without sleep, as often, in the same run: the reference
-#include <arpa/inet.h>
 #include <franka/active_control_base.h>
 #include <franka/exception.h>
 #include <franka/robot.h>
 #include <franka_core/fci/command_codec.h>
 #include <franka_core/fci/state_codec.h>
 #include <franka_core/numbers.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
-#include <stdexcept>
 #include <thread>
 #include <vector>
+
+#include "echo_robot.h"
 
 namespace {
 
@@ -84,53 +82,31 @@ Seen hold(franka::Robot& robot, double seconds) {
   return seen;
 }
 
-/// A UDP socket of localhost that does not wait.
-class Socket {
- public:
-  Socket() : descriptor_(socket(AF_INET, SOCK_DGRAM | SOCK_NONBLOCK, 0)) {
-    address_.sin_family = AF_INET;
-    address_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof(address_);
-    if (bind(descriptor_, reinterpret_cast<sockaddr*>(&address_), size) != 0 ||
-        getsockname(descriptor_, reinterpret_cast<sockaddr*>(&address_), &size) != 0) {
-      throw std::runtime_error("no UDP socket");
-    }
-  }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
-  ~Socket() { close(descriptor_); }
-
-  void sendTo(const Socket& other, std::size_t size) {
-    const auto* to = reinterpret_cast<const sockaddr*>(&other.address_);
-    sendto(descriptor_, buffer_.data(), size, 0, to, sizeof(other.address_));
-  }
-  void receive() {
-    while (recv(descriptor_, buffer_.data(), buffer_.size(), 0) < 0) {
-    }
-  }
-
- private:
-  int descriptor_;
-  sockaddr_in address_{};
-  std::array<char, 4096> buffer_{};
-};
-
-/// Durations of round trips [us] of a command and a state between two threads.
+/// Durations of round trips [us] of a command and a state between two threads that never sleep.
 std::vector<double> pingPong(std::uint16_t version, std::size_t count) {
-  Socket client, robot;
-  const std::size_t command = franka_core::fci::commandSize(version);
-  const std::size_t state = franka_core::fci::stateSize(version);
+  const franka_bench::Socket client(SOCK_DGRAM), robot(SOCK_DGRAM);
+  const std::array<char, 4096> datagram{};
+  const auto send = [&datagram](const franka_bench::Socket& from, const franka_bench::Socket& to,
+                                std::size_t size) {
+    sendto(from.get(), datagram.data(), size, 0, reinterpret_cast<const sockaddr*>(&to.address()),
+           sizeof(to.address()));
+  };
+  const auto receive = [](const franka_bench::Socket& socket) {
+    std::array<char, 4096> buffer;
+    while (recv(socket.get(), buffer.data(), buffer.size(), MSG_DONTWAIT) < 0) {
+    }
+  };
   std::thread echo([&] {
     for (std::size_t i = 0; i < count; i++) {
-      robot.receive();
-      robot.sendTo(client, state);
+      receive(robot);
+      send(robot, client, franka_core::fci::stateSize(version));
     }
   });
   std::vector<double> microseconds(count);
   for (double& passed : microseconds) {
     const Clock::time_point sent = Clock::now();
-    client.sendTo(robot, command);
-    client.receive();
+    send(client, robot, franka_core::fci::commandSize(version));
+    receive(client);
     passed = std::chrono::duration<double, std::micro>(Clock::now() - sent).count();
   }
   echo.join();

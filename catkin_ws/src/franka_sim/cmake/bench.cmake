@@ -19,4 +19,5 @@ target_link_libraries(physics_bench
 
 # A client of a running franka_sim; bench/run.py starts both.
 add_executable(client_of_franka_sim_bench bench/client_of_franka_sim_bench.cpp)
+target_include_directories(client_of_franka_sim_bench PRIVATE ../libfranka/test)  # a socket
 target_link_libraries(client_of_franka_sim_bench Franka::Franka)
