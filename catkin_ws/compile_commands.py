@@ -14,7 +14,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-SEVERAL = re.compile(r"/Unity/unity_\d+_cxx\.cxx$")
+SEVERAL = re.compile(r"/Unity/unity_\w+_cxx\.cxx$")
 INCLUDED = re.compile(r'^#include "(.+)"$', re.M)
 
 
