@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Names each source in compile_commands.json, as editors and clang-tidy need it.
 
-CMake names only the files of unity_build.cmake, which include several sources each. Such an entry becomes
+CMake names only the files of build_settings.cmake, which include several sources each. Such an entry becomes
 one for each of its sources.
 
     python3 compile_commands.py catkin_ws/build/compile_commands.json

@@ -48,7 +48,7 @@ def test_the_workspaces_file_names_the_sources_of_its_libraries():
 
 
 def test_each_project_of_the_list_is_one_of_the_repository():
-    text = (WORKSPACE / "unity_build.cmake").read_text(encoding="utf-8")
+    text = (WORKSPACE / "build_settings.cmake").read_text(encoding="utf-8")
     names = re.search(r"set\(franka_unity_projects\n(.*?)\n\)", text, re.S)[1].split()
     packages = [*WORKSPACE.glob("src/*/package.xml"), *WORKSPACE.glob("src/*/*/package.xml")]
     projects = {path.parent.name for path in packages}

@@ -114,7 +114,7 @@ def test_the_build_prints_it_and_catkin_skips_the_packages(tmp_path, originals):
     copied = project / "catkin_ws" / "src"
     copied.mkdir(parents=True)
     shutil.copy(TOP / "franka", project / "franka")
-    for name in ("unity_build.cmake", "compile_commands.py"):
+    for name in ("build_settings.cmake", "compile_commands.py"):
         shutil.copy(TOP / "catkin_ws" / name, copied.parent)
     (copied / "CMakeLists.txt").symlink_to("/usr/share/catkin/cmake/toplevel.cmake")
     for name in ("hardware_interface", "controller_interface", "controller_manager", "realtime_tools"):

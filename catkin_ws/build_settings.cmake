@@ -1,10 +1,11 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
 #
-# Included by CMAKE_PROJECT_INCLUDE after every project(). The libraries, programs and tests of this repository are compiled
-# several sources at a time (CMake's unity build), which takes less than half the time of a build from nothing: no name may
-# stand in the anonymous namespaces of two sources of a target. Of tests fewer are compiled at a time, because they are edited
-# more often one by one, and with less optimization. Packages that a user adds to the workspace are compiled as always.
+# Included by CMAKE_PROJECT_INCLUDE after every project(), also of packages that a user adds to the workspace. For all of them:
+# what a build that changes little need not do (below). For those of this repository, which are listed: libraries, programs and
+# tests are compiled several sources at a time (CMake's unity build), which takes less than half the time of a build from
+# nothing: no name may stand in the anonymous namespaces of two sources of a target. Of tests fewer are compiled at a time,
+# because they are edited more often one by one, and with less optimization.
 set(franka_unity_projects
   combined_robot_hw
   control_toolbox
@@ -43,8 +44,8 @@ function(franka_compile_several_sources_at_once folder)
         # The compiler takes sources that are included for headers, and warns of tests whose fixture has no linkage.
         target_compile_options(${target} PRIVATE -O1 -Wno-subobject-linkage)
       endif()
-      if(target MATCHES "^(franka_sim_ros|franka_sim_mujoco_node|franka_gripper_sim|_pyfranka)$")
-        # Services, topics and bindings: optimizing their templates takes longer than everything that they save.
+      if(target MATCHES "^(franka_sim_ros|franka_gripper(_sim)?|franka_control_services|_pyfranka)$|_node$|_loader(_plugins)?$")
+        # Services, topics, loaders and bindings: optimizing their templates takes longer than everything that they save.
         target_compile_options(${target} PRIVATE -O1)
       endif()
       set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${batch_size})
@@ -78,7 +79,7 @@ if(NOT COMMAND _add_custom_target)  # what CMake calls the original once it is d
   endfunction()
 endif()
 
-# A program is not linked again because a shared library that it uses has changed.
+# A program is not linked again because a shared library that it uses has changed; that one lacks a symbol shows at its start.
 set(CMAKE_LINK_DEPENDS_NO_SHARED ON)
 
 cmake_policy(SET CMP0057 NEW)  # IN_LIST; the workspace itself asks for an old CMake
