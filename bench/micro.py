@@ -83,6 +83,8 @@ COUNTERS = [
     Counter(
         "realtime_publisher_bench", "publishTick", "cpu_percent", "% beyond a bare loop", 1.5, "bareLoop"
     ),
+    Counter("realtime_publisher_bench", "publishToSubscribers", "cpu_percent", "%"),
+    Counter("realtime_publisher_bench", "publishToSubscribers", "accepted_percent", "%"),
 ]
 
 

@@ -11,9 +11,11 @@
 #include <std_msgs/Float64MultiArray.h>
 #include <std_msgs/UInt32.h>
 
+#include <chrono>
 #include <mutex>
 #include <set>
 #include <string>
+#include <thread>
 #include <vector>
 
 using realtime_tools::RealtimePublisher;
@@ -93,6 +95,31 @@ TEST(RealtimePublisher, PublishesTheFirstMessageToALateSubscriberWhenLatched) {
   Collector collector("latched");
   ASSERT_TRUE(eventually([&] { return collector.received().size() == 1; }));
   EXPECT_EQ(7u, collector.received()[0]);
+}
+
+TEST(RealtimePublisher, TakesAMessageEveryFiveMillisecondsOnlyWhileNobodySubscribes) {
+  using Clock = std::chrono::steady_clock;
+  ros::NodeHandle node;
+  RealtimePublisher<std_msgs::UInt32> publisher(node, "unheard", 1);
+  const Clock::time_point start = Clock::now();
+  Clock::time_point begin{};
+  for (int taken = 0; taken < 20;) {
+    if (!publisher.trylock()) {
+      std::this_thread::yield();
+      continue;
+    }
+    publisher.unlockAndPublish();
+    // Checks are more frequent at first.
+    if (Clock::now() - start > std::chrono::milliseconds(60) && taken++ == 0) {
+      begin = Clock::now();
+    }
+  }
+  EXPECT_GE(Clock::now() - begin, std::chrono::milliseconds(18 * 5));
+  Collector collector("unheard");
+  ASSERT_TRUE(eventually([&] { return collector.connected(); }));
+  send(publisher, 1);
+  send(publisher, 2);
+  EXPECT_TRUE(eventually([&] { return collector.received().size() >= 2; }));
 }
 
 TEST(RealtimePublisher, WorksWithLockGuardAndPublishesOnRequest) {

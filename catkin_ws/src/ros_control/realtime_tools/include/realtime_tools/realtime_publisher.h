@@ -22,7 +22,8 @@ namespace realtime_tools {
 /// The real-time thread fills `msg_` between trylock() and unlockAndPublish(). Until the publishing
 /// thread has copied the message, about 0.1 ms later in a regular stream, trylock() returns false
 /// and the caller skips this cycle: messages are dropped, never queued. The first message after a
-/// pause waits at most as long as the pause, and never above 5 ms.
+/// pause waits at most as long as the pause, and never above 5 ms. While nobody subscribes to a
+/// topic that is not latched, messages are taken, and dropped, every 5 ms only.
 ///
 /// Threads: one real-time thread; any thread may lock() and unlock(). init(), stop() and the
 /// destructor are for one non-real-time thread.
@@ -67,6 +68,7 @@ class RealtimePublisher : private detail::PublishingThread::Sender {
     detail::PublishingThread::instance().remove(this);
     ros::NodeHandle handle(node);
     publisher_ = handle.advertise<Msg>(topic, static_cast<uint32_t>(queue_size), latched);
+    latched_ = latched;
     turn_.open();
     detail::PublishingThread::instance().add(this);
   }
@@ -97,6 +99,10 @@ class RealtimePublisher : private detail::PublishingThread::Sender {
     if (!turn_.tryTakeTurn()) {
       return std::nullopt;
     }
+    if (!latched_ && publisher_.getNumSubscribers() == 0) {
+      turn_.unlockAndReturn();
+      return std::nullopt;
+    }
     outgoing_ = msg_;
     const Clock::time_point handed_over = handed_over_;
     turn_.unlockAndReturn();
@@ -105,6 +111,7 @@ class RealtimePublisher : private detail::PublishingThread::Sender {
   }
 
   ros::Publisher publisher_;
+  bool latched_{false};
   detail::TurnLock turn_;
   Clock::time_point handed_over_{};  ///< guarded by turn_
   Msg outgoing_;                     ///< used by the publishing thread; kept to reuse its memory

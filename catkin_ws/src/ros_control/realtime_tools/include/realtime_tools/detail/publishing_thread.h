@@ -23,8 +23,8 @@ class PublishingThread {
   /// A publisher served by the thread.
   class Sender {
    public:
-    /// Sends the pending message. @returns when it was handed over; nothing if there was none.
-    /// Called by the thread only.
+    /// Sends the pending message. @returns when it was handed over; nothing if there was none, or
+    /// nobody to send it to. Called by the thread only.
     virtual std::optional<PublishingSchedule::Clock::time_point> sendHandedOver() = 0;
 
    protected:
