@@ -36,5 +36,7 @@ class JointImpedance:
         self.time += period
         q, dq = self.target()
         tau = self.k * (q - state.q) + self.d * (dq - state.dq) + model.coriolis()
-        command: NDArray[np.float64] = state.tau_J_d + np.clip(tau - state.tau_J_d, -MAX_STEP, MAX_STEP)
+        # For seven numbers, np.clip takes five times as long as these.
+        step = np.maximum(np.minimum(tau - state.tau_J_d, MAX_STEP), -MAX_STEP)
+        command: NDArray[np.float64] = state.tau_J_d + step
         return command
