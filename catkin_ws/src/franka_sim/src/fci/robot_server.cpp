@@ -144,6 +144,7 @@ bool RobotServer::connect(const codec::Header& header, const codec::ConnectReque
     sockaddr_in peer = slot_.peer();
     peer.sin_port = htons(request.udp_port);
     datagrams_.setPeer(peer);
+    client_is_local_ = ntohl(peer.sin_addr.s_addr) >> 24 == IN_LOOPBACKNET;
     begun_ = false;
     answered_ = false;
     handler_.connected(version_);

@@ -86,6 +86,8 @@ class RobotServer {
   /// Whether clients can connect, since the last serve().
   bool isOpen() const noexcept { return slot_.isOpen(); }
   bool hasClient() const noexcept { return version_ != 0; }
+  /// Whether its client, if it has one, is connected by a loopback address.
+  bool clientIsLocal() const noexcept { return client_is_local_; }
   bool idle() const noexcept { return slot_.idle(); }
   /// See ClientSlot::onRefusal.
   void onRefusal(ClientSlot::Report report) { slot_.onRefusal(std::move(report)); }
@@ -174,6 +176,7 @@ class RobotServer {
   ClientSlot slot_;
   Datagrams datagrams_;
   std::uint16_t version_{0};
+  bool client_is_local_{false};
 
   std::optional<Pending> move_, stop_, recovery_;
   std::array<Answered, kMaxAnswered> answered_setters_{};

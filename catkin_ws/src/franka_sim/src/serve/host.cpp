@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "serve/hosted_robots.h"
+#include "serve/lock_step_turn.h"
 
 namespace franka_sim::fci {
 
@@ -67,7 +68,8 @@ Host::Host(std::function<void()> step, const Pace& pace, std::function<void()> p
     : step_(std::move(step)),
       prepare_(std::move(prepare)),
       clock_(std::move(clock)),
-      robots_(std::make_unique<HostedRobots>(pace_, clock_)) {
+      robots_(std::make_unique<HostedRobots>(pace_, clock_)),
+      turn_(std::make_unique<LockStepTurn>()) {
   setPace(pace);
   // By default the system groups wake-ups within 50 us.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
@@ -231,6 +233,7 @@ bool Host::mustAdvanceTime() {
 }
 
 void Host::waitInLockStep() {
+  takeTurn();
   const bool news = robots_->any(&HostedRobot::hasPendingState);
   const bool due = robots_->clientsAreDue();
   if (due || news || followsClock() || clock_.now() - robots_->publishedAt() >= kTick) {
@@ -274,6 +277,28 @@ void Host::waitInLockStep() {
   }
 }
 
+// Pairs of robots and clients on this machine take turns, so that each finds its data in a
+// processor's cache.
+void Host::takeTurn() {
+  const auto exchanges = [this] {
+    return pace_.standsStill() && robots_->clientsAreDue() &&
+           robots_->any(&HostedRobot::clientIsLocal);
+  };
+  while (exchanges()) {
+    if (turn_->take(clock_.now()) || stopped()) {
+      return;
+    }
+    turn_descriptor_.clear();
+    if (turn_->descriptor() >= 0) {
+      turn_descriptor_.push_back({turn_->descriptor(), POLLIN, 0});
+    }
+    clock_.wait(turn_descriptor_, turn_->retryAfter(clock_.now()));
+    robots_->pollUntil(clock_.now());
+    serveIfDue();
+  }
+  turn_->give();
+}
+
 void Host::beginWait() {
   waited_until_ = keep_waiting_called_at_ = clock_.now();
   waited_ = {};
@@ -289,6 +314,9 @@ bool Host::waitForClients() {
   waited_until_ = now;
   if (!robots_->isAnswerMissing() && (robots_->receiveCommands() || waited_ >= kTick)) {
     return false;
+  }
+  if (waited_ >= LockStepTurn::kQuickAnswer) {
+    turn_->giveForSilence(now);
   }
   if (hasTimedOut(now)) {
     robots_->dropSilentClients();

@@ -96,6 +96,8 @@ bool SimRobot::receiveCommand() { return servers_->arm.receiveCommand(); }
 
 bool SimRobot::expectsCommand() const { return servers_->arm.expectsCommands(); }
 
+bool SimRobot::clientIsLocal() const { return servers_->arm.clientIsLocal(); }
+
 bool SimRobot::asynchronous() const { return servers_->arm.asynchronous(); }
 
 bool SimRobot::motionHasBegun() const { return servers_->arm.motionHasBegun(); }

@@ -93,6 +93,8 @@ class HostedRobot {
   virtual bool receiveCommand() = 0;
   /// Whether a motion runs for a client, which commands it.
   virtual bool expectsCommand() const = 0;
+  /// Whether the client is on this machine, as far as its address shows.
+  virtual bool clientIsLocal() const { return false; }
   /// Whether that client may send commands at any time, so that no tick waits for one.
   virtual bool asynchronous() const = 0;
   /// Whether that motion has had its first command.
@@ -124,6 +126,7 @@ class Service {
 };
 
 class HostedRobots;
+class LockStepTurn;
 
 /// Runs a world and its robots tick by tick: the host sends state k, waits for the answer to it,
 /// and runs the physics from k to k + 1 with that answer (decision 20).
@@ -197,6 +200,7 @@ class Host {
   Clock::time_point nextDeadline();
   void listenUntil(Clock::time_point end);
   void waitInLockStep();
+  void takeTurn();
   void beginWait();
   bool waitForClients();
   bool followsClock() const;
@@ -210,6 +214,8 @@ class Host {
   std::function<bool()> keep_waiting_;
   Pace pace_;
   std::unique_ptr<HostedRobots> robots_;
+  std::unique_ptr<LockStepTurn> turn_;
+  std::vector<pollfd> turn_descriptor_;
   Clock::duration idle_interval_{};
   Clock::time_point slept_until_{};  ///< in real time
   const std::atomic<bool>* stop_{nullptr};

@@ -92,6 +92,7 @@ class SimRobot : public HostedRobot {
   bool hasPendingState() const override;
   bool receiveCommand() override;
   bool expectsCommand() const override;
+  bool clientIsLocal() const override;
   bool asynchronous() const override;
   bool motionHasBegun() const override;
   bool settling() const override;
