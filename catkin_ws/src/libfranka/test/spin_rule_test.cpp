@@ -111,6 +111,24 @@ TEST_F(SpinRuleTest, ABusyMachineLetsItSleep) {
   EXPECT_LT(shareOfSpins(rule, seconds(10), microseconds(10), milliseconds(3), 100), 0.05);
 }
 
+TEST_F(SpinRuleTest, InterruptionsShorterThanItsGapCostNothing) {
+  SpinRule rule(WaitMode::kAuto, true, microseconds(300));
+  EXPECT_EQ(1.0, shareOfSpins(rule, seconds(10), microseconds(10), microseconds(150)));
+  EXPECT_LT(shareOfSpins(rule, seconds(10), microseconds(10), milliseconds(3), 100), 0.05);
+}
+
+TEST_F(SpinRuleTest, SaysHowLongItPauses) {
+  SpinRule rule(WaitMode::kAuto, true);
+  EXPECT_EQ(Duration{}, rule.pauseLeft(now_));
+  for (int i = 0; i < 5; i++) {
+    wait(rule, kNever);
+  }
+  const Duration left = rule.pauseLeft(now_);
+  EXPECT_GE(left, 32 * 5 * SpinRule::kMaxSpin);
+  EXPECT_EQ(milliseconds(5), left - rule.pauseLeft(now_ + milliseconds(5)));
+  EXPECT_EQ(Duration{}, rule.pauseLeft(now_ + left));
+}
+
 TEST_F(SpinRuleTest, OtherThreadsThatNeedLittleDoNotEndIt) {
   SpinRule rule(WaitMode::kAuto, true);
   EXPECT_EQ(1.0, shareOfSpins(rule, seconds(10), microseconds(10), microseconds(100), 30));

@@ -7,6 +7,7 @@
 
 #include <array>
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <optional>
 #include <thread>
@@ -62,7 +63,10 @@ class PreparationThread {
   PreparationThread& operator=(const PreparationThread&) = delete;
 
   /// Asks for one call of `prepare`. Real-time safe.
-  void request() noexcept { state_.store(State::kRequested, std::memory_order_release); }
+  void request() noexcept {
+    requests_.store(requests_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
+    state_.store(State::kRequested, std::memory_order_release);
+  }
   /// Returns when nothing is being prepared and nothing is requested any more; what `prepare` wrote
   /// is visible then. Real-time safe.
   void finish() noexcept {
@@ -80,8 +84,14 @@ class PreparationThread {
 
   std::function<void()> prepare_;
   std::atomic<State> state_{State::kIdle};
+  std::atomic<unsigned> requests_{0};  ///< so far
   std::atomic<bool> ends_{false};
-  franka_core::SpinRule spin_rule_;
+  /// Other threads of this process, which publish and serve, mostly interrupt this one for shorter
+  /// times, other programs for longer ones (chosen here).
+  static constexpr std::chrono::microseconds kGap{100};
+
+  franka_core::SpinRule spin_rule_{franka_core::WaitMode::kAuto, franka_core::hasTwoProcessors(),
+                                   kGap};
   std::thread thread_;
 };
 

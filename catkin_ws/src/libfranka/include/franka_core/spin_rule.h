@@ -52,12 +52,23 @@ class SpinRule {
   /// would keep each other asleep.
   static constexpr std::chrono::microseconds kMaxSpin{200};
 
+  /// Chosen here: ten times as long as a poll of several sockets.
+  static constexpr std::chrono::microseconds kGap{40};
+
   /// @param mode kSpin and kBlock do not use the observations above.
   /// @param can_spin without it every mode is kBlock.
-  explicit SpinRule(WaitMode mode = WaitMode::kAuto, bool can_spin = hasTwoProcessors()) noexcept
-      : mode_(can_spin ? mode : WaitMode::kBlock) {}
+  /// @param gap a poll that takes so long was interrupted: the thread did not run.
+  explicit SpinRule(WaitMode mode = WaitMode::kAuto, bool can_spin = hasTwoProcessors(),
+                    std::chrono::microseconds gap = kGap) noexcept
+      : mode_(can_spin ? mode : WaitMode::kBlock), gap_(gap) {}
 
   WaitMode mode() const noexcept { return mode_; }  ///< as it was given
+
+  /// How long spin() will not wait yet; zero unless it pauses. In kBlock it never does, and this is
+  /// zero.
+  Clock::duration pauseLeft(Clock::time_point now) const noexcept {
+    return mode_ == WaitMode::kAuto && now < resume_at_ ? resume_at_ - now : Clock::duration{};
+  }
 
   /// Calls `poll` until it returns true, for kMaxSpin at most; not at all if the caller should
   /// sleep instead.
@@ -74,7 +85,7 @@ class SpinRule {
     bool answered = poll();
     Clock::time_point after = now();
     while (true) {
-      away += after - before >= kGap ? after - before : Clock::duration{};
+      away += after - before >= gap_ ? after - before : Clock::duration{};
       if (answered || after - begin >= kMaxSpin) {
         break;
       }
@@ -91,16 +102,13 @@ class SpinRule {
   }
 
  private:
-  /// A poll that takes so long was interrupted: the thread did not run. Chosen here: ten times as
-  /// long as a poll of several sockets.
-  static constexpr std::chrono::microseconds kGap{40};
-
   bool begins(Clock::time_point now) noexcept;
   void conclude(Clock::time_point begin, Clock::time_point end, Clock::duration away,
                 bool answered) noexcept;
   void beginTrial() noexcept;
 
   WaitMode mode_;
+  Clock::duration gap_;
   Clock::time_point resume_at_{};  ///< end of the pause
   Clock::time_point ended_at_{};   ///< of the last wait
   Clock::duration awake_{};        ///< of this trial, without sleep
