@@ -94,6 +94,7 @@ void Host::setPace(const Pace& pace) {
     spin_rule_ = franka_core::SpinRule(pace.wait);
   }
   rolling_ = 0;
+  turn_->give();
   restartClock();
 }
 
@@ -143,6 +144,7 @@ void Host::tickAtOnce() {
 }
 
 void Host::standStill() {
+  turn_->give();
   robots_->publishHalted();
   robots_->serve(holdsRequestsBack());
   robots_->reportPublished();

@@ -22,7 +22,7 @@ class LockStepTurn {
   using Clock = std::chrono::steady_clock;
 
   /// Then another process gets the place, if one waits. Chosen here: a hundred times as long as
-  /// caches take to be filled; twenty processes for each processor wait for less than kMaxWait.
+  /// caches take to be filled; twelve processes for each processor wait for less than kMaxWait.
   static constexpr std::chrono::milliseconds kLength{50};
   /// Processes that do not get a place in this time go on without one for kWithoutTurn. Chosen
   /// here: clients give up after a second without a state. A stopped process keeps its place.
@@ -38,7 +38,7 @@ class LockStepTurn {
   static constexpr std::chrono::milliseconds kMaxRetry{12};
   static constexpr std::chrono::milliseconds kMinRetry{2};
 
-  /// @param name processes of equal names share places @param places at least 1
+  /// @param name processes of equal names share places @param places 0: goes on without turns
   LockStepTurn(std::string name, int places);
   /// For the processors on which this thread may run, shared with all processes that may run on the
   /// same ones.

@@ -53,6 +53,13 @@ TEST_F(LockStepTurnTest, AsManyHaveATurnAsThereArePlaces) {
   EXPECT_TRUE(of_other_processors.take(now));
 }
 
+TEST_F(LockStepTurnTest, WithoutPlacesNobodyWaits) {
+  LockStepTurn a(name, 0), b(name, 0);
+  EXPECT_TRUE(a.take(now));
+  EXPECT_TRUE(b.take(now));
+  EXPECT_FALSE(b.taken());
+}
+
 TEST_F(LockStepTurnTest, LastsAsLongAsNobodyWaits) {
   for (int i = 0; i < 1000; i++) {
     ASSERT_TRUE(one.take(now));
