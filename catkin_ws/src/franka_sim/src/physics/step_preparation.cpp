@@ -131,11 +131,11 @@ void PreparationThread::run() {
     }
     const unsigned requests = requests_.load(std::memory_order_relaxed);
     Clock::duration sleep =
-        std::max<Clock::duration>(spin_rule_.pauseLeft(Clock::now()), kMinSleep);
+        std::clamp<Clock::duration>(spin_rule_.pauseLeft(Clock::now()), kMinSleep, kMaxSleep);
     // While nobody steps there is nothing to wait for, and nothing that SpinRule could learn.
     do {
-      std::this_thread::sleep_for(std::min<Clock::duration>(sleep, kMaxSleep));
-      sleep *= 2;
+      std::this_thread::sleep_for(sleep);
+      sleep = std::min<Clock::duration>(2 * sleep, kMaxSleep);
     } while (requests == requests_.load(std::memory_order_relaxed) &&
              !ends_.load(std::memory_order_relaxed));
   }
