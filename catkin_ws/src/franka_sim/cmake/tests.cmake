@@ -103,6 +103,7 @@ sim_test(physics_test
 
 sim_test(fci_test
   SOURCES
+    test/fci/cpu_latency_request_test.cpp
     test/fci/hostile_clients_test.cpp
     test/fci/host_rules_test.cpp
     test/fci/host_test.cpp

@@ -8,6 +8,7 @@
 #include <ctime>
 #include <utility>
 
+#include "serve/cpu_latency_request.h"
 #include "serve/hosted_robots.h"
 #include "serve/lock_step_turn.h"
 
@@ -63,6 +64,16 @@ bool HostClock::poll(std::vector<pollfd>& fds, Clock::duration limit) {
   return ppoll(fds.data(), fds.size(), &timeout, nullptr) > 0;
 }
 
+std::function<void(bool quick)> HostClock::wakeUps() {
+  return [request = std::make_shared<CpuLatencyRequest>()](bool quick) {
+    if (quick) {
+      request->ask();
+    } else {
+      request->end();
+    }
+  };
+}
+
 Host::Host(std::function<void()> step, const Pace& pace, std::function<void()> prepare,
            HostClock clock)
     : step_(std::move(step)),
@@ -94,7 +105,7 @@ void Host::setPace(const Pace& pace) {
     spin_rule_ = franka_core::SpinRule(pace.wait);
   }
   rolling_ = 0;
-  turn_->give();
+  endTurn();
   restartClock();
 }
 
@@ -144,7 +155,7 @@ void Host::tickAtOnce() {
 }
 
 void Host::standStill() {
-  turn_->give();
+  endTurn();
   robots_->publishHalted();
   robots_->serve(holdsRequestsBack());
   robots_->reportPublished();
@@ -246,7 +257,13 @@ void Host::waitInLockStep() {
   prepare_();
   // An answer takes a while; if none is expected, one look at the sockets is enough.
   if (due) {
-    spin_rule_.spin([this] { return robots_->receiveCommands(); }, [this] { return clock_.now(); });
+    const bool answered = spin_rule_.spin([this] { return robots_->receiveCommands(); },
+                                          [this] { return clock_.now(); });
+    // Clients may sleep in each exchange. For those that take so long that this thread sleeps as
+    // well, a wake-up more or less does not matter.
+    const bool is_quick =
+        answered || (wakes_quickly_ && spin_rule_.pauseLeft(begin) == Clock::duration::zero());
+    wakeQuickly(is_quick && exchanges());
   }
   if (!due || !robots_->receiveCommands()) {
     robots_->pollUntil(due ? begin + kTick : begin);
@@ -279,13 +296,15 @@ void Host::waitInLockStep() {
   }
 }
 
+// Whether the next tick depends on a client on this machine, and on nothing else.
+bool Host::exchanges() const {
+  return pace_.standsStill() && robots_->clientsAreDue() &&
+         robots_->any(&HostedRobot::clientIsLocal);
+}
+
 // Pairs of robots and clients on this machine take turns, so that each finds its data in a
 // processor's cache.
 void Host::takeTurn() {
-  const auto exchanges = [this] {
-    return pace_.standsStill() && robots_->clientsAreDue() &&
-           robots_->any(&HostedRobot::clientIsLocal);
-  };
   while (exchanges()) {
     if (turn_->take(clock_.now()) || stopped()) {
       return;
@@ -298,7 +317,18 @@ void Host::takeTurn() {
     robots_->pollUntil(clock_.now());
     serveIfDue();
   }
+  endTurn();
+}
+
+void Host::endTurn() {
   turn_->give();
+  wakeQuickly(false);
+}
+
+void Host::wakeQuickly(bool quick) {
+  if (std::exchange(wakes_quickly_, quick) != quick) {
+    clock_.wake_quickly(quick);
+  }
 }
 
 void Host::beginWait() {
@@ -319,6 +349,7 @@ bool Host::waitForClients() {
   }
   if (waited_ >= LockStepTurn::kQuickAnswer) {
     turn_->giveForSilence(now);
+    wakeQuickly(false);
   }
   if (hasTimedOut(now)) {
     robots_->dropSilentClients();

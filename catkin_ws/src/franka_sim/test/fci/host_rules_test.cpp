@@ -77,6 +77,7 @@ class CountingRobot : public HostedRobot {
   bool hasPendingState() const override { return false; }
   bool receiveCommand() override { return answers && seen && clock_.now() - shown_at >= delay; }
   bool expectsCommand() const override { return moving; }
+  bool clientIsLocal() const override { return is_local; }
   bool asynchronous() const override { return has_asynchronous_motion; }
   bool motionHasBegun() const override { return begun; }
   bool settling() const override { return never_settles; }
@@ -86,7 +87,7 @@ class CountingRobot : public HostedRobot {
   bool idle() const override { return is_idle; }
 
   bool is_idle{false}, moving{false}, has_asynchronous_motion{false}, never_settles{false};
-  bool answers{true};
+  bool answers{true}, is_local{false};
   bool moves_when_served{false}, begun{true}, seen{true};
   milliseconds delay{0};
   Clock::time_point shown_at;
@@ -128,11 +129,13 @@ class HostRules : public ::testing::Test {
   }
 
   int steps{0};
+  std::vector<bool> wake_ups;  ///< that the host has asked for: quick ones or not
   FakeClock clock;
   CountingRobot robot{clock};
   Host host{[this] { steps++; }, Pace{}, [] {},
             HostClock{[this] { return clock.now(); },
-                      [this](auto& fds, Clock::duration limit) { return clock.wait(fds, limit); }}};
+                      [this](auto& fds, Clock::duration limit) { return clock.wait(fds, limit); },
+                      [this](bool quick) { wake_ups.push_back(quick); }}};
 };
 
 Pace waiting(PaceMode mode) {
@@ -226,6 +229,41 @@ TEST_F(HostRules, EveryWaitModeWaitsForQuickAndSlowAnswers) {
     EXPECT_GE(timeOf(10), milliseconds(20));
     EXPECT_EQ(110, robot.answered);
   }
+}
+
+TEST_F(HostRules, LocalClientsInLockStepAreWokenQuicklyWhileTheyAnswerSoon) {
+  use(waiting(PaceMode::kLockStep));
+  robot.moving = robot.is_local = true;
+  timeOf(100);
+  EXPECT_EQ(std::vector<bool>({true}), wake_ups);
+  robot.delay = milliseconds(2);
+  timeOf(100);
+  EXPECT_EQ(std::vector<bool>({true, false}), wake_ups);
+  robot.delay = milliseconds(0);
+  clock.advance(std::chrono::seconds(10));
+  timeOf(100);
+  EXPECT_EQ(std::vector<bool>({true, false, true}), wake_ups);
+  host.standStill();
+  EXPECT_EQ(std::vector<bool>({true, false, true, false}), wake_ups);
+  timeOf(100);
+  robot.answers = false;  // stopped within a motion
+  timeOf(1);
+  EXPECT_EQ(std::vector<bool>({true, false, true, false, true, false}), wake_ups);
+}
+
+TEST_F(HostRules, NobodyElseIsWokenQuickly) {
+  host.add(robot);
+  robot.moving = robot.is_local = true;
+  Pace pace = waiting(PaceMode::kLockStep);
+  pace.wait = franka_core::WaitMode::kBlock;
+  for (const Pace& other : {Pace{}, waiting(PaceMode::kPatient), pace}) {
+    host.setPace(other);
+    timeOf(100);
+  }
+  robot.is_local = false;
+  host.setPace(waiting(PaceMode::kLockStep));
+  timeOf(100);
+  EXPECT_EQ(std::vector<bool>(), wake_ups);
 }
 
 TEST_F(HostRules, PatientPaceIsNotFasterThanTheClock) {

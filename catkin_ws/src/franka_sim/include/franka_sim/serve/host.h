@@ -54,14 +54,19 @@ struct Pace {
   bool standsStill() const noexcept { return mode == PaceMode::kLockStep; }
 };
 
-/// How a host reads the time and waits for sockets. Tests have a clock of their own.
+/// How a host reads the time, waits for sockets and has sleeping clients woken up. Tests have their
+/// own.
 struct HostClock {
   using Clock = std::chrono::steady_clock;
   /// Waits until one of the descriptors is ready, for `limit` at most. @returns whether one is.
   static bool poll(std::vector<pollfd>& fds, Clock::duration limit);
+  /// A function that asks for quick wake-ups of this machine's threads, or ends that
+  /// (serve/cpu_latency_request.h).
+  static std::function<void(bool quick)> wakeUps();
 
   std::function<Clock::time_point()> now{Clock::now};
   std::function<bool(std::vector<pollfd>& fds, Clock::duration limit)> wait{poll};
+  std::function<void(bool quick)> wake_quickly{wakeUps()};
 };
 
 /// One robot as the host drives it: a control unit on a plant, with its servers. Called by one
@@ -200,7 +205,10 @@ class Host {
   Clock::time_point nextDeadline();
   void listenUntil(Clock::time_point end);
   void waitInLockStep();
+  bool exchanges() const;
   void takeTurn();
+  void endTurn();
+  void wakeQuickly(bool quick);
   void beginWait();
   bool waitForClients();
   bool followsClock() const;
@@ -216,6 +224,7 @@ class Host {
   std::unique_ptr<HostedRobots> robots_;
   std::unique_ptr<LockStepTurn> turn_;
   std::vector<pollfd> turn_descriptor_;
+  bool wakes_quickly_{false};
   Clock::duration idle_interval_{};
   Clock::time_point slept_until_{};  ///< in real time
   const std::atomic<bool>* stop_{nullptr};
