@@ -13,20 +13,19 @@ namespace franka_sim::fci {
 
 namespace {
 
-/// The driver of virtual machines (drivers/cpuidle/cpuidle-haltpoll.c). Those of other machines
-/// choose by themselves how deeply a processor sleeps in pauses as short as a lock-step exchange's.
-constexpr std::string_view kHaltsOfVirtualMachines = "haltpoll";
+/// The idle driver of some virtual machines (Linux' drivers/cpuidle/cpuidle-haltpoll.c).
+constexpr std::string_view kHaltPoll = "haltpoll";
 
 bool isHaltPoll(const std::string& idle_driver) noexcept {
   const Descriptor file(open(idle_driver.c_str(), O_RDONLY | O_CLOEXEC));
-  std::array<char, kHaltsOfVirtualMachines.size()> name{};
+  std::array<char, kHaltPoll.size()> name{};
   return file && read(file.get(), name.data(), name.size()) == static_cast<ssize_t>(name.size()) &&
-         std::string_view(name.data(), name.size()) == kHaltsOfVirtualMachines;
+         std::string_view(name.data(), name.size()) == kHaltPoll;
 }
 
 }  // namespace
 
-void CpuLatencyRequest::ask() noexcept {
+void CpuLatencyRequest::begin() noexcept {
   if (open_device_ || !isHaltPoll(idle_driver_)) {
     return;
   }

@@ -9,14 +9,14 @@
 
 namespace franka_sim::fci {
 
-/// Asks the kernel that idle processors of a virtual machine spin instead of halting: a sleeping
-/// thread is then woken up within a few microseconds instead of 30 (decision 66).
+/// Requests from the kernel that idle processors of a virtual machine spin instead of halting. A
+/// sleeping thread is then woken up within a few microseconds instead of 30 (decision 66).
 ///
-/// This is the kernel's request for a latency of zero (PM QoS, /dev/cpu_dma_latency). It applies to
-/// all processors, and the kernel ends it when the process ends. Without the permission to write to
-/// that file, and on machines whose processors do not halt in this way, nothing happens.
+/// The kernel's interface is PM QoS: a latency of zero, written to /dev/cpu_dma_latency. It applies
+/// to all processors, and ends with the process. Without the permission to write to that file, and
+/// with another idle driver than haltpoll, begin() has no effect.
 ///
-/// Called by one thread. No function throws or allocates; ask() and end() are system calls.
+/// Called by one thread. Not real-time safe.
 class CpuLatencyRequest {
  public:
   /// @param device, idle_driver the kernel's files; tests have their own.
@@ -25,7 +25,7 @@ class CpuLatencyRequest {
       std::string idle_driver = "/sys/devices/system/cpu/cpuidle/current_driver")
       : device_(std::move(device)), idle_driver_(std::move(idle_driver)) {}
 
-  void ask() noexcept;
+  void begin() noexcept;
   void end() noexcept { open_device_.close(); }
 
  private:

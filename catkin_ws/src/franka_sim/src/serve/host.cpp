@@ -64,10 +64,10 @@ bool HostClock::poll(std::vector<pollfd>& fds, Clock::duration limit) {
   return ppoll(fds.data(), fds.size(), &timeout, nullptr) > 0;
 }
 
-std::function<void(bool quick)> HostClock::wakeUps() {
+std::function<void(bool quick)> HostClock::makeWakeUpRequest() {
   return [request = std::make_shared<CpuLatencyRequest>()](bool quick) {
     if (quick) {
-      request->ask();
+      request->begin();
     } else {
       request->end();
     }
@@ -259,11 +259,11 @@ void Host::waitInLockStep() {
   if (due) {
     const bool answered = spin_rule_.spin([this] { return robots_->receiveCommands(); },
                                           [this] { return clock_.now(); });
-    // Clients may sleep in each exchange. For those that take so long that this thread sleeps as
-    // well, a wake-up more or less does not matter.
-    const bool is_quick =
-        answered || (wakes_quickly_ && spin_rule_.pauseLeft(begin) == Clock::duration::zero());
-    wakeQuickly(is_quick && exchanges());
+    // A client may sleep in each exchange. If it takes so long that this thread sleeps as well,
+    // quick wake-ups gain little.
+    const bool is_answered_soon =
+        answered || (quick_wake_ups_ && spin_rule_.pauseLeft(begin) == Clock::duration::zero());
+    requestQuickWakeUps(is_answered_soon && exchanges());
   }
   if (!due || !robots_->receiveCommands()) {
     robots_->pollUntil(due ? begin + kTick : begin);
@@ -322,12 +322,12 @@ void Host::takeTurn() {
 
 void Host::endTurn() {
   turn_->give();
-  wakeQuickly(false);
+  requestQuickWakeUps(false);
 }
 
-void Host::wakeQuickly(bool quick) {
-  if (std::exchange(wakes_quickly_, quick) != quick) {
-    clock_.wake_quickly(quick);
+void Host::requestQuickWakeUps(bool quick) {
+  if (std::exchange(quick_wake_ups_, quick) != quick) {
+    clock_.request_wake_ups(quick);
   }
 }
 
@@ -349,7 +349,7 @@ bool Host::waitForClients() {
   }
   if (waited_ >= LockStepTurn::kQuickAnswer) {
     turn_->giveForSilence(now);
-    wakeQuickly(false);
+    requestQuickWakeUps(false);
   }
   if (hasTimedOut(now)) {
     robots_->dropSilentClients();

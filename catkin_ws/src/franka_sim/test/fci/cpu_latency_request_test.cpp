@@ -44,34 +44,34 @@ class CpuLatencyRequestTest : public ::testing::Test {
   CpuLatencyRequest request{device, driver};
 };
 
-TEST_F(CpuLatencyRequestTest, LastsFromAskToEnd) {
+TEST_F(CpuLatencyRequestTest, LastsFromBeginToEnd) {
   useDriver("haltpoll");
   EXPECT_FALSE(isOpen());
-  request.ask();
-  request.ask();
+  request.begin();
+  request.begin();
   EXPECT_TRUE(isOpen());
   EXPECT_EQ(std::string(4, '\0'), written()) << "zero microseconds, once, as 32 bits";
   request.end();
   EXPECT_FALSE(isOpen());
   request.end();
-  request.ask();
+  request.begin();
   EXPECT_TRUE(isOpen());
 }
 
-TEST_F(CpuLatencyRequestTest, LeavesOtherIdleDriversAlone) {
-  request.ask();  // no driver
+TEST_F(CpuLatencyRequestTest, HasNoEffectWithOtherIdleDrivers) {
+  request.begin();  // no driver
   for (const char* other : {"intel_idle", "acpi_idle", "none", ""}) {
     useDriver(other);
-    request.ask();
+    request.begin();
   }
   EXPECT_FALSE(isOpen());
   EXPECT_EQ("", written());
 }
 
-TEST_F(CpuLatencyRequestTest, WithoutTheDeviceNothingHappens) {
+TEST_F(CpuLatencyRequestTest, HasNoEffectWithoutTheDevice) {
   useDriver("haltpoll");
   std::filesystem::remove(device);
-  request.ask();
+  request.begin();
   request.end();
   EXPECT_FALSE(std::filesystem::exists(device));
 }

@@ -129,7 +129,7 @@ class HostRules : public ::testing::Test {
   }
 
   int steps{0};
-  std::vector<bool> wake_ups;  ///< that the host has asked for: quick ones or not
+  std::vector<bool> wake_ups;  ///< requested by the host: quick or not
   FakeClock clock;
   CountingRobot robot{clock};
   Host host{[this] { steps++; }, Pace{}, [] {},
@@ -231,7 +231,7 @@ TEST_F(HostRules, EveryWaitModeWaitsForQuickAndSlowAnswers) {
   }
 }
 
-TEST_F(HostRules, LocalClientsInLockStepAreWokenQuicklyWhileTheyAnswerSoon) {
+TEST_F(HostRules, RequestsQuickWakeUpsWhileLocalClientsAnswerSoon) {
   use(waiting(PaceMode::kLockStep));
   robot.moving = robot.is_local = true;
   timeOf(100);
@@ -251,7 +251,7 @@ TEST_F(HostRules, LocalClientsInLockStepAreWokenQuicklyWhileTheyAnswerSoon) {
   EXPECT_EQ(std::vector<bool>({true, false, true, false, true, false}), wake_ups);
 }
 
-TEST_F(HostRules, NobodyElseIsWokenQuickly) {
+TEST_F(HostRules, RequestsNoQuickWakeUpsForOtherPacesAndClients) {
   host.add(robot);
   robot.moving = robot.is_local = true;
   Pace pace = waiting(PaceMode::kLockStep);

@@ -54,19 +54,19 @@ struct Pace {
   bool standsStill() const noexcept { return mode == PaceMode::kLockStep; }
 };
 
-/// How a host reads the time, waits for sockets and has sleeping clients woken up. Tests have their
-/// own.
+/// How a host reads the time, waits for sockets and requests quick wake-ups. Tests have functions
+/// of their own.
 struct HostClock {
   using Clock = std::chrono::steady_clock;
   /// Waits until one of the descriptors is ready, for `limit` at most. @returns whether one is.
   static bool poll(std::vector<pollfd>& fds, Clock::duration limit);
-  /// A function that asks for quick wake-ups of this machine's threads, or ends that
-  /// (serve/cpu_latency_request.h).
-  static std::function<void(bool quick)> wakeUps();
+  /// A function that requests quick wake-ups of sleeping threads from the kernel, or ends the
+  /// request (serve/cpu_latency_request.h).
+  static std::function<void(bool quick)> makeWakeUpRequest();
 
   std::function<Clock::time_point()> now{Clock::now};
   std::function<bool(std::vector<pollfd>& fds, Clock::duration limit)> wait{poll};
-  std::function<void(bool quick)> wake_quickly{wakeUps()};
+  std::function<void(bool quick)> request_wake_ups{makeWakeUpRequest()};
 };
 
 /// One robot as the host drives it: a control unit on a plant, with its servers. Called by one
@@ -208,7 +208,7 @@ class Host {
   bool exchanges() const;
   void takeTurn();
   void endTurn();
-  void wakeQuickly(bool quick);
+  void requestQuickWakeUps(bool quick);
   void beginWait();
   bool waitForClients();
   bool followsClock() const;
@@ -224,7 +224,7 @@ class Host {
   std::unique_ptr<HostedRobots> robots_;
   std::unique_ptr<LockStepTurn> turn_;
   std::vector<pollfd> turn_descriptor_;
-  bool wakes_quickly_{false};
+  bool quick_wake_ups_{false};  ///< whether they are requested
   Clock::duration idle_interval_{};
   Clock::time_point slept_until_{};  ///< in real time
   const std::atomic<bool>* stop_{nullptr};
