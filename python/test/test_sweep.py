@@ -3,6 +3,7 @@
 """pyfranka.sweep: many cases on several processes, each exactly once, and what goes wrong with them."""
 
 import csv
+import fcntl
 import functools
 import importlib.metadata
 import json
@@ -385,6 +386,55 @@ def test_two_processes_cannot_write_one_output(cluster, tmp_path):
         plan = sweeps._Plan(nothing, 1, 1)
         with sweeps._open_output(path, plan):
             pyfranka.sweep(nothing, 1, cluster, output=path)
+
+
+IDENTITY = """
+from pyfranka import sweeps
+names = {"shoulder", "elbow", "wrist"}
+def use(case, seed):
+    return len(names)
+print(sweeps._Plan(use, [{"parts": {"left", "right", "tool"}}, frozenset({("a", 1), ("b", 2)})], 1).identity)
+"""
+
+
+def test_sets_do_not_make_another_sweep():
+    def identity(hash_seed):
+        environment = {**os.environ, "PYTHONHASHSEED": hash_seed}
+        ran = subprocess.run(
+            [sys.executable, "-c", IDENTITY], env=environment, capture_output=True, text=True, check=True
+        )
+        return ran.stdout
+
+    assert len({identity(hash_seed) for hash_seed in "1234"}) == 1
+
+
+def test_a_variable_without_a_value_fails_its_cases_only():
+    def use(case, seed):
+        return case if case == 0 else later
+
+    if not use:
+        later = 1
+    first, second = pyfranka.sweep(use, 2, workers=1, progress=False, retries=0)
+    assert first.ok and "later" in second.error
+    assert sweeps._Plan(use, 2, 1).identity
+
+
+def test_an_output_whose_folder_was_removed_meanwhile_is_locked_again(tmp_path, monkeypatch):
+    """Another process ends its sweep, and removes the folder, while this one waits for the lock."""
+    path, lock = tmp_path / "out.csv", fcntl.flock
+    folder = path.with_name("out.csv.parts")
+
+    def remove_and_lock(file, how):
+        monkeypatch.setattr(fcntl, "flock", lock)
+        folder.rmdir()
+        lock(file, how)
+
+    monkeypatch.setattr(fcntl, "flock", remove_and_lock)
+    plan = sweeps._Plan(lambda case, seed: case, 1, 1)
+    with sweeps._open_output(path, plan) as output:
+        assert os.path.samestat(os.fstat(output._lock), folder.stat())
+        with pytest.raises(RuntimeError, match="Another process writes"):
+            sweeps._open_output(path, plan)
 
 
 # ---- the program -----------------------------------------------------------------------------------------

@@ -106,19 +106,36 @@ class Output:
         self._path, self._identity, self._cases = path, identity, cases
         self._parts = path.with_name(f"{path.name}.parts")
         self._rows: list[Row] = []
-        self._parts.mkdir(exist_ok=True)
-        self._lock = os.open(self._parts, os.O_RDONLY)
-        try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except BlockingIOError:
-            os.close(self._lock)
-            raise RuntimeError(f"Another process writes '{path}' now; wait for its end.") from None
+        while (lock := self._locked_folder()) is None:
+            pass
+        self._lock = lock
         try:
             self._load()
         except BaseException:
             self._unlock()
             raise
         self._flushed = time.monotonic()
+
+    def _locked_folder(self) -> int | None:
+        """The folder of part files, open and locked; None if another process has removed it meanwhile, at the
+        end of its sweep."""
+        self._parts.mkdir(exist_ok=True)
+        try:
+            lock = os.open(self._parts, os.O_RDONLY)
+        except FileNotFoundError:
+            return None
+        try:
+            fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            os.close(lock)
+            raise RuntimeError(f"Another process writes '{self._path}' now; wait for its end.") from None
+        try:
+            if os.path.samestat(os.fstat(lock), self._parts.stat()):
+                return lock
+        except FileNotFoundError:
+            pass
+        os.close(lock)
+        return None
 
     def _load(self) -> None:
         """Reads the rows of earlier calls."""

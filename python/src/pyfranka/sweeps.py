@@ -27,6 +27,7 @@ import hashlib
 import importlib.machinery
 import importlib.util
 import inspect
+import io
 import numbers
 import operator
 import os
@@ -282,11 +283,26 @@ def _pickled(value: object, what: str) -> bytes:
         raise TypeError(f"{what} cannot be sent to a worker: {error}.") from error
 
 
+class _StablePickler(pickle._Pickler):
+    """Pickles sets in an order that does not depend on the hashes of texts, which differ in each process."""
+
+    def reducer_override(self, value: object) -> typing.Any:
+        if not isinstance(value, (set, frozenset)):
+            return NotImplemented
+        return type(value), (sorted(map(_stable_pickle, value)),), getattr(value, "__dict__", None)
+
+
+def _stable_pickle(value: object) -> bytes:
+    file = io.BytesIO()
+    _StablePickler(file, protocol=5).dump(value)
+    return file.getvalue()
+
+
 def _stable(value: object, what: str) -> bytes:
     """Bytes that are the same in each run. Those of cloudpickle contain random numbers for classes of
     scripts."""
     try:
-        return pickle.dumps(value, protocol=5)
+        return _stable_pickle(value)
     except Exception:  # any exception of a value's own pickling
         return _pickled(value, what)
 
@@ -315,14 +331,21 @@ def _digest(function: Function) -> str:
         digest.update(inspect.getsource(function).encode())
     except OSError:  # typed into an interpreter
         digest.update(_code_text(function.__code__).encode())
-    for cell in function.__closure__ or ():
-        if not callable(cell.cell_contents):
-            digest.update(_stable(cell.cell_contents, "function"))
+    for name, cell in zip(function.__code__.co_freevars, function.__closure__ or ()):
+        try:
+            value = cell.cell_contents
+        except ValueError:  # the variable has no value yet
+            digest.update(f"no {name}".encode())
+            continue
+        if not callable(value):
+            digest.update(_stable(value, "function"))
     return digest.hexdigest()
 
 
 def _code_text(code: CodeType) -> str:
-    constants = [_code_text(c) if isinstance(c, CodeType) else repr(c) for c in code.co_consts]
+    constants = [
+        _code_text(c) if isinstance(c, CodeType) else _stable(c, "function").hex() for c in code.co_consts
+    ]
     return f"{code.co_code.hex()} {code.co_names} {constants}"
 
 
