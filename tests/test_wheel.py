@@ -318,7 +318,7 @@ def test_packages_are_named_if_the_file_of_the_wheel_has_gone(wheel, tmp_path):
     code = "from pyfranka.command_line import install_command; print(install_command('gym'))"
     assert environment.python(code) == f"pip install 'pyfranka[gym] @ {moved.as_uri()}'\n"
     moved.unlink()
-    assert environment.python(code) == "pip install 'gymnasium>=1.0' scipy\n"
+    assert environment.python(code) == "pip install 'gymnasium>=1.1' scipy\n"
 
 
 def examples_of(environment: Environment, folder: Path) -> subprocess.CompletedProcess:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from gym_tasks import RANDOMIZE, TASKS, make, play
 from pyfranka.gym import scripted_policy
+from pyfranka.gym.environment import Options
 
 CONTROLS = ("torque", "joint_delta", "cartesian_delta")
 ROBOTS_TAKE_TURNS = True
@@ -19,6 +20,15 @@ def test_its_script_solves_a_task(task, name, long_run):
         assert info["is_success"], (seed, info)
         assert info["reflexes"] == 0, (seed, info)
         assert rewards[-1] == 0.0 and set(rewards[:-1]) == {-1.0}, "sparse"
+    env.close()
+
+
+@pytest.mark.parametrize("frequency", [10, 25, 50, 100, 200])
+@pytest.mark.parametrize("task", TASKS)
+def test_its_script_solves_a_task_at_other_frequencies(task, frequency, name):
+    env = make(task, robot=name, frequency=frequency)
+    info, _ = play(env, 1)
+    assert info["is_success"] and info["reflexes"] == 0
     env.close()
 
 
@@ -37,7 +47,7 @@ def test_a_script_needs_its_control():
 @pytest.mark.parametrize("control", CONTROLS)
 @pytest.mark.parametrize("task", ("PickAndPlace", "HandOver"))
 def test_random_actions_never_fail(task, control):
-    env = make(task, control=control, max_episode_steps=10**6)
+    env = make(task, control=control, time_limit=None)
     env.action_space.seed(1)
     env.reset(seed=1)
     for _ in range(100):
@@ -76,7 +86,7 @@ def test_actions_have_the_documented_effect():
 
 @pytest.mark.parametrize("frequency", [2, 100])
 def test_the_frequency_changes_neither_speed_nor_time(frequency):
-    env = make("Reach", frequency=frequency, max_episode_steps=1000)
+    env = make("Reach", frequency=frequency)
     layout = env.unwrapped.layout
     observation, _ = env.reset(seed=1, options={"goal": [0.9, 0.9, 0.9]})
     before = observation["observation"][layout["panda.position"]].copy()
@@ -85,6 +95,27 @@ def test_the_frequency_changes_neither_speed_nor_time(frequency):
     assert env.unwrapped.simulation.ticks == 1000
     way = observation["observation"][layout["panda.position"]] - before
     assert way[1] == pytest.approx(0.125, abs=0.02)
+    env.close()
+
+
+@pytest.mark.parametrize("task", TASKS)
+def test_the_time_limit_is_the_same_at_each_frequency(task):
+    limits = {"Reach": 2.5, "Push": 10.0, "PickAndPlace": 15.0, "HandOver": 20.0}
+    for ticks in range(1, 1001):
+        options = Options(task, frequency=1000 / ticks)
+        assert options.ticks == ticks
+        assert options.steps * ticks == pytest.approx(1000 * limits[task], abs=ticks / 2)
+    assert Options(task, time_limit=None).steps is None
+    assert Options(task, time_limit=1.0).steps == 20
+
+
+@pytest.mark.parametrize("frequency", [5, 100])
+def test_an_episode_is_truncated_after_its_time_limit(frequency):
+    env = make("Reach", frequency=frequency, time_limit=1.0)
+    assert env.spec.max_episode_steps == frequency
+    env.reset(seed=1, options={"goal": [2, 2, 2]})
+    ended = [env.step(np.zeros(6, dtype=np.float32))[3] for _ in range(frequency)]
+    assert ended == [False] * (frequency - 1) + [True]
     env.close()
 
 
@@ -124,7 +155,7 @@ def test_rewards_come_from_goals_alone(task, reward):
 
 
 def test_stone_held_over_the_tray_is_not_a_success():
-    env = make("PickAndPlace", max_episode_steps=1000)
+    env = make("PickAndPlace")
     observation, _ = env.reset(seed=1)
     policy, touched, nearest = scripted_policy(env), False, 1.0
     for _ in range(200):
@@ -194,7 +225,7 @@ def test_an_arm_that_cannot_be_recovered_ends_the_episode():
 
 
 def test_torques_do_not_drive_a_joint_against_its_limit(name):
-    env = make("Reach", robot=name, control="torque", max_episode_steps=10**6)
+    env = make("Reach", robot=name, control="torque", time_limit=None)
     env.reset(seed=1, options={"goal": [2, 2, 2]})
     for joint in range(7):
         for sign in (1, -1):

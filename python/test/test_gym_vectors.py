@@ -2,12 +2,15 @@
 # SPDX-License-Identifier: Apache-2.0
 """Vectors of environments of pyfranka.gym."""
 
+import warnings
+
 import gymnasium
 import numpy as np
 import pyfranka.gym
 import pytest
 from gym_tasks import RANDOMIZE, make, make_vec, same
 from gymnasium.error import ResetNeeded
+from pyfranka.gym.randomization import RANGES
 
 
 @pytest.mark.parametrize("randomize", [None, RANDOMIZE], ids=["same", "randomized"])
@@ -60,6 +63,53 @@ def test_only_reset_worlds_are_recreated():
     vector.close()
     with pytest.raises(RuntimeError, match="is closed"):
         first.sim.step()
+
+
+@pytest.mark.parametrize("mode", ["NextStep", "SameStep"])
+def test_a_world_that_diverges_is_truncated_alone(mode, monkeypatch):
+    monkeypatch.setitem(RANGES, "mass", (0.0, 1.0))
+    feather = {"mass": (1e-9, 1e-9)}  # light enough that a permitted force makes it diverge
+    vector = make_vec("Push", 3, randomize=feather, autoreset_mode=mode)
+    vector.reset(seed=1)
+    actions = np.zeros(vector.action_space.shape, dtype=np.float32)
+    vector.unwrapped.episodes[1].sim.push("cube", (1000.0, 0.0, 0.0), ticks=20)
+    with pytest.warns(RuntimeWarning, match="World 1: .*diverged"):
+        observations, _, _, truncated, infos = vector.step(actions)
+    assert truncated.tolist() == [False, True, False]
+    last = infos["final_info"] if mode == "SameStep" else infos
+    assert last["diverged"].tolist() == [False, True, False]
+    assert vector.observation_space.contains(observations)
+    for _ in range(2):
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            _, _, _, truncated, infos = vector.step(actions)
+        assert not truncated.any() and not infos["diverged"].any()
+    vector.close()
+
+
+def test_each_world_is_drawn_once_a_step(monkeypatch):
+    drawn = []
+    picture = pyfranka.gym.environment.Options.picture
+    monkeypatch.setattr(
+        pyfranka.gym.environment.Options, "picture", lambda self, sim: drawn.append(sim) or picture(self, sim)
+    )
+    vector = make_vec("Reach", 2, time_limit=0.1, observation="state+pictures", size=(32, 24))
+    vector.reset(seed=1)
+    for _ in range(4):  # a reset in the third
+        drawn.clear()
+        vector.step(vector.action_space.sample())
+        assert len(drawn) == 2
+    vector.close()
+
+
+def test_the_seed_is_that_of_np_random_too():
+    vector = make_vec("Reach", 2)
+    drawn = []
+    for seed in (3, 3, 4):
+        vector.reset(seed=seed)
+        drawn.append(vector.np_random.uniform())
+    assert drawn[0] == drawn[1] != drawn[2]
+    vector.close()
 
 
 @pytest.mark.parametrize("mode", ["NextStep", "SameStep", "Disabled"])

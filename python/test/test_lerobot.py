@@ -224,6 +224,30 @@ def test_failed_episodes_can_be_left_out(folder):
     assert values(episode(folder, 0), "next.success").tolist() == [False] * (steps - 1) + [True]
 
 
+@pytest.mark.parametrize("only_success", [False, True])
+def test_automatic_resets_are_no_frames(only_success, folder):
+    env = gymnasium.wrappers.Autoreset(gymnasium.make("pyfranka/Reach-v0", time_limit=0.15))
+    env = pyfranka.gym.RecordEpisodes(env, folder, only_success=only_success)
+    policy = pyfranka.gym.scripted_policy(env)
+    observation, _ = env.reset(seed=1, options={"goal": [2, 2, 2]})
+    for _ in range(2):  # the first episode fails, the second one begins at its goal
+        for _ in range(3):
+            observation, _, terminated, truncated, _ = env.step(policy(observation))
+            if terminated:
+                break
+        goal = observation["achieved_goal"]
+        env.unwrapped.episode.task.draw_goal = lambda random, body, goal=goal: goal
+        if not terminated:
+            observation, *_ = env.step(policy(observation))
+    env.close()
+    assert terminated
+    lengths = [line["length"] for line in lines(folder, "episodes")]
+    assert lengths == [1] if only_success else [3, 1]
+    table = episode(folder, len(lengths) - 1)
+    assert values(table, "next.success").tolist() == [True]
+    assert values(table, "frame_index").tolist() == [0]
+
+
 def recording(file, seconds):
     signals = ("q", "dq", "tau_J", "tau_J_d", "tau_ext_hat_filtered", "dq_d", "ddq_d", "gravity")
     titles = ["time", *(f"{signal}{joint}" for signal in signals for joint in range(1, 8))]

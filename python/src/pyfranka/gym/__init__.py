@@ -32,6 +32,5 @@ for _name, _task in TASKS.items():
             id=f"pyfranka/{_name}-v0",
             entry_point="pyfranka.gym.environment:Environment",
             vector_entry_point="pyfranka.gym.vector_environment:VectorEnvironment",
-            max_episode_steps=_task.steps,
             kwargs={"task": _name},
         )

@@ -4,6 +4,8 @@
 
 from __future__ import annotations
 
+import copy
+import warnings
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import MISSING, dataclass, fields
 from importlib.util import find_spec
@@ -12,6 +14,7 @@ from typing import Any
 import gymnasium
 import numpy
 from gymnasium import spaces
+from gymnasium.envs.registration import EnvSpec
 from gymnasium.error import ClosedEnvironmentError, ResetNeeded
 from numpy.typing import NDArray
 
@@ -56,6 +59,7 @@ class Options:
     realism: str = "ideal"
     randomize: Mapping[str, Any] | None = None
     on_reflex: str = "recover"
+    time_limit: float | str | None = "task"
     camera: str = ""
     size: tuple[int, int] = (128, 96)
     render_mode: str | None = None
@@ -84,10 +88,14 @@ class Options:
         if self.render_mode is not None:
             chosen("render_mode", self.render_mode, RENDER_MODES)
         (frequency,) = numbers(self.frequency, "frequency", 1)
-        if not (1.0 <= frequency <= 1000.0 and abs(1000.0 / frequency % 1.0) < 1e-9):
+        if not 1.0 <= frequency <= 1000.0 or abs(1000.0 / frequency - self.ticks) > 1e-6:
             raise ValueError(
                 f"frequency is 1 to 1000 Hz, with a whole number of milliseconds, not {self.frequency}."
             )
+        if self.time_limit not in ("task", None):
+            (limit,) = numbers(self.time_limit, "time_limit", 1)
+            if not limit > 0.0:
+                raise ValueError(f"time_limit is a time in s, 'task' or None, not {self.time_limit}.")
         text(self.camera, "camera")
         text(self.realism, "realism")
         for name in ("size", "render_size"):
@@ -105,6 +113,14 @@ class Options:
     def ticks(self) -> int:
         """Of a step."""
         return round(1000.0 / self.frequency)
+
+    @property
+    def steps(self) -> int | None:
+        """After which an episode is truncated; None: never."""
+        if self.time_limit is None:
+            return None
+        seconds = self.kind.seconds if self.time_limit == "task" else float(self.time_limit)
+        return max(1, round(1000.0 * seconds / self.ticks))
 
     def parts(self) -> list[int]:
         """The ticks for which a step's action is applied, one after the other; one part at 20 Hz or more."""
@@ -177,6 +193,20 @@ def checked_goals(goals: Any, size: int) -> Values:
     return values
 
 
+def step_worlds(episodes: Sequence[Episode], step: Callable[[int], None], ticks: int) -> None:
+    """Steps the simulations of episodes and warns of those whose physics diverges. step: steps all of them,
+    and raises RuntimeError if the physics of some has diverged."""
+    before = [episode.diverged for episode in episodes]
+    try:
+        step(ticks)
+    except RuntimeError as error:
+        diverged = [episode.diverged for episode in episodes]
+        if not any(diverged):
+            raise
+        if diverged != before:
+            warnings.warn(f"{error} The episode is truncated.", RuntimeWarning, stacklevel=3)
+
+
 def make_ready(episodes: Sequence[Episode], step: Callable[[int], None]) -> None:
     """Lets the hands of new episodes open. step: steps their simulations."""
     for _ in range(MAX_OPENING_TICKS // OPENING):
@@ -203,7 +233,8 @@ class Environment(gymnasium.Env[dict[str, Any], Any]):
     task: Reach, Push, PickAndPlace, HandOver. robot: panda, fr3. control: torque, joint_delta,
     cartesian_delta. observation: state, state+pictures. reward: sparse, dense. frequency: of the policy
     [Hz]. realism: a profile of docs/sim_to_real.md. randomize: what is drawn for each episode. on_reflex:
-    recover (the arm is recovered, its actions have no effect meanwhile), terminate. camera: name; empty: a
+    recover (the arm is recovered, its actions have no effect meanwhile), terminate. time_limit: after which
+    an episode is truncated [s]; task: that of the task, at any frequency; None: never. camera: name; empty: a
     view of the whole world. size: width and height of observed pictures. render_mode: human (a window, which
     needs pygame), rgb_array. render_size: width and height of what render() draws.
 
@@ -230,6 +261,7 @@ class Environment(gymnasium.Env[dict[str, Any], Any]):
         self._unit = CONTROLS[options.control].unit
         self._parts = options.parts()
         self._begun = self._closed = False
+        self._steps = 0
         self._window: Window | None = None
         if self.render_mode == "human":
             title = f"pyfranka/{options.task}-v0"
@@ -237,6 +269,17 @@ class Environment(gymnasium.Env[dict[str, Any], Any]):
         # What cannot be simulated is refused now.
         self._episode = new_episode(options, self._randomization, numpy.random.default_rng(0))
         self.observation_space = options.observation_space(self._episode.view.bounds)
+
+    @property
+    def spec(self) -> EnvSpec | None:
+        """How gymnasium.make() made it. Its max_episode_steps are those of time_limit."""
+        return self._spec
+
+    @spec.setter
+    def spec(self, spec: EnvSpec | None) -> None:
+        self._spec = copy.copy(spec)
+        if self._spec is not None and self._spec.max_episode_steps is None:
+            self._spec.max_episode_steps = self.options.steps
 
     @property
     def episode(self) -> Episode:
@@ -274,13 +317,14 @@ class Environment(gymnasium.Env[dict[str, Any], Any]):
         if self._randomization:
             self._renew(self.np_random)
         self._episode.reset(self.np_random, checked)
-        self._begun = True
+        self._begun, self._steps = True, 0
         observation = self._observe(0.0)
         return observation, self._episode.report(observation)
 
     def step(self, action: Any) -> tuple[dict[str, Any], float, bool, bool, dict[str, Any]]:
         """Applies an action for one step of the policy: observation, reward, terminated, truncated, info.
-        Raises ValueError for another shape and for numbers that are not finite.
+        Raises ValueError for another shape and for numbers that are not finite. If the physics diverges, the
+        episode is truncated, info["diverged"] is True, and a RuntimeWarning says why.
 
         >>> env = pyfranka.gym.Environment("Reach")
         >>> observation, info = env.reset(seed=1)
@@ -293,12 +337,14 @@ class Environment(gymnasium.Env[dict[str, Any], Any]):
         episode = self._episode
         for ticks in self._parts:
             episode.apply(values, 1e-3 * ticks)
-            episode.sim.step(ticks)
+            step_worlds([episode], episode.sim.step, ticks)
+        self._steps += 1
         observation = self._observe(1e-3 * self.options.ticks)
         info = episode.report(observation)
         reward = float(self.options.rewards(observation["achieved_goal"], episode.desired))
         terminated = info["is_success"] or (self.options.on_reflex == "terminate" and episode.stopped)
-        return observation, reward, terminated, episode.stuck, info
+        truncated = episode.stuck or info["diverged"] or self._steps == self.options.steps
+        return observation, reward, terminated, truncated, info
 
     def _observe(self, seconds: float) -> dict[str, Values]:
         observation = self._episode.observe(seconds)

@@ -206,6 +206,11 @@ class Episode:
         """Whether recovery fails, as for a joint beyond its limits, which a user must guide back by hand."""
         return bool(self.native.stuck)
 
+    @property
+    def diverged(self) -> bool:
+        """Whether the world stands still because its physics has diverged; reset() ends that."""
+        return bool(self.sim._native.stopped())
+
     def observe(self, seconds: float) -> dict[str, Values]:
         """The observation after so long a step; 0 at the start. Starts the recovery of robots that a reflex
         has stopped."""
@@ -219,6 +224,7 @@ class Episode:
             "is_success": bool(success),
             "reach": float(self.view.reach(self.row)),
             "reflexes": self.native.reflexes,
+            "diverged": self.diverged,
         }
 
 

@@ -68,6 +68,7 @@ class RecordEpisodes(gymnasium.Wrapper[Any, Any, Any, Any]):
             raise TypeError(f"only_success must be True or False, not {only_success!r}.")
         self._only_success = only_success
         self._observation: Any = None
+        self._ended = False
         self.dataset = Dataset(folder, int(fps), getattr(options, "robot", ""), {"observation.state": names})
 
     def reset(
@@ -81,11 +82,12 @@ class RecordEpisodes(gymnasium.Wrapper[Any, Any, Any, Any]):
         """
         observation, info = super().reset(seed=seed, options=options)
         self.dataset.discard_episode()
-        self._observation = observation
+        self._observation, self._ended = observation, False
         return observation, info
 
     def step(self, action: Any) -> tuple[Any, Any, bool, bool, dict[str, Any]]:
-        """As of the environment. The end of an episode writes it.
+        """As of the environment. The end of an episode writes it. The step after it, without reset(), is not
+        a frame: in it gymnasium.wrappers.Autoreset begins the next episode.
 
         >>> env = gymnasium.make("pyfranka/Reach-v0")
         >>> recorded = pyfranka.gym.RecordEpisodes(env, folder / "episodes")
@@ -93,6 +95,9 @@ class RecordEpisodes(gymnasium.Wrapper[Any, Any, Any, Any]):
         >>> observation, *others = recorded.step(recorded.action_space.sample())
         """
         observation, reward, terminated, truncated, info = super().step(action)
+        if self._ended:  # the action had no effect
+            self._observation, self._ended = observation, terminated or truncated
+            return observation, reward, terminated, truncated, info
         over, success = terminated or truncated, bool(info.get("is_success", terminated))
         self.dataset.add_frame(
             {
@@ -103,9 +108,11 @@ class RecordEpisodes(gymnasium.Wrapper[Any, Any, Any, Any]):
                 "next.success": success,
             }
         )
-        self._observation = observation
+        self._observation, self._ended = observation, over
         if over and (success or not self._only_success):
             self.dataset.save_episode(self._task)
+        elif over:
+            self.dataset.discard_episode()
         return observation, reward, terminated, truncated, info
 
     def close(self) -> None:

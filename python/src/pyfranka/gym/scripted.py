@@ -27,11 +27,12 @@ from .environment import Environment, Options
 __all__ = ["scripted_policy"]
 
 Vector = NDArray[Any]
-GAIN = 0.3  # share of the remaining way of each target step (chosen here: no overshoot at 20 Hz)
+GAIN = 0.3  # share of the remaining way in GAIN_TIME (chosen here: no overshoot at 20 Hz)
+GAIN_TIME = 0.05  # [s]
 DOWN = numpy.diag([1.0, -1.0, -1.0])  # the hand points down, its x axis along the world's
 NEAR, AT = 0.015, 0.006  # of a point on the way and of one to grasp or let go at [m] (chosen here)
 TURNED = 0.05  # [rad]
-PATIENCE = 60  # steps before a point counts as reached although friction holds the arm off it
+PATIENCE = 3.0  # before a point counts as reached although friction holds the arm off it [s]
 GRASPING = 2.0  # longest time that the hand has to close or open [s]
 Steps = Generator[None, None, None]
 
@@ -63,15 +64,16 @@ class Arm:
 
     def action(self, seconds: float) -> Vector:
         """The Cartesian step towards the target."""
-        way = GAIN * (self.target_position - self.position) / (SPEED * seconds)
+        gain = 1.0 - (1.0 - GAIN) ** (seconds / GAIN_TIME)
+        way = gain * (self.target_position - self.position) / (SPEED * seconds)
         turn = Rotation.from_matrix(self.target_rotation @ self.rotation.T).as_rotvec()
-        return numpy.concatenate([shortened(way, 1.0), shortened(GAIN * turn / (TURN_SPEED * seconds), 1.0)])
+        return numpy.concatenate([shortened(way, 1.0), shortened(gain * turn / (TURN_SPEED * seconds), 1.0)])
 
     def go(self, position: Vector, rotation: Vector | None = None, near: float = NEAR) -> Steps:
         """Goes to a pose."""
         self.target_position = numpy.asarray(position, dtype=float)
         self.target_rotation = self.target_rotation if rotation is None else rotation
-        for _ in range(PATIENCE):
+        for _ in range(max(1, round(PATIENCE / self._script.seconds))):
             away = float(numpy.linalg.norm(self.target_position - self.position))
             turn = Rotation.from_matrix(self.target_rotation @ self.rotation.T).magnitude()
             if away < near and turn < TURNED:

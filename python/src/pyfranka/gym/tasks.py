@@ -49,7 +49,7 @@ class Task:
     workspace: ClassVar[tuple[tuple[float, ...], tuple[float, ...]]]  # lowest, highest x, y, z of targets [m]
     flags: ClassVar[tuple[float, ...]] = ()  # the desired ones
     tolerance: ClassVar[float] = 0.02  # [m]
-    steps: ClassVar[int]  # of an episode at 20 Hz
+    seconds: ClassVar[float]  # of an episode
 
     def draw_goal(self, random: numpy.random.Generator, body: Vector) -> Vector:
         """A goal position, for an object at this position."""
@@ -92,7 +92,7 @@ class Task:
 class Reach(Task):
     """The end effector goes to a point in the air."""
 
-    name, steps = "Reach", 50
+    name, seconds = "Reach", 2.5
     workspace = ((0.2, -0.5, 0.05), (0.75, 0.5, 0.8))
 
     def draw_goal(self, random: numpy.random.Generator, body: Vector) -> Vector:
@@ -110,7 +110,7 @@ class Reach(Task):
 class Push(Task):
     """The closed hand pushes a cube over a table to a point on it."""
 
-    name, steps = "Push", 200
+    name, seconds = "Push", 10.0
     world, body, bases = "push.xml", "cube", ((-0.5, 0.0, 0.0, 0.0),)
     workspace = ((-0.25, -0.3, TABLE + 0.012), (0.25, 0.3, 0.7))
 
@@ -131,7 +131,7 @@ class PickAndPlace(Task):
     Flag: whether the stone rests: something touches it, and no robot.
     """
 
-    name, steps = "PickAndPlace", 300
+    name, seconds = "PickAndPlace", 15.0
     world, body, bases = "stone.xml", "stone", ((-0.5, 0.0, 0.0, 0.0),)
     uses_hand, flags, tolerance = True, (1.0,), 0.05
     workspace = ((-0.25, -0.35, 0.44), (0.25, 0.35, 0.8))
@@ -157,7 +157,7 @@ class HandOver(Task):
     Flags: whether the first robot touches the stone; the second; anything else.
     """
 
-    name, steps = "HandOver", 400
+    name, seconds = "HandOver", 20.0
     world, body = "hand_over.xml", "stone"
     bases = ((-0.75, 0.0, 0.0, 0.0), (0.75, 0.0, 0.0, numpy.pi))
     uses_hand, flags, tolerance = True, (0.0, 1.0, 0.0), 0.05

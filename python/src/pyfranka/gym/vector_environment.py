@@ -20,7 +20,7 @@ from pyfranka.sim import SimulationBatch
 from pyfranka.sim.arguments import mapping, seed_of, whole
 
 from .actions import CONTROLS
-from .environment import Options, checked_action, chosen, make_ready, new_episode
+from .environment import Options, checked_action, chosen, make_ready, new_episode, step_worlds
 from .episode import Episode
 from .randomization import Randomization
 
@@ -33,7 +33,8 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
     """Equals `num_envs` Environments with the same options: world i is seeded by `seed + i`, and gives the
     same numbers on any number of threads.
 
-    max_episode_steps: after which an episode is truncated; None: never. threads: as of SimulationBatch.
+    max_episode_steps: after which an episode is truncated, if its time_limit is not over before. threads: as
+    of SimulationBatch.
     autoreset_mode: NextStep (a step after an episode's end resets it, as Gymnasium does by default),
     SameStep (with info["final_obs"] and info["final_info"]) or Disabled (options["reset_mask"] of reset()).
     The rest as of Environment. With `randomize` each episode has a new simulation, which takes the place of
@@ -72,7 +73,8 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
             "render_fps": options.frequency,
             "autoreset_mode": self.autoreset_mode,
         }
-        self.render_mode, self._limit = options.render_mode, max_episode_steps
+        limits = [limit for limit in (options.steps, max_episode_steps) if limit is not None]
+        self.render_mode, self._limit = options.render_mode, min(limits, default=None)
         self.single_action_space = options.action_space()
         self.action_space = batch_space(self.single_action_space, self.num_envs)
         self.layout, self._parts = options.layout(), options.parts()
@@ -126,6 +128,7 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
         mask = options.pop("reset_mask", None)
         mask = self._checked_mask(mask) if mask is not None else numpy.ones(self.num_envs, dtype=bool)
         seeds = self._checked_seeds(seed)
+        super().reset(seed=seeds[0])
         checked = self._episodes[mask.argmax()].checked(options)  # the others have equal robots
         self._seed(seeds, mask)
         infos: dict[str, Any] = {}
@@ -175,7 +178,9 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
 
     def step(self, actions: Any) -> tuple[dict[str, Values], Values, Values, Values, dict[str, Any]]:
         """Applies an action to each world: observations, rewards, terminated, truncated, infos, a row each.
-        Raises ValueError for another shape and for numbers that are not finite.
+        Raises ValueError for another shape and for numbers that are not finite. Where the physics diverges,
+        the episode is truncated, "diverged" of infos is True, and a RuntimeWarning says why; the other worlds
+        go on.
 
         >>> worlds = pyfranka.gym.VectorEnvironment(2, task="Reach")
         >>> observations, infos = worlds.reset(seed=1)
@@ -200,13 +205,17 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
             "is_success": success,
             "reach": self._view.reach(self._rows),
             "reflexes": numpy.array([native.reflexes for native in natives]),
+            "diverged": numpy.array([episode.diverged for episode in self._episodes]),
         }
         rewards = self.options.rewards(seen["achieved_goal"], self._desired)
         rewards[resting] = 0.0
         if "picture" in self.single_observation_space.spaces:
-            seen["picture"] = numpy.stack([self.options.picture(sim) for sim in self._batch])
+            before = self._shared["picture"]  # of resting worlds, which are drawn after their reset
+            seen["picture"] = numpy.stack(
+                [before[i] if resting[i] else self.options.picture(sim) for i, sim in enumerate(self._batch)]
+            )
         self._steps += 1
-        terminated, truncated = self._ends(success, natives, resting)
+        terminated, truncated = self._ends(success, infos["diverged"], resting)
         self._ended = terminated | truncated
         infos.update({f"_{name}": numpy.ones(self.num_envs, dtype=bool) for name in list(infos)})
         renewed = self._ended if self.autoreset_mode == AutoresetMode.SAME_STEP else resting
@@ -215,14 +224,13 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
         self._shared = {name: values.copy() for name, values in seen.items()}
         return seen, rewards, terminated, truncated, infos
 
-    def _ends(
-        self, success: Values, natives: Sequence[_sim.Episode], resting: Values
-    ) -> tuple[Values, Values]:
+    def _ends(self, success: Values, diverged: Values, resting: Values) -> tuple[Values, Values]:
         """Which episodes are terminated, and which are truncated by this step."""
+        natives = [episode.native for episode in self._episodes]
         terminated = success.copy()
         if self.options.on_reflex == "terminate":
             terminated |= [native.stopped for native in natives]
-        truncated = numpy.array([native.stuck for native in natives])
+        truncated = diverged | [native.stuck for native in natives]
         if self._limit is not None:
             truncated |= self._steps >= self._limit
         return terminated & ~resting, truncated & ~resting
@@ -232,7 +240,7 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
         if self.autoreset_mode == AutoresetMode.SAME_STEP:
             final = {"final_obs": {name: values[i].copy() for name, values in seen.items()}}
             final["final_info"] = {
-                name: infos[name][i].item() for name in ("is_success", "reach", "reflexes")
+                name: infos[name][i].item() for name in ("is_success", "reach", "reflexes", "diverged")
             }
             infos = self._add_info(infos, final, i)
         observation, info = self._reset_one(i, {})
@@ -244,7 +252,7 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
         natives = [episode.native for episode in self._episodes]
         for ticks in self._parts:
             _sim.apply_actions(natives, resting, values, 1e-3 * ticks)
-            self._batch.step(ticks)
+            step_worlds(self._episodes, self._batch.step, ticks)
 
     def _observed(self, i: int, seconds: float) -> tuple[dict[str, Values], dict[str, Any]]:
         episode = self._episodes[i]
