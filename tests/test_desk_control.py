@@ -316,3 +316,17 @@ def test_the_older_generation_of_the_panda_has_no_tokens_and_its_fci_is_always_o
         desk.advance(2 * ATTEMPT)
         assert desk.send("POST", "/desk/api/robot/close-brakes", b"force=false", **headers).status == 200
         assert robot.lines[2:] == ["fci off", "joints lock"]
+
+
+def test_only_a_motion_that_the_fci_prevents_pauses_an_fci_that_is_always_on(tmp_path):
+    ready = {"brakes": OPEN, "fci": True, "mode": "Idle"}
+    with desk_with_robot(tmp_path, "fer-old", report=ready) as (robot, desk):
+        cookie = desk.log_in()
+        robot.answers["move"] = "error: EmergencyStopPressed: A stop is pressed; release it."
+        assert desk.send("POST", "/desk/api/robot/fold", **cookie).status == 424
+        assert robot.lines == ["move pack"]
+        robot.answers["move"] = lambda *words: (
+            "error: MotionActive: The FCI." if robot.report["fci"] else "ok"
+        )
+        assert desk.send("POST", "/desk/api/robot/fold", **cookie).status == 200
+        assert robot.lines[1:4] == ["move pack", "fci off", "move pack"]

@@ -313,7 +313,23 @@ def test_joints_are_recovered_by_the_operator_only(desk, robot, part, kind):
     assert answer.status == 424 and answer.json()["details"] == ["JointRecoveryRequired"]
 
 
+def test_a_refused_recovery_acknowledges_nothing(desk, robot):
+    change(desk, robot, recoverable=["jointPositionError"], joint_position_error=[True] + [False] * 6)
+    refusal = "error: JointRecoveryRequired: A joint needs manual recovery."
+    robot.answers["acknowledge jointPositionErrorDemand"] = refusal
+    assert desk.send("POST", CONFIRM, {"type": "JointPositionError"}, **basic()).status == 424
+    assert robot.report["recoverable"] == ["jointPositionError"]
+
+
 # ---- self-tests ------------------------------------------------------------------------------------------
+
+
+def test_a_refused_self_test_stays_overdue(desk, robot, control):
+    change(desk, robot, recoverable=["td2Timeout"])
+    robot.answers["self_test"] = "error: EmergencyStopPressed: A stop is pressed; release it."
+    answer = desk.send("POST", "/api/safety/self-tests:execute", **control)
+    assert answer.status == 424 and answer.json()["details"] == ["EmergencyStopPressed"]
+    assert robot.lines[-1] == "inject td2Timeout on"
 
 
 def test_a_self_test_is_started_or_waited_for(desk, robot, control):

@@ -44,29 +44,24 @@ async def acknowledge(desk: Desk, name: str) -> None:
         raise DeskError(status, "ActionUnavailable", refused.sentence, [refused.code]) from None
 
 
-async def self_test(desk: Desk, wait: bool) -> None:
-    """Starts the self-test; returns at once or when it has ended."""
-    await desk.robot.send("self_test")
-    if wait:
-        async with asyncio.timeout(SELF_TEST_LIMIT):
-            await _until_tested(desk)
-
-
 async def move_to_pack_pose(desk: Desk) -> None:
-    """Returns when the robot has reached the pose; raises Refused. An FCI that is always on pauses, unless a
-    client moves the robot."""
-    if desk.profile.tokens:
+    """Returns when the robot has reached the pose; raises Refused. An FCI that is always on pauses if nothing
+    else prevents the motion."""
+    try:
         await desk.robot.send("move pack")
-        return
-    if desk.report.mode == "Move":
-        raise Refused("MotionActive", "A client of the FCI moves the robot.")
-    with desk.fci.paused():
-        await desk.robot.send("fci off")
-        await desk.robot.send("move pack")
+    except Refused as refused:
+        only_fci = refused.code == "MotionActive" and desk.report.fci and desk.report.mode == "Idle"
+        if desk.profile.tokens or not only_fci:
+            raise
+        with desk.fci.paused():
+            await desk.robot.send("fci off")
+            await desk.robot.send("move pack")
 
 
-async def _until_tested(desk: Desk) -> None:
-    with desk.watch() as event:
-        while desk.report.self_test.running:
-            event.clear()
-            await event.wait()
+async def until_tested(desk: Desk) -> None:
+    """Returns when the self-test has ended."""
+    async with asyncio.timeout(SELF_TEST_LIMIT):
+        with desk.watch() as event:
+            while desk.report.self_test.running:
+                event.clear()
+                await event.wait()

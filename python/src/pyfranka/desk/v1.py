@@ -9,7 +9,7 @@ import typing
 
 from pyfranka.desk import actions, checks, status
 from pyfranka.desk.access import not_in_control
-from pyfranka.desk.errors import DeskError, bad_request
+from pyfranka.desk.errors import DeskError, Refused, bad_request
 from pyfranka.desk.routes import Call, Handler, Login, Route, Token, with_v1
 from pyfranka.desk.status import Json
 from pyfranka.desk.tokens import Request
@@ -197,10 +197,18 @@ async def self_tests(call: Call) -> Json:
 
 
 async def execute_self_tests(call: Call) -> None:
-    """Also acknowledges overdue tests: clients of this interface do not."""
-    if OVERDUE in call.desk.report.recoverable:
+    """Also acknowledges overdue tests: clients of this interface do not. They stay overdue if the test is
+    refused."""
+    overdue = OVERDUE in call.desk.report.recoverable
+    if overdue:
         await actions.acknowledge(call.desk, OVERDUE)
-    await actions.self_test(call.desk, wait=True)
+    try:
+        await call.desk.robot.send("self_test")
+    except Refused:
+        if overdue:
+            await call.desk.robot.send(f"inject {OVERDUE} on")
+        raise
+    await actions.until_tested(call.desk)
 
 
 async def get_recovery(call: Call) -> Json:
@@ -255,7 +263,8 @@ def _names(kind: str) -> typing.Sequence[str]:
         "GenericJointError": ("genericJointError",),
         "SafeInputUnacknowledged": tuple(SAFE_INPUTS),
         "SelfTestsElapsed": ("td2Timeout",),
-        "JointPositionError": ("jointPositionError", POSITIONS),
+        # First that which can be refused: then nothing has been acknowledged.
+        "JointPositionError": (POSITIONS, "jointPositionError"),
         "JointLimitViolation": (LIMITS,),
     }.get(kind, ())
 
