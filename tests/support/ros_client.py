@@ -83,7 +83,7 @@ class Action:
 
     def __init__(self, name: str, kind, patience: float = START):
         self._client = actionlib.ActionClient(name, kind)
-        assert self._client.wait_for_server(rospy.Duration(patience)), f"There is no action {name}."
+        assert rospy_connections.wait_for_server(self._client, patience), f"There is no action {name}."
 
     def send(self, goal, **callbacks):
         """The handle of a goal. @param callbacks of actionlib's send_goal"""

@@ -109,8 +109,7 @@ class PoseMarker:
         marker.controls = axis_controls()
         self._server.insert(marker, self._feedback)
         self._server.applyChanges()
-        # reset: a restarted simulation sets the time back, and publishing must continue.
-        self._timer = rospy.Timer(rospy.Duration(period), self._publish, reset=True)
+        self._timer = rospy.Timer(rospy.Duration(period), self._publish)
 
     def _dragged(self, pose: Pose) -> None:
         """The user has dragged the marker here."""

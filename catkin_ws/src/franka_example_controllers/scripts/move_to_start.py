@@ -28,7 +28,6 @@ from trajectory_msgs.msg import JointTrajectoryPoint
 
 MIN_DURATION = 0.5  # [s]
 WAIT = 30.0  # [s] for the controller and the joints
-POLL = 0.05  # [s]
 
 
 def fail(text: str) -> int:
@@ -51,8 +50,8 @@ def goal_for(
     return goal, point.time_from_start
 
 
-def run(client: actionlib.ActionClient, goal: FollowJointTrajectoryGoal, timeout: rospy.Duration) -> Any:
-    """Sends a goal and waits for its end. @returns its handle, also after a timeout."""
+def run(client: actionlib.ActionClient, goal: FollowJointTrajectoryGoal, timeout: float) -> Any:
+    """Sends a goal and waits for its end. @returns its handle, also after the timeout [s]."""
     # A SimpleActionClient logs errors about goals that a controller accepts at once.
     ended = threading.Event()
 
@@ -61,9 +60,7 @@ def run(client: actionlib.ActionClient, goal: FollowJointTrajectoryGoal, timeout
             ended.set()
 
     handle = client.send_goal(goal, transition_cb=follow)
-    end = rospy.Time.now() + timeout
-    while not ended.wait(POLL) and rospy.Time.now() < end and not rospy.is_shutdown():
-        pass
+    rospy_connections.wait(ended, timeout)
     return handle
 
 
@@ -78,7 +75,7 @@ def main() -> int:
         return fail("the parameter max_dq must be a number above zero [rad/s].")
 
     client = actionlib.ActionClient("~follow_joint_trajectory", FollowJointTrajectoryAction)
-    if not client.wait_for_server(rospy.Duration.from_sec(WAIT)):
+    if not rospy_connections.wait_for_server(client, WAIT):
         return fail(
             "no trajectory controller answers at "
             + rospy.resolve_name("~follow_joint_trajectory")
@@ -95,7 +92,7 @@ def main() -> int:
 
     goal, duration = goal_for(pose, present, max_dq)
     rospy.loginfo("move_to_start: on the way, for %.1f s.", duration.to_sec())
-    handle = run(client, goal, duration + rospy.Duration.from_sec(WAIT))
+    handle = run(client, goal, duration.to_sec() + WAIT)
     if handle.get_comm_state() != actionlib.CommState.DONE:
         handle.cancel()
         return fail("the controller does not end; the goal was cancelled.")

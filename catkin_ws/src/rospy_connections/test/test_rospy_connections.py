@@ -14,6 +14,7 @@ from rospy.impl.registration import RegManager
 from rospy.impl.tcpros_pubsub import TCPROSHandler
 from rospy.topics import _PublisherImpl
 from std_msgs.msg import String
+from waiting import holds
 
 TOPIC, PUBLISHER, OTHER = "/grasp/result", "http://hand:1", "http://hand:2"
 LAST = "/last"  # rospy reads the oldest update last
@@ -55,8 +56,18 @@ def connections(*updates: list[str], expected: int) -> set:
 def mended(monkeypatch):
     monkeypatch.setattr(RegManager, "publisher_update", RegManager.publisher_update)
     monkeypatch.setattr(TCPROSHandler, "topic_connection_handler", TCPROSHandler.topic_connection_handler)
+    for function in (rospy.Rate.__init__, rospy.Timer.__init__):
+        monkeypatch.setattr(function, "__defaults__", function.__defaults__)
     monkeypatch.setattr(rospy, "init_node", lambda *_: None)
     rospy_connections.init_node("any")
+
+
+@pytest.fixture
+def set_time(monkeypatch):
+    """Sets the time [s] of a simulated clock."""
+    monkeypatch.setattr(rospy.rostime, "_rostime_current", None)
+    monkeypatch.setattr(rospy.rostime, "_rostime_initialized", True)
+    return lambda seconds: rospy.rostime._set_rostime(rospy.Time.from_sec(seconds))
 
 
 def test_plain_rospy_loses_a_publisher_announced_before_the_masters_answer():
@@ -114,6 +125,30 @@ def test_plain_rospy_publishes_before_the_subscriber_is_added(monkeypatch):
 
 def test_publishing_waits_until_the_subscriber_is_added(mended, monkeypatch):
     assert not can_publish_before_the_subscriber_is_added(monkeypatch)
+
+
+def test_timers_and_the_rates_in_them_continue_after_jumps(mended, set_time):
+    set_time(1000.0)
+    ticks = []
+    timer = rospy.Timer(rospy.Duration(0.01), ticks.append)
+    for start in (1000.0, 10.0, 5000.0, 0.5):
+        ticks.clear()
+        # Ends long before the time of the jump back.
+        for step in range(10000):
+            set_time(start + 0.01 * step)
+            if holds(lambda: len(ticks) >= 5, patience=0.005):
+                break
+        assert len(ticks) >= 5, f"after a jump to {start} s"
+    timer.shutdown()
+
+
+def test_a_stopwatch_counts_no_jump(set_time):
+    set_time(5.0)
+    watch, laps = rospy_connections.Stopwatch(max_lap=1.0), []
+    for seconds in (5.25, 6.0, 1000.0, 1000.5, 2.0, 2.5):
+        set_time(seconds)
+        laps.append(watch.lap())
+    assert laps == [0.25, 0.75, 1.0, 0.5, 0.0, 0.5]
 
 
 def test_init_node_passes_its_arguments_on(monkeypatch):

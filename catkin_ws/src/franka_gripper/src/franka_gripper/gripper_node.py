@@ -103,6 +103,19 @@ def check(condition: bool, text: str) -> None:
         raise Fault(text)
 
 
+class GoalServer(actionlib.SimpleActionServer):
+    """Accepts goals also after the clock has jumped back. The base class cancels each goal whose stamp is
+    before that of an earlier goal, which would then be all of them until the clock is there again.
+    """
+
+    def internal_goal_callback(self, goal: Any) -> None:
+        now = rospy.Time.now()
+        for earlier in (self.current_goal, self.next_goal):
+            if earlier.get_goal() and earlier.get_goal_id().stamp > now:
+                earlier.get_goal_id().stamp = now
+        super().internal_goal_callback(goal)
+
+
 class GripperNode:
     """Five actions; a new goal on any of them ends the running one.
 
@@ -165,7 +178,7 @@ class GripperNode:
             else:
                 server.set_succeeded(result)
 
-        server = actionlib.SimpleActionServer("~" + name, action, execute, auto_start=False)
+        server = GoalServer("~" + name, action, execute, auto_start=False)
         return server
 
     @staticmethod

@@ -35,6 +35,7 @@ from franka_msgs.msg import FrankaState
 from franka_msgs.srv import SetLoad
 from gazebo_msgs.srv import GetLinkState
 from geometry_msgs.msg import Point, Pose, PoseStamped
+from rospy_connections import Stopwatch
 from sensor_msgs.msg import Image
 
 from franka_sim_mujoco.geometry import (
@@ -71,12 +72,12 @@ def wait_until(
     Simulated time can advance while this process hardly runs (as fast as possible on a busy machine): of the
     time between two looks only MAX_COUNTED_TIME counts, and its timeout only after PATIENCE of wall time.
     """
-    last, counted, wall_start = rospy.get_time(), 0.0, time.monotonic()
+    watch, counted, wall_start = Stopwatch(MAX_COUNTED_TIME), 0.0, time.monotonic()
     while not condition():
         if rospy.is_shutdown():
             raise TaskError(f"ROS went down while waiting: {what}.")
-        waited, now = time.monotonic() - wall_start, rospy.get_time()
-        last, counted = now, counted + min(now - last, MAX_COUNTED_TIME)
+        waited = time.monotonic() - wall_start
+        counted += watch.lap()
         if counted > simulated and waited > PATIENCE:
             raise TaskError(f"{what}: not within {simulated:.0f} simulated seconds.")
         if waited > wall:
@@ -186,16 +187,14 @@ class Arm:
         turn = wrap(yaw_of(target) - yaw_of(start), 2 * math.pi)
         distance = float(np.linalg.norm(target[:3, 3] - start[:3, 3]))
         duration = max(distance / speed, abs(turn) / turn_speed, 0.3)
-        last = rospy.get_time()
+        # The target must not jump when this script is late, or the held object would slip.
+        watch = Stopwatch(self.MAX_TIME_STEP)
         wall_end = time.monotonic() + 120.0
         fraction = 0.0
         while fraction < 1.0:
             if rospy.is_shutdown() or time.monotonic() > wall_end:
                 raise TaskError(f"{what}: the simulation's clock does not advance.")
-            # The target must not jump when this script is late, or the held object would slip.
-            now = rospy.get_time()
-            fraction = min(fraction + min(now - last, self.MAX_TIME_STEP) / duration, 1.0)
-            last = now
+            fraction = min(fraction + watch.lap() / duration, 1.0)
             s = minimum_jerk(fraction)
             x, y, z = start[:3, 3] + s * (target[:3, 3] - start[:3, 3])
             self._lead(downwards(x, y, z, yaw_of(start) + s * turn))
@@ -240,7 +239,8 @@ class Arm:
         if not (rests and near):
             self._arrival = None
             return False
-        self._arrival = self._arrival if self._arrival is not None else measured
+        if self._arrival is None or measured < self._arrival:  # the clock may jump back
+            self._arrival = measured
         return bool(measured - self._arrival > self.SETTLED)
 
     def _correct(self, away: Array, turned: Array, measured: float) -> None:
@@ -249,10 +249,13 @@ class Arm:
         Not by a state that the arm had before the last correction: when this script is late, the same
         error would be corrected many times.
         """
+        now = rospy.get_time()
+        if self._corrected > now:  # the clock has jumped back
+            self._corrected = now
         if measured <= self._corrected:
             return
         share = self.CORRECTION * min(measured - self._corrected, self.MAX_CORRECTION_STEP)
-        self._corrected = rospy.get_time()
+        self._corrected = now
         self._lead_position = shortened(self._lead_position + share * away, self.MAX_LEAD)
         self._lead_turn = shortened(self._lead_turn + share * turned, self.MAX_LEAD_TURN)
 
@@ -449,18 +452,18 @@ class PickAndPlace:
 
     def placement(self) -> Placement:
         """Position of the stone, once it is at rest."""
-        last = [self.scene.pose(self.stone), rospy.get_time()]
+        watch, passed, stone = Stopwatch(MAX_COUNTED_TIME), 0.0, self.scene.pose(self.stone)
 
         def at_rest() -> bool:
-            if rospy.get_time() - last[1] < 0.5:
+            nonlocal passed, stone
+            passed += watch.lap()
+            if passed < 0.5:
                 return False
-            now = self.scene.pose(self.stone)
-            moved = float(np.linalg.norm(now[:3, 3] - last[0][:3, 3]))
-            last[:] = [now, rospy.get_time()]
-            return moved < 1e-4
+            last, stone, passed = stone, self.scene.pose(self.stone), 0.0
+            return float(np.linalg.norm(stone[:3, 3] - last[:3, 3])) < 1e-4
 
         wait_until(at_rest, "the stone coming to rest")
-        stone, tray = last[0], self.scene.pose(self.tray)
+        tray = self.scene.pose(self.tray)
         offset = np.linalg.inv(tray) @ stone
         lowest = STONE_SIZE[0] / 2 - 1e-3
         highest = math.hypot(*STONE_SIZE) / 2

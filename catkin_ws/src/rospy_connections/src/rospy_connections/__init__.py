@@ -1,8 +1,8 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Functions of all our Python nodes: answer_help() and init_node().
+"""Functions of all our Python nodes: answer_help(), init_node(), and waits in ROS time, which may jump.
 
-init_node() is for nodes that start at the same time as their publishers.
+init_node() is for nodes that start at the same time as their publishers, and whose clock may jump.
 
 A subscriber learns its publishers in two ways: from the master's answer when it registers, and from the
 master's later updates. On a busy machine an update can overtake the answer. rospy then keeps only the last
@@ -14,15 +14,24 @@ A publisher that gets a subscriber first confirms the connection to it and adds 
 afterwards. A message that is published in between is lost for this subscriber (seen on a busy machine: the
 result of an action whose client had just found the server). Publishing therefore waits until the subscriber
 is added.
+
+A clock jumps back when a simulation starts again, or a bag in a loop. By default that ends a rospy.Timer,
+also that of an action server's status, and raises an exception in rospy.Rate.sleep(). After init_node() both
+begin a new period. Use Stopwatch, wait() and wait_for_server() instead of comparing times: a jump neither
+ends a timeout early nor prolongs it.
 """
 
+import math
 import sys
+import threading
 from typing import Any
 
 import rospy
 from rospy.impl.registration import RegManager, get_topic_manager
 from rospy.impl.tcpros_pubsub import TCPROSHandler
 
+MAX_LAP = 1.0  # [s] of ROS time between two looks at the clock; more is a jump
+POLL = 0.05  # [s] between two looks
 MAX_WAIT = 1.0  # [s] for a publisher that is blocked by another subscriber, which must not hold up all others
 
 
@@ -60,8 +69,44 @@ def answer_help(command: str, text: str) -> None:
 
 
 def init_node(*arguments: Any, **options: Any) -> None:
-    """rospy.init_node(), after which subscribers find their publishers in any order of start, and miss no
-    message after that."""
+    """rospy.init_node(), after which subscribers find their publishers in any order of start and miss no
+    message after that, and rates and timers continue when the clock jumps back."""
+    rospy.Rate.__init__.__defaults__ = (True,)  # reset
+    rospy.Timer.__init__.__defaults__ = (False, True)  # oneshot, reset
     RegManager.publisher_update = _publisher_update
     TCPROSHandler.topic_connection_handler = _topic_connection_handler
     rospy.init_node(*arguments, **options)
+
+
+class Stopwatch:
+    """Measures ROS time in laps. A jump of the clock counts as `max_lap` [s] at most, one backwards as 0."""
+
+    def __init__(self, max_lap: float = MAX_LAP) -> None:
+        self._max_lap = max_lap
+        self._last: float = rospy.get_time()
+
+    def lap(self) -> float:
+        """Time since the last call, or since the start [s]."""
+        last, self._last = self._last, rospy.get_time()
+        return min(max(self._last - last, 0.0), self._max_lap)
+
+
+def wait(event: threading.Event, timeout: float = math.inf) -> bool:
+    """Waits for an event. Returns False after `timeout` [s] of ROS time, or if the node exits."""
+    watch, passed = Stopwatch(), 0.0
+    while not event.wait(POLL):
+        passed += watch.lap()
+        if passed >= timeout or rospy.is_shutdown():
+            return False
+    return True
+
+
+def wait_for_server(client: Any, timeout: float) -> bool:
+    """Waits for the server of an action client. Returns False after `timeout` [s] of ROS time, or if the node
+    exits."""
+    watch, passed = Stopwatch(), 0.0
+    while not client.wait_for_server(rospy.Duration.from_sec(POLL)):
+        passed += watch.lap()
+        if passed >= timeout or rospy.is_shutdown():
+            return False
+    return True
