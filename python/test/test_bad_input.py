@@ -503,6 +503,54 @@ def test_bad_input_is_refused_with_a_sentence_and_changes_nothing(kind, name):
     assert not wrong, "\n".join(wrong)
 
 
+# Right in themselves, and refused while the arm moves.
+REFUSED_IN_MOTION = [
+    lambda x: x.set_joint_impedance([1000.0] * 7),
+    lambda x: x.set_cartesian_impedance([500.0] * 3 + [50.0] * 3),
+    lambda x: x.set_collision_behavior([50.0] * 7, [60.0] * 7, [50.0] * 6, [60.0] * 6),
+    lambda x: x.set_EE(np.eye(4)),
+    lambda x: x.set_K(np.eye(4)),
+    lambda x: x.set_load(0.5, [0, 0, 0.05], 1e-3 * np.eye(3).ravel()),
+    lambda x: x.recover(),
+    lambda x: x.command(torque=[0.0] * 7),
+    lambda x: x.command(cartesian_velocities=[0.0] * 6),
+    lambda x: x.joint_impedance([0.0, -0.8, 0.0, -2.4, 0.0, 1.6, 0.8]),
+    lambda x: x.cartesian_impedance(x.state.O_T_EE),
+]
+
+
+def test_refused_calls_do_not_disturb_a_motion(name):
+    def calls_of(table):
+        return [call for cases in table.values() for call in cases.values() if call]
+
+    def things(sim):
+        arm = sim["panda"]
+        return (
+            (arm, calls_of(ROBOT) + REFUSED_IN_MOTION),
+            (arm.gripper, calls_of(GRIPPER)),
+            (sim, calls_of(SIMULATION)),
+        )
+
+    hashes = []
+    for disturbed in (False, True):
+        with Simulation("stone.xml", [KINDS[name](name="panda", base=BASE)]) as sim:
+            arm = sim["panda"]
+            arm.command(joint_velocities=[0.0] * 7)
+            for tick in range(1, 21):
+                arm.command(joint_velocities=[1e-3 * tick] + [0.0] * 6)
+                sim.step()
+            arm.gripper.move(0.02)
+            sim.step(5)
+            for thing, calls in things(sim) if disturbed else []:
+                for call in calls:
+                    with pytest.raises(ERRORS):
+                        call(thing)
+            sim.step(300)
+            assert arm.moving
+            hashes.append(sim.state_hash())
+    assert hashes[0] == hashes[1]
+
+
 def test_bad_input_of_an_episode_keeps_its_random_numbers(name):
     """What a wrong reset would have drawn is drawn by the next one."""
     wrong, right = pyfranka.gym.Environment("Push", robot=name), pyfranka.gym.Environment("Push", robot=name)
