@@ -249,7 +249,7 @@ class SimulatedRobot:
             raise ValueError(f"A command is one of {', '.join(values)}; given: {', '.join(given) or 'none'}.")
         if elbow is not None and not given[0].startswith("cartesian"):
             raise ValueError("An elbow goes with cartesian_pose and cartesian_velocities only.")
-        if (limit_rate or damping is not None) and torque is None:
+        if torque is None and (limit_rate is not False or damping is not None):
             raise ValueError("limit_rate and damping go with torques only.")
         if torque is not None:
             self._native.command_torques(torque, limit_rate, damping)

@@ -218,11 +218,13 @@ class Simulation:
         if robot is None and len(self) != 1:
             raise ValueError(f"Which robot? There are: {', '.join(self) or 'none'}.")
         name = self[next(iter(self)) if robot is None else robot].name
-        if pace not in ("lockstep", "realtime"):
+        if text(pace, "pace") not in ("lockstep", "realtime"):
             raise ValueError(f"pace is 'lockstep' or 'realtime', not '{pace}'.")
         if isinstance(patience, str) and patience != "forever":
             raise ValueError(f"patience is a number of seconds or 'forever', not '{patience}'.")
-        self._native.serve(name, ip, pace == "realtime", None if patience == "forever" else patience, wait)
+        self._native.serve(
+            name, ip, pace == "realtime", None if isinstance(patience, str) else patience, wait
+        )
         if self._attendant is None:
             self._attendant = threading.Thread(
                 target=_attend, args=(weakref.ref(self),), name="pyfranka.sim clients", daemon=True
