@@ -136,34 +136,34 @@ void DeviceJoints::registerHandles(hardware_interface::JointStateInterface& stat
         joint.name, &measured.position, &measured.velocity, &measured.effort));
     const auto state = states.getHandle(joint.name);
     const auto offer = [&](auto* interface, double* command, Method method) {
-      const JointHandle handle(state, command);
-      interface->registerHandle(handle);
-      registerLimits(joint, handle, method);
+      interface->registerHandle(JointHandle(state, command));
+      registerLimits(joint, state, method);
     };
     if (joint.takes_effort) {
-      offer(&efforts, &joint.effort, Method::kEffort);
+      offer(&efforts, &joint.commands.effort, Method::kEffort);
     }
     if (joint.takes_position) {
-      offer(&positions, &joint.position, Method::kPosition);
+      offer(&positions, &joint.commands.position, Method::kPosition);
     }
     if (joint.takes_velocity) {
-      offer(&velocities, &joint.velocity, Method::kVelocity);
+      offer(&velocities, &joint.commands.velocity, Method::kVelocity);
     }
   }
   worldWasReset();
 }
 
-void DeviceJoints::registerLimits(const Joint& joint, const JointHandle& handle, Method method) {
+void DeviceJoints::registerLimits(Joint& joint, const hardware_interface::JointStateHandle& state,
+                                  Method method) {
   joint_limits_interface::JointLimits limits;
   if (!joint_limits_interface::getJointLimits(joint.described, limits)) {
     return;
   }
   if (method == Method::kEffort && limits.has_effort_limits && limits.has_velocity_limits) {
-    effort_limits_.registerHandle({handle, limits});
+    effort_limits_.registerHandle({JointHandle(state, &joint.applied.effort), limits});
   } else if (method == Method::kPosition) {
-    position_limits_.registerHandle({handle, limits});
+    position_limits_.registerHandle({JointHandle(state, &joint.applied.position), limits});
   } else if (method == Method::kVelocity && limits.has_velocity_limits) {
-    velocity_limits_.registerHandle({handle, limits});
+    velocity_limits_.registerHandle({JointHandle(state, &joint.applied.velocity), limits});
   }
 }
 
@@ -176,6 +176,9 @@ void DeviceJoints::read() noexcept {
 }
 
 void DeviceJoints::write(const ros::Duration& period) {
+  for (Joint& joint : joints_) {
+    joint.applied = joint.commands;
+  }
   effort_limits_.enforceLimits(period);
   position_limits_.enforceLimits(period);
   velocity_limits_.enforceLimits(period);
@@ -189,24 +192,24 @@ void DeviceJoints::write(Joint* joint, const ros::Duration& period) {
     case Method::kNone:
       return;
     case Method::kEffort:
-      joint->drive->applyEffort(joint->effort);
+      joint->drive->applyEffort(joint->applied.effort);
       return;
     case Method::kPosition:
       if (joint->pid) {
         joint->drive->applyEffort(
             limited(*joint, joint->pid->computeCommand(positionError(*joint), period)));
       } else {
-        joint->drive->follow(joint->position);
+        joint->drive->follow(joint->applied.position);
       }
       return;
     case Method::kVelocity:
       if (joint->pid) {
-        const double error = joint->velocity - joint->measured.velocity;
+        const double error = joint->applied.velocity - joint->measured.velocity;
         joint->drive->applyEffort(limited(*joint, joint->pid->computeCommand(error, period)));
-      } else if (std::isfinite(joint->velocity)) {
-        const double lead = std::abs(joint->velocity) * kLeadTime;
+      } else if (std::isfinite(joint->applied.velocity)) {
+        const double lead = std::abs(joint->applied.velocity) * kLeadTime;
         joint->followed =
-            std::clamp(joint->followed + joint->velocity * period.toSec(),
+            std::clamp(joint->followed + joint->applied.velocity * period.toSec(),
                        joint->measured.position - lead, joint->measured.position + lead);
         joint->drive->follow(joint->followed);
       }
@@ -215,7 +218,7 @@ void DeviceJoints::write(Joint* joint, const ros::Duration& period) {
 }
 
 double DeviceJoints::positionError(const Joint& joint) noexcept {
-  const double error = joint.position - joint.measured.position;
+  const double error = joint.applied.position - joint.measured.position;
   return joint.described->type == urdf::Joint::CONTINUOUS ? std::remainder(error, 2.0 * M_PI)
                                                           : error;
 }
@@ -253,8 +256,8 @@ void DeviceJoints::doSwitch(
 void DeviceJoints::choose(Joint* joint, Method method) noexcept {
   joint->measured = joint->drive->measure();
   joint->method = method;
-  joint->effort = joint->velocity = 0.0;
-  joint->position = joint->followed = joint->measured.position;
+  joint->commands = {0.0, joint->measured.position, 0.0};
+  joint->followed = joint->measured.position;
   position_limits_.reset();
   if (joint->pid) {
     joint->pid->reset();

@@ -147,8 +147,9 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
   parameters.rules = readBool(node, "reflexes").value_or(false)
                          ? franka_sim::InterfaceRules::kRosControlWithReflexes
                          : franka_sim::InterfaceRules::kRosControl;
-  arm_ = std::make_unique<SimArm>(parameters, world.arm(robot.name, arm_id_),
-                                  readOptions(node, hasReflexes(parameters.rules)));
+  SimArmOptions options = readOptions(node, hasReflexes(parameters.rules));
+  options.control_ticks = robot.control_ticks;
+  arm_ = std::make_unique<SimArm>(parameters, world.arm(robot.name, arm_id_), options);
   arm_->unit().request(franka_core::fci::SetJointImpedanceRequest{
       readJointStiffness(node, arm_id_, parameters.joint_stiffness)});
   warnOfGains(node, arm_id_);
@@ -218,6 +219,7 @@ void FrankaHWSim::readSim(ros::Time time, ros::Duration /*period*/) {
 }
 
 void FrankaHWSim::writeSim(ros::Time /*time*/, ros::Duration period) {
+  arm_->approachCommands();
   holdJointLimits(period);
   arm_->write();
   if (hand_ != nullptr) {

@@ -205,18 +205,20 @@ void FrankaHWSim::registerLimits(const urdf::Model& model) {
           arm_id_.c_str(), joint.name.c_str());
       continue;
     }
+    // They limit each tick's commands, not those of the controllers, which hold for a period.
+    franka::RobotState& state = arm_->state();
+    ArmCommands& applied = arm_->applied();
+    const hardware_interface::JointStateHandle desired(joint.name, &state.q_d[i], &state.dq_d[i],
+                                                       &state.tau_J[i]);
     if (joint.has_position) {
       position_limits_.registerHandle(joint_limits_interface::PositionJointSoftLimitsHandle(
-          positions_.getHandle(joint.name), limits, soft_limits));
+          hardware_interface::JointHandle(desired, &applied.position[i]), limits, soft_limits));
     }
     if (joint.has_velocity) {
       velocity_limits_.registerHandle(joint_limits_interface::VelocityJointSoftLimitsHandle(
-          velocities_.getHandle(joint.name), limits, soft_limits));
+          hardware_interface::JointHandle(desired, &applied.velocity[i]), limits, soft_limits));
     }
   }
-  // getHandle() has claimed the joints, but only for their limits.
-  positions_.clearClaims();
-  velocities_.clearClaims();
 }
 
 void FrankaHWSim::holdJointLimits(const ros::Duration& period) {

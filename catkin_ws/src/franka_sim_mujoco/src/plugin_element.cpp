@@ -6,6 +6,8 @@
 #include <tinyxml2.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 #include <optional>
 #include <stdexcept>
 #include <vector>
@@ -15,6 +17,10 @@ namespace franka_sim_mujoco {
 namespace {
 
 using tinyxml2::XMLElement;
+
+constexpr std::int64_t kMaxControlTicks = 1000;
+/// Tolerance for decimal fractions that are not exact in binary [ticks].
+constexpr double kRounding = 1e-6;
 
 std::string childText(const XMLElement& element, const char* name) {
   const XMLElement* child = element.FirstChildElement(name);
@@ -39,11 +45,15 @@ std::optional<PluginElement> readElement(const XMLElement& plugin) {
   result.robot_namespace = childText(plugin, "robotNamespace");
   if (plugin.FirstChildElement("controlPeriod") != nullptr) {
     const std::string period = childText(plugin, "controlPeriod");
-    result.control_period = franka_core::readNumber(period).value_or(0.0);
-    if (!(result.control_period > 0.0 && result.control_period <= 1.0)) {
+    const double ticks = 1e3 * franka_core::readNumber(period).value_or(0.0);
+    const auto whole = franka_core::wholeNumber(std::round(ticks), 1, kMaxControlTicks);
+    if (!whole || std::abs(ticks - std::round(ticks)) > kRounding) {
       throw std::runtime_error("The controlPeriod of the robot description is '" + period +
-                               "'; it must be a time in seconds, above 0 and up to 1.");
+                               "'; it must be a time in seconds from 0.001 to 1, in whole "
+                               "milliseconds: controllers run in ticks of the robot, which are 1 "
+                               "ms long.");
     }
+    result.control_ticks = static_cast<int>(*whole);
   }
   return result;
 }

@@ -12,7 +12,7 @@ struct PluginElement {
   std::string name;             ///< of the plugin
   std::string hardware_type;    ///< its robotSimType; empty: the URDF has no such element
   std::string robot_namespace;  ///< empty: the spawner's
-  double control_period{1e-3};  ///< [s]
+  int control_ticks{1};         ///< controlPeriod in ticks of 1 ms
   /// The arm_id of each transmission of the type franka_hw/FrankaStateInterface; empty if another
   /// hardware than FrankaHWSim is named.
   std::vector<std::string> arms;

@@ -82,8 +82,12 @@ RobotInstance::~RobotInstance() = default;
 
 void RobotInstance::start(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
                           BetweenTicks between_ticks, const OperatorAccess& access) {
-  const RobotHandle robot{&world, name_, franka_sim::withHeldJoints(plan.description.urdf),
-                          std::move(between_ticks), plan.arms};
+  const RobotHandle robot{&world,
+                          name_,
+                          franka_sim::withHeldJoints(plan.description.urdf),
+                          std::move(between_ticks),
+                          plan.arms,
+                          plan.control_ticks};
   if (!plan.fci_ip.empty()) {
     serve(plan, robot, access);
   } else if (!plan.hardware_type.empty()) {
@@ -158,20 +162,19 @@ void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
   TickTimes unused;
   TickTimes& sums = times != nullptr ? *times : unused;
   const ros::Duration tick(franka_sim::World::kTick);
+  hardware_->readSim(time, tick);
+  if (times != nullptr) {
+    watch.lap(sums.read);
+  }
   if (ticks_to_control_ > 0) {
     --ticks_to_control_;
   } else {
-    const ros::Duration period(control_ticks_ * franka_sim::World::kTick);
-    hardware_->readSim(time, period);
-    if (times != nullptr) {
-      watch.lap(sums.read);
-    }
-    updateControllers(time, period);
-    if (times != nullptr) {
-      watch.lap(sums.update);
-    }
+    updateControllers(time, ros::Duration(control_ticks_ * franka_sim::World::kTick));
     restart_controllers_ = false;
     ticks_to_control_ = control_ticks_ - 1;
+  }
+  if (times != nullptr) {
+    watch.lap(sums.update);
   }
   if (joint_states_) {
     joint_states_->tick(time);

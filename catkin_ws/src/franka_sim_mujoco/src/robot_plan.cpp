@@ -157,8 +157,7 @@ RobotPlan planRobot(const SpawnOrder& order) {
         "' is not a URDF that can be read; the lines above in the log say why.");
   }
   const PluginElement plugin = readPluginElement(order.urdf, order.robot_namespace);
-  plan.control_ticks =
-      std::max(1, static_cast<int>(std::lround(plugin.control_period / franka_sim::World::kTick)));
+  plan.control_ticks = plugin.control_ticks;
   plan.robot_namespace = chooseNamespace(order, plugin);
   std::string why;
   if (!ros::names::validate(plan.robot_namespace, why)) {

@@ -1,11 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/lowpass_filter.h>
 #include <franka_core/finite.h>
 #include <franka_core/to_franka.h>
+#include <franka_core/transform.h>
 #include <franka_sim_mujoco/sim_arm.h>
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
+#include <type_traits>
 
 namespace franka_sim_mujoco {
 
@@ -20,6 +24,48 @@ void smooth(double alpha, const std::array<double, N>& signal,
             std::array<double, N>& filtered) noexcept {
   for (std::size_t i = 0; i < N; ++i) {
     filtered[i] += alpha * (signal[i] - filtered[i]);
+  }
+}
+
+/// Bit for bit: a command that is not a number equals itself.
+bool equal(const ArmCommands& a, const ArmCommands& b) noexcept {
+  static_assert(std::is_trivially_copyable_v<ArmCommands>);
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+/// Goes a part of the way, below 1, to values. Values that are not finite are taken as they are.
+template <std::size_t N>
+void approach(double part, const std::array<double, N>& to, std::array<double, N>& value) noexcept {
+  if (!franka_core::allFinite(to) || !franka_core::allFinite(value)) {
+    value = to;
+    return;
+  }
+  smooth(part, to, value);
+}
+
+/// Another sign of joint 4, or an elbow that was free or becomes it, has no way between.
+void approachElbow(double part, const std::array<double, 2>& to,
+                   std::array<double, 2>& elbow) noexcept {
+  if (to[1] != elbow[1]) {
+    elbow = to;
+    return;
+  }
+  approach(part, to, elbow);
+}
+
+void approachPose(double part, const std::array<double, 16>& to,
+                  std::array<double, 16>& pose) noexcept {
+  if (!franka_core::isHomogeneousTransformation(to) ||
+      !franka_core::isHomogeneousTransformation(pose)) {
+    pose = to;
+    return;
+  }
+  // The cutoff frequency for which a step of the filter goes this part of the way.
+  const double cutoff = part / ((1.0 - part) * 2.0 * M_PI * franka_sim::kTick);
+  try {
+    pose = franka::cartesianLowpassFilter(franka_sim::kTick, to, pose, cutoff);
+  } catch (...) {
+    pose = to;  // another libfranka may check more
   }
 }
 
@@ -103,6 +149,25 @@ void SimArm::filter() noexcept {
   filter_is_fresh_ = false;
 }
 
+void SimArm::approachCommands() noexcept {
+  if (!equal(commands_, target_)) {
+    target_ = commands_;
+    ticks_to_target_ = options_.control_ticks;
+  }
+  if (ticks_to_target_ <= 1) {
+    applied_ = commands_;
+    return;
+  }
+  const double part = 1.0 / ticks_to_target_--;
+  applied_.torque = commands_.torque;
+  approach(part, commands_.position, applied_.position);
+  approach(part, commands_.velocity, applied_.velocity);
+  approachPose(part, commands_.pose, applied_.pose);
+  approachElbow(part, commands_.pose_elbow, applied_.pose_elbow);
+  approach(part, commands_.twist, applied_.twist);
+  approachElbow(part, commands_.twist_elbow, applied_.twist_elbow);
+}
+
 void SimArm::write() noexcept {
   const std::array<double, 7>& motor_torque = unit_.actuate(command());
   plant_.setBrakes(unit_.status().brakes_closed);
@@ -113,7 +178,7 @@ const franka_core::RobotCommand* SimArm::command() noexcept {
   if (unit_.state().robot_mode != RobotMode::kMove || switch_ == Switch::kOngoing) {
     return nullptr;
   }
-  command_ = shapeCommand(options_.shaping, mode_, commands_, unit_.state(), unit_.limits());
+  command_ = shapeCommand(options_.shaping, mode_, applied_, unit_.state(), unit_.limits());
   if (isFinite(command_)) {
     return &command_;
   }
@@ -216,6 +281,8 @@ void SimArm::resetCommands() noexcept {
   commands_ = ArmCommands();
   commands_.position = state.q_d;
   commands_.pose = state.O_T_EE_c;
+  applied_ = target_ = commands_;
+  ticks_to_target_ = 1;
 }
 
 // --- hands on the robot --------------------------------------------------------------------------

@@ -75,6 +75,7 @@ struct PoseControlledArm {
     return options;
   }
   void tick() {
+    arm.approachCommands();
     arm.write();
     plant.step();
     arm.read(ros::Time(1));

@@ -339,6 +339,33 @@ class ParametersTest(unittest.TestCase):
             self.pause()
             self.assertTrue(self.delete("panda").success)
 
+    def with_period(self, period):
+        return self.panda.replace("<controlPeriod>0.001<", f"<controlPeriod>{period}<")
+
+    def test_the_robot_is_the_same_at_each_control_period(self):
+        joints = [f"panda_joint{i}" for i in range(1, 8)]
+        bent = [("panda_joint2", -0.8), ("panda_joint4", -2.4), ("panda_joint6", 1.6)]
+        rospy.set_param("/period/arm_id", "panda")
+        states = set()
+        for period in ("0.001", "0.002", "0.008", "0.01", "1"):
+            answer = self.spawn("panda", "/period", self.with_period(period), bent)
+            self.assertTrue(answer.success, answer.error)
+            push = PushBodyRequest(body="panda_link7", ticks=100)
+            push.force.x = 10
+            self.assertTrue(self.push(push).success)
+            self.assertTrue(self.step(300).success)
+            state = self.joints(joints).state
+            states.add((state.position, state.velocity))
+            self.assertTrue(self.delete("panda").success)
+        self.assertEqual(len(states), 1)
+
+    def test_a_control_period_without_whole_ticks_is_refused(self):
+        rospy.set_param("/period/arm_id", "panda")
+        for period in ("0", "0.0001", "0.0015", "1.001", "-0.001", "nan", "fast"):
+            answer = self.spawn("panda", "/period", self.with_period(period))
+            self.assertFalse(answer.success, period)
+            self.assertIn("controlPeriod", answer.error)
+
     def test_wrong_spawn_requests_are_refused(self):
         rospy.set_param("/order/arm_id", "panda")
         for expected, answer in (

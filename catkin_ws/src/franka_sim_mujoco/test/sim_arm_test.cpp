@@ -2,11 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// Flags of contact and collision of an arm that controllers drive in the simulation.
+/// An arm that controllers drive in the simulation: flags of contact and collision, and
+/// controllers that run less often than the robot.
 
 #include <franka_sim_mujoco/sim_arm.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "robot/arm_fixture.h"
@@ -25,6 +28,7 @@ TEST(SimArm, FlagsFollowTheManualsFormulasForFilteredValues) {
   for (int i = 0; i < 1000; ++i) {
     plant.push = {{0, 0, i < 500 ? 40.0 : 0.0, 0, 0, 0}};
     arm.read(ros::Time(1));
+    arm.approachCommands();
     arm.write();
     plant.step();
     const franka::RobotState& state = arm.state();
@@ -44,6 +48,78 @@ TEST(SimArm, FlagsFollowTheManualsFormulasForFilteredValues) {
   EXPECT_GT(contacts, 100);
   EXPECT_LT(contacts, 700);
 }
+
+/// An arm whose controller of positions runs every `period` ticks.
+struct PositionControlledArm {
+  explicit PositionControlledArm(int period)
+      : period(period), arm(parameters, plant, optionsFor(period)) {
+    plant.payload = parameters.end_effector;
+  }
+
+  static SimArmOptions optionsFor(int period) {
+    SimArmOptions options;
+    options.control_ticks = period;
+    return options;
+  }
+
+  /// @param controller writes the commands; called once a period
+  template <typename Controller>
+  void tick(const Controller& controller) {
+    arm.read(ros::Time(1));
+    if (ticks++ % period == 0) {
+      controller();
+    }
+    arm.approachCommands();
+    arm.write();
+    plant.step();
+  }
+
+  franka_sim::ControlUnitParameters parameters = franka_sim::test::pandaWithHand();
+  franka_sim::test::FakeArm plant{parameters.model, franka_sim::test::kReady};
+  int period;
+  int ticks{0};
+  SimArm arm;
+};
+
+class SimArmPeriod : public ::testing::TestWithParam<int> {};
+
+TEST_P(SimArmPeriod, ChangesNothingWithoutController) {
+  PositionControlledArm reference(1), slow(GetParam());
+  for (int i = 0; i < 500; ++i) {
+    reference.tick([] {});
+    slow.tick([] {});
+    ASSERT_EQ(reference.plant.q(), slow.plant.q()) << "tick " << i;
+    ASSERT_EQ(reference.arm.state().tau_ext_hat_filtered, slow.arm.state().tau_ext_hat_filtered);
+  }
+}
+
+TEST_P(SimArmPeriod, MotionReachesItsGoalWithoutExternalTorqueAndRests) {
+  constexpr double kWay = 0.8;     // [rad]
+  constexpr int kDuration = 2000;  // [ticks]
+  constexpr int kEnd = kDuration + 1000;
+  PositionControlledArm slow(GetParam());
+  slow.tick([] {});
+  slow.arm.control(franka_hw::ControlMode::JointPosition, franka_hw::ControlMode::None);
+  const std::array<double, 7> start = slow.arm.state().q_d;
+  for (int i = 0; i < kEnd; ++i) {
+    slow.tick([&] {
+      const double part = std::min(1.0, static_cast<double>(i) / kDuration);
+      slow.arm.commands().position = start;
+      slow.arm.commands().position[0] += kWay * part * part * part * (10 + part * (6 * part - 15));
+    });
+    for (const double torque : slow.arm.state().tau_ext_hat_filtered) {
+      ASSERT_LT(std::abs(torque), 0.5) << "tick " << i;
+    }
+  }
+  EXPECT_EQ(franka::RobotMode::kMove, slow.arm.state().robot_mode);
+  EXPECT_NEAR(start[0] + kWay, slow.plant.q()[0], 1e-3);
+  for (const double dq : slow.plant.dq()) {
+    EXPECT_NEAR(0.0, dq, 1e-4);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Milliseconds, SimArmPeriod,
+                         ::testing::Values(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 20));
 
 }  // namespace
 }  // namespace franka_sim_mujoco

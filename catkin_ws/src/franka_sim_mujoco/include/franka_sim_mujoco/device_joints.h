@@ -62,7 +62,11 @@ class DeviceJoints {
     urdf::JointConstSharedPtr described;
     franka_sim::JointDrive* drive{nullptr};
     franka_sim::JointMeasurement measured;
-    double effort{0}, position{0}, velocity{0};  ///< commands
+    struct Commands {
+      double effort{0}, position{0}, velocity{0};
+    };
+    Commands commands;  ///< written by the controllers, once a period
+    Commands applied;   ///< those of this tick, within the limits
     bool takes_effort{false}, takes_position{false}, takes_velocity{false};
     std::optional<control_toolbox::Pid> pid;
     Method method{Method::kNone};
@@ -71,7 +75,7 @@ class DeviceJoints {
 
   void readInterfaces(const transmission_interface::JointInfo& info, Joint* joint) const;
   void readGains(Joint* joint) const;
-  void registerLimits(const Joint& joint, const hardware_interface::JointHandle& handle,
+  void registerLimits(Joint& joint, const hardware_interface::JointStateHandle& state,
                       Method method);
   void choose(Joint* joint, Method method) noexcept;
   void write(Joint* joint, const ros::Duration& period);

@@ -42,12 +42,13 @@ struct RobotHandle {
   std::string urdf;                ///< text of its description
   BetweenTicks between_ticks;      ///< runs a function between two ticks
   std::vector<SimulatedArm> arms;  ///< not empty; the first has no type in a robot without arms
+  int control_ticks{1};            ///< ticks from one update of the controllers to the next
 };
 
 /// Base class of simulated hardware, shaped like gazebo_ros_control's (decision 34): plugins of
 /// this type are named by the URDF's <robotSimType>. initSim runs once in the stepping thread while
-/// it stands still; readSim, the controller manager's update and writeSim then run in every tick of
-/// 1 ms.
+/// it stands still; readSim and writeSim then run in every tick of 1 ms, and between them, once per
+/// controlPeriod of the description, the controller manager's update.
 class RobotHWSim : public hardware_interface::RobotHW {
  public:
   ~RobotHWSim() override = default;
@@ -63,9 +64,9 @@ class RobotHWSim : public hardware_interface::RobotHW {
   /// A line for the simulation's window about the robot's mode and errors; may be empty. Called by
   /// the stepping thread between ticks.
   virtual std::string condition() const { return ""; }
-  /// Reads the state of the robot; in each tick, before the controllers.
+  /// Reads the state of the robot; in each tick, before controllers run.
   virtual void readSim(ros::Time time, ros::Duration period) = 0;
-  /// Applies the commands; in each tick, after the controllers.
+  /// Applies the commands; in each tick, after controllers have run.
   virtual void writeSim(ros::Time time, ros::Duration period) = 0;
   /// A controller threw an exception: its commands must not stay in effect. Called in every cycle
   /// with an exception; never with false.

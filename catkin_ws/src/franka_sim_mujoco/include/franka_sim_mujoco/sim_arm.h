@@ -23,6 +23,9 @@ struct SimArmOptions {
   /// control unit's own).
   double filter_alpha{1.0};
   ShapingOptions shaping{};
+  /// Ticks from one update of the controllers to the next. Motions approach a new command within
+  /// that time, so that the robot is not driven in steps.
+  int control_ticks{1};
   /// The internal controller that follows motions without torques of a user's controller.
   franka_core::ControllerMode internal_controller{franka_core::ControllerMode::kJointImpedance};
 };
@@ -57,7 +60,9 @@ class SimArm {
 
   /// First half of a tick: updates `state`, and starts a motion that waits for rest.
   void read(const ros::Time& time) noexcept;
-  /// Second half: passes the commands of the connected controllers to the unit. If a torque is not
+  /// Call before write(): computes `applied` of this tick.
+  void approachCommands() noexcept;
+  /// Second half: passes `applied` of the connected controllers to the unit. If a torque is not
   /// finite, all torques are ignored and the last ones are held; other commands that are not finite
   /// end the motion with an error.
   void write() noexcept;
@@ -94,7 +99,10 @@ class SimArm {
 
   franka_sim::ControlUnit& unit() noexcept { return unit_; }
   franka::RobotState& state() noexcept { return state_; }
+  /// Written by the controllers.
   ArmCommands& commands() noexcept { return commands_; }
+  /// The commands of this tick, which joint limits may change.
+  ArmCommands& applied() noexcept { return applied_; }
 
   /// Thread-safe.
   bool userStopped() const noexcept { return user_stopped_.load(std::memory_order_relaxed); }
@@ -133,7 +141,9 @@ class SimArm {
   std::array<double, 6> O_F_ext_filtered_{}, K_F_ext_filtered_{};
   franka::RobotState state_{};
   franka::Duration time_{};
-  ArmCommands commands_;
+  ArmCommands commands_, applied_;
+  ArmCommands target_;  ///< the commands that `applied_` approaches
+  int ticks_to_target_{1};
   franka_core::RobotCommand command_{};
   franka_hw::ControlMode mode_{franka_hw::ControlMode::None};
   franka_hw::ControlMode fallback_{franka_hw::ControlMode::None};
