@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "state_publisher.h"
 
+#include <ros/time.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,12 +11,17 @@ namespace franka_control {
 
 namespace {
 
-constexpr double kMaxPause = 0.002;  // [s]
 /// roscpp's own thread may also be late by this time. A larger value would make the states older
 /// that a slow subscriber receives.
 constexpr double kMaxDelay = 0.064;  // [s]
 
+/// While a simulation runs faster than a subscriber reads.
+constexpr int kSimulatedQueue = 1000;
+
 int queueSize(double period) {
+  if (ros::Time::isSimTime()) {
+    return kSimulatedQueue;
+  }
   return static_cast<int>(std::clamp(std::ceil(kMaxDelay / period), 1.0,
                                      static_cast<double>(StatePublisher::kWaiting)));
 }
@@ -22,15 +29,14 @@ int queueSize(double period) {
 }  // namespace
 
 StatePublisher::StatePublisher(const ros::NodeHandle& node, const std::string& topic, double period)
-    : pause_(std::min(period / 2, kMaxPause)), ring_(kWaiting) {
+    : ring_(kWaiting) {
   ros::NodeHandle handle(node);
   publisher_ = handle.advertise<franka_msgs::FrankaState>(topic, queueSize(period));
-  thread_ = std::thread([this] { run(); });
+  realtime_tools::detail::PublishingThread::instance().add(this);
 }
 
 StatePublisher::~StatePublisher() {
-  ends_ = true;
-  thread_.join();
+  realtime_tools::detail::PublishingThread::instance().remove(this);
 }
 
 franka_msgs::FrankaState* StatePublisher::next() noexcept {
@@ -41,18 +47,20 @@ franka_msgs::FrankaState* StatePublisher::next() noexcept {
 
 void StatePublisher::handOver() noexcept {
   handed_over_.store(handed_over_.load(std::memory_order_relaxed) + 1, std::memory_order_release);
+  realtime_tools::detail::PublishingThread::instance().noteHandOver();
 }
 
-void StatePublisher::run() {
-  while (!ends_) {
-    const std::size_t count = sent_.load(std::memory_order_relaxed);
-    if (count == handed_over_.load(std::memory_order_acquire)) {
-      std::this_thread::sleep_for(pause_);
-      continue;
-    }
-    publisher_.publish(ring_[count % kWaiting]);
-    sent_.store(count + 1, std::memory_order_release);
+std::optional<StatePublisher::Clock::time_point> StatePublisher::sendHandedOver() {
+  const std::size_t count = handed_over_.load(std::memory_order_acquire);
+  std::size_t sent = sent_.load(std::memory_order_relaxed);
+  if (sent == count) {
+    return std::nullopt;
   }
+  while (sent != count) {
+    publisher_.publish(ring_[sent % kWaiting]);
+    sent_.store(++sent, std::memory_order_release);
+  }
+  return Clock::now();
 }
 
 }  // namespace franka_control

@@ -3,14 +3,14 @@
 #pragma once
 
 #include <franka_msgs/FrankaState.h>
+#include <realtime_tools/detail/publishing_thread.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 
 #include <atomic>
-#include <chrono>
 #include <cstddef>
+#include <optional>
 #include <string>
-#include <thread>
 #include <vector>
 
 namespace franka_control {
@@ -18,14 +18,13 @@ namespace franka_control {
 /// Publishes states of a 1 kHz loop. Up to kWaiting states are queued while the publishing thread
 /// does not run; later ones are lost.
 ///
-/// The thread of the loop fills messages (`next`, `handOver`); a thread of this object sends them
-/// in the same order.
-class StatePublisher {
+/// The thread of the loop fills messages (`next`, `handOver`); the thread of all real-time
+/// publishers of the process, or realtime_tools::publishPending(), sends them in the same order.
+class StatePublisher : private realtime_tools::detail::PublishingThread::Sender {
  public:
   static constexpr std::size_t kWaiting = 64;
 
-  /// @param period between two messages [s]: sets how often the thread checks for them, and how
-  /// many may wait for a subscriber's connection
+  /// @param period between two messages [s]: sets how many may wait for a subscriber's connection
   /// @throws ros::InvalidNameException if the topic's name is not valid.
   StatePublisher(const ros::NodeHandle& node, const std::string& topic, double period);
   /// Withdraws the topic; messages that were not sent are dropped.
@@ -40,14 +39,13 @@ class StatePublisher {
   void handOver() noexcept;
 
  private:
-  void run();
+  using Clock = realtime_tools::detail::PublishingSchedule::Clock;
+
+  std::optional<Clock::time_point> sendHandedOver() override;
 
   ros::Publisher publisher_;
-  std::chrono::duration<double> pause_;  ///< between two checks
   std::vector<franka_msgs::FrankaState> ring_;
   std::atomic<std::size_t> handed_over_{0}, sent_{0};  ///< counts since the start
-  std::atomic<bool> ends_{false};
-  std::thread thread_;
 };
 
 }  // namespace franka_control

@@ -22,6 +22,10 @@ namespace franka_sim_mujoco {
 
 namespace {
 
+/// For the whole process, because this is its first advertisement of /tf, and roscpp has one queue
+/// for a topic: transforms of robots wait in it, too (TransformPublisher).
+constexpr std::uint32_t kTransformQueue = 1000;
+
 constexpr std::chrono::milliseconds kIdleSleep{5};
 /// Interval of the search for new cameras (of robots and objects), in idle sleeps.
 constexpr int kLookInterval = 100;
@@ -103,7 +107,7 @@ bool CameraPublisher::Topics::hasSubscribers() const {
 CameraPublisher::CameraPublisher(ros::NodeHandle node, Simulation& simulation)
     : node_(std::move(node)),
       simulation_(simulation),
-      transforms_(node_.advertise<tf2_msgs::TFMessage>("/tf", 10)) {
+      transforms_(node_.advertise<tf2_msgs::TFMessage>("/tf", kTransformQueue)) {
   thread_ = std::thread([this] { loop(); });
 }
 

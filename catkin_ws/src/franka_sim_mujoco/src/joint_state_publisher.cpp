@@ -11,6 +11,10 @@ namespace franka_sim_mujoco {
 
 namespace {
 
+/// Messages that wait for a subscriber while the simulation runs faster than it reads (chosen
+/// here).
+constexpr int kQueueSize = 1000;
+
 void appendMovingJoints(const urdf::Link& link, std::vector<std::string>& names) {
   for (const urdf::JointSharedPtr& joint : link.child_joints) {
     if (joint->type == urdf::Joint::REVOLUTE || joint->type == urdf::Joint::CONTINUOUS ||
@@ -36,7 +40,7 @@ std::vector<std::string> movingJoints(const urdf::Model& urdf) {
 JointStatePublisher::JointStatePublisher(const ros::NodeHandle& node, double rate,
                                          const urdf::Model& urdf, RobotHWSim& hardware,
                                          const franka_sim::World& world)
-    : world_(world), rate_(rate), publisher_(node, "joint_states", 5) {
+    : world_(world), rate_(rate), publisher_(node, "joint_states", kQueueSize) {
   auto* const handles = hardware.get<hardware_interface::JointStateInterface>();
   const std::vector<std::string> measured =
       handles != nullptr ? handles->getNames() : std::vector<std::string>();
@@ -62,32 +66,50 @@ JointStatePublisher::JointStatePublisher(const ros::NodeHandle& node, double rat
   publisher_.unlock();
 }
 
-void JointStatePublisher::tick(const ros::Time& time) {
+bool JointStatePublisher::tick(const ros::Time& time) {
   if (!due_) {
     due_.emplace(rate_, time);
   } else if (!(*due_)(time)) {
-    return;
+    return false;
   }
-  if (publisher_.trylock()) {
-    fill(publisher_.msg_, time);
-    publisher_.unlockAndPublish();
+  if (time == published_ || !publisher_.trylock()) {
+    return false;
   }
+  fill(publisher_.msg_, time);
+  publisher_.unlockAndPublish();
+  return true;
+}
+
+void JointStatePublisher::publishNow(const ros::Time& time) {
+  publisher_.lock();
+  // The handles still have the measurements of the last tick's begin.
+  sensor_msgs::JointState& message = publisher_.msg_;
+  fill(message, time);
+  for (std::size_t i = 0; i < joints_.size(); ++i) {
+    const franka_sim::JointMeasurement joint = jointState(world_, joints_[i].name);
+    message.position[i] = joint.position;
+    message.velocity[i] = joint.velocity;
+  }
+  publisher_.unlockAndPublish();
+  published_ = time;
 }
 
 void JointStatePublisher::fill(sensor_msgs::JointState& message, const ros::Time& time) const {
   message.header.stamp = time;
   for (std::size_t i = 0; i < joints_.size(); ++i) {
-    if (joints_[i].measured) {
-      message.position[i] = joints_[i].measured->getPosition();
-      message.velocity[i] = joints_[i].measured->getVelocity();
-      message.effort[i] = joints_[i].measured->getEffort();
-    } else {
-      const franka_sim::JointMeasurement joint = jointState(world_, joints_[i].name);
-      message.position[i] = joint.position;
-      message.velocity[i] = joint.velocity;
-      message.effort[i] = joint.effort;
-    }
+    const franka_sim::JointMeasurement joint = measure(joints_[i]);
+    message.position[i] = joint.position;
+    message.velocity[i] = joint.velocity;
+    message.effort[i] = joint.effort;
   }
+}
+
+franka_sim::JointMeasurement JointStatePublisher::measure(const Joint& joint) const {
+  if (!joint.measured) {
+    return jointState(world_, joint.name);
+  }
+  return {joint.measured->getPosition(), joint.measured->getVelocity(),
+          joint.measured->getEffort()};
 }
 
 }  // namespace franka_sim_mujoco

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_hw/trigger_rate.h>
+#include <franka_sim/robot/plant.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <realtime_tools/realtime_publisher.h>
 #include <ros/node_handle.h>
@@ -34,9 +35,13 @@ class JointStatePublisher {
   JointStatePublisher(const ros::NodeHandle& node, double rate, const urdf::Model& urdf,
                       RobotHWSim& hardware, const franka_sim::World& world);
 
-  /// Call after the hardware was read, with that tick's time. Skips a message while the last one is
-  /// being sent. Real-time safe.
-  void tick(const ros::Time& time);
+  /// Call after the hardware was read, with that tick's time. A message that is due is skipped only
+  /// if the last one was not sent meanwhile (realtime_tools::publishPending). Real-time safe.
+  /// @returns whether a message was published
+  bool tick(const ros::Time& time);
+  /// Publishes the present state of the world, whether or not a message is due; tick() does not
+  /// repeat this time. Not real-time safe.
+  void publishNow(const ros::Time& time);
 
  private:
   struct Joint {
@@ -45,11 +50,13 @@ class JointStatePublisher {
   };
 
   void fill(sensor_msgs::JointState& message, const ros::Time& time) const;
+  franka_sim::JointMeasurement measure(const Joint& joint) const;
 
   const franka_sim::World& world_;
   std::vector<Joint> joints_;
   std::optional<franka_hw::TriggerRate> due_;  ///< set in the first tick
   double rate_;
+  ros::Time published_;  ///< the last time of publishNow()
   realtime_tools::RealtimePublisher<sensor_msgs::JointState> publisher_;
 };
 

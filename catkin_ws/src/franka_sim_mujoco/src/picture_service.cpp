@@ -82,9 +82,10 @@ bool PictureService::render(RenderPicture::Request& request, RenderPicture::Resp
     }
     franka_sim::Scene scene;
     ros::Time stamp;
-    simulation_.withWorld(
-        [&](franka_sim::World& world) { scene = franka_sim::captureScene(world); });
-    stamp = simulation_.state().time;
+    simulation_.withWorld([&](franka_sim::World& world) {
+      scene = franka_sim::captureScene(world);
+      stamp = simulation_.state().time;
+    });
     const franka_sim::Picture picture =
         renderer_->render(scene, camera, static_cast<int>(width), static_cast<int>(height));
     response.image.header.stamp = stamp;

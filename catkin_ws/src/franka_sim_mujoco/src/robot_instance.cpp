@@ -21,6 +21,9 @@ namespace franka_sim_mujoco {
 
 namespace {
 
+/// Messages with joint states that may wait for their transforms, half of what the queue holds.
+constexpr double kMaxWaitingTransforms = 500;
+
 /// The URDF uses the original's name of the hardware; if the package franka_gazebo is not ours (it
 /// steps aside for the original) the same hardware has our own name. Likewise Gazebo's default.
 std::string availableName(HardwareLoader& loader, const std::string& type) {
@@ -141,6 +144,7 @@ void RobotInstance::startHardware(const RobotPlan& plan, const RobotHandle& robo
   if (plan.joint_state_rate) {
     joint_states_ = std::make_unique<JointStatePublisher>(node, *plan.joint_state_rate, plan.urdf,
                                                           *hardware_, *robot.world);
+    max_transform_lag_ = ros::Duration(kMaxWaitingTransforms / *plan.joint_state_rate);
   }
   if (plan.publish_transforms) {
     transforms_ = std::make_unique<TransformPublisher>(node, plan.urdf);
@@ -176,8 +180,8 @@ void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
   if (times != nullptr) {
     watch.lap(sums.update);
   }
-  if (joint_states_) {
-    joint_states_->tick(time);
+  if (joint_states_ && joint_states_->tick(time)) {
+    limitTransformLag(time);
   }
   hardware_->writeSim(time, tick);
   if (times != nullptr) {
@@ -185,6 +189,27 @@ void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
   }
   if (isStarting() && --start_ticks_left_ % kStartReview == 0) {
     reviewStart();
+  }
+}
+
+void RobotInstance::limitTransformLag(const ros::Time& time) {
+  if (first_joint_states_.isZero()) {
+    first_joint_states_ = time;
+  }
+  if (transforms_ && time - first_joint_states_ > max_transform_lag_) {
+    transforms_->waitFor(time - max_transform_lag_);
+  }
+}
+
+void RobotInstance::publishNow(const ros::Time& time) {
+  if (joint_states_) {
+    joint_states_->publishNow(time);
+  }
+}
+
+void RobotInstance::waitForTransforms(const ros::Time& time) {
+  if (joint_states_ && transforms_) {
+    transforms_->waitFor(time);
   }
 }
 

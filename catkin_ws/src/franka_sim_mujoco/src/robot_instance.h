@@ -104,6 +104,11 @@ class RobotInstance {
   /// are added to it, unless null
   void tick(const ros::Time& time, TickTimes* times);
 
+  /// Publishes the joint states of a world that stands still.
+  void publishNow(const ros::Time& time);
+  /// Waits, for a second at most, until the transforms of published joint states have been sent.
+  void waitForTransforms(const ros::Time& time);
+
   /// @throws std::runtime_error with a sentence while a client of the FCI moves the robot: its
   /// motion would jump.
   void requireRest() const;
@@ -118,6 +123,7 @@ class RobotInstance {
   void serve(const RobotPlan& plan, const RobotHandle& robot, const OperatorAccess& access);
   void startHardware(const RobotPlan& plan, const RobotHandle& robot, HardwareLoader& loader);
   void loadHardware(const std::string& type, std::size_t arms, HardwareLoader& loader);
+  void limitTransformLag(const ros::Time& time);
   void reviewStart();
   void updateControllers(const ros::Time& time, const ros::Duration& period);
 
@@ -135,6 +141,8 @@ class RobotInstance {
   std::unique_ptr<controller_manager::ControllerManager> manager_;
   std::unique_ptr<JointStatePublisher> joint_states_;
   std::unique_ptr<TransformPublisher> transforms_;
+  ros::Duration max_transform_lag_;  ///< behind the joint states
+  ros::Time first_joint_states_;     ///< zero: none yet
 };
 
 }  // namespace franka_sim_mujoco

@@ -3,6 +3,7 @@
 #include "robot_set.h"
 
 #include <franka_sim/physics/world_properties.h>
+#include <realtime_tools/realtime_publisher.h>
 #include <ros/console.h>
 
 #include <algorithm>
@@ -45,6 +46,16 @@ RobotSet::RobotSet(RequestQueue& requests, franka_sim::World& world, franka_sim:
 void RobotSet::tick(const ros::Time& time, TickTimes* times) {
   for (const auto& robot : robots_) {
     robot->tick(time, times);
+  }
+}
+
+void RobotSet::publishNow(const ros::Time& time) {
+  for (const auto& robot : robots_) {
+    robot->publishNow(time);
+  }
+  realtime_tools::publishPending();
+  for (const auto& robot : robots_) {
+    robot->waitForTransforms(time);
   }
 }
 

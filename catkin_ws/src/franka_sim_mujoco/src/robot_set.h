@@ -49,6 +49,8 @@ class RobotSet {
   /// Read, controllers, write of all robots. 1 kHz loop. @param times durations are added to it,
   /// unless null
   void tick(const ros::Time& time, TickTimes* times);
+  /// Publishes joint states and transforms of a world that stands still.
+  void publishNow(const ros::Time& time);
   std::size_t size() const noexcept { return robots_.size(); }
   /// Whether a robot waits for the controllers that its launch file starts (RobotPlan).
   bool isStarting() const;

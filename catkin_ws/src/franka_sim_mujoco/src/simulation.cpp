@@ -3,6 +3,7 @@
 #include "simulation.h"
 
 #include <franka_sim/physics/world_properties.h>
+#include <realtime_tools/realtime_publisher.h>
 #include <ros/console.h>
 
 #include <algorithm>
@@ -88,6 +89,11 @@ void Simulation::loop() {
   stepped_.reset();
 }
 
+void Simulation::publishNow() {
+  clock_.standStill(time());
+  robots_.publishNow(time());
+}
+
 void Simulation::standStill() {
   clock_.standStill(time());
   requests_.waitForWork(host_.empty() ? kIdleSleep : kServedIdleSleep);
@@ -102,6 +108,7 @@ void Simulation::advance() {
   watchWorld();
   ++tick_count_;
   clock_.tick(time());
+  realtime_tools::publishPending();
 }
 
 void Simulation::watchWorld() {
@@ -125,11 +132,11 @@ void Simulation::requireRunningWorld() const {
 void Simulation::finishStepping() {
   if (world_.stopped()) {
     steps_left_ = 0;
-    clock_.standStill(time());
+    publishNow();
     stepped_->set_exception(std::make_exception_ptr(std::runtime_error(world_.fault())));
     stepped_.reset();
   } else if (--steps_left_ == 0) {
-    clock_.standStill(time());
+    publishNow();
     stepped_->set_value(stateNow());
     stepped_.reset();
   }
@@ -148,6 +155,9 @@ void Simulation::setPaused(bool paused) {
   requests_.run([&] {
     if (!paused) {
       requireRunningWorld();
+    }
+    if (paused && !paused_) {
+      publishNow();
     }
     paused_ = paused;
   });

@@ -102,6 +102,8 @@ class Simulation {
   double timeTicks(std::uint32_t ticks);
   void standStill();
   void finishStepping();
+  /// The state of the world is published with its present time.
+  void publishNow();
   /// Reports faults of the world; one that has stopped pauses the simulation.
   void watchWorld();
   /// @throws std::runtime_error with a sentence if the world has stopped

@@ -3,6 +3,7 @@
 #include "transform_publisher.h"
 
 #include <algorithm>
+#include <chrono>
 #include <kdl_parser/kdl_parser.hpp>
 #include <map>
 #include <stdexcept>
@@ -11,7 +12,8 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-constexpr std::uint32_t kQueueSize = 1;  // an outdated state is useless
+constexpr std::uint32_t kQueueSize = 1000;   // as of the topic (JointStatePublisher)
+constexpr std::chrono::seconds kMaxWait{1};  // chosen here: a thread that does not run at all
 
 KDL::Tree treeOf(const urdf::Model& urdf) {
   KDL::Tree tree;
@@ -73,6 +75,16 @@ void TransformPublisher::publish(const sensor_msgs::JointState& state) {
   }
   addMimics(urdf_, positions);
   publisher_.publishTransforms(positions, state.header.stamp, tf_prefix_);
+  {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    sent_ = state.header.stamp;
+  }
+  was_sent_.notify_all();
+}
+
+void TransformPublisher::waitFor(const ros::Time& time) {
+  std::unique_lock<std::mutex> lock(mutex_);
+  was_sent_.wait_for(lock, kMaxWait, [&] { return sent_ >= time; });
 }
 
 }  // namespace franka_sim_mujoco

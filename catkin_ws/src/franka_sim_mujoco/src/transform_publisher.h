@@ -10,6 +10,8 @@
 #include <sensor_msgs/JointState.h>
 #include <urdf/model.h>
 
+#include <condition_variable>
+#include <mutex>
 #include <string>
 
 namespace franka_sim_mujoco {
@@ -27,6 +29,9 @@ class TransformPublisher {
   /// @throws std::runtime_error with a sentence if the URDF's links form no tree
   TransformPublisher(const ros::NodeHandle& node, const urdf::Model& urdf);
   ~TransformPublisher();
+  /// Waits until the transforms of this time, or of a later one, have been sent, or a second has
+  /// passed. Not real-time safe.
+  void waitFor(const ros::Time& time);
   TransformPublisher(const TransformPublisher&) = delete;
   TransformPublisher& operator=(const TransformPublisher&) = delete;
 
@@ -36,6 +41,9 @@ class TransformPublisher {
   const urdf::Model urdf_;
   std::string tf_prefix_;
   robot_state_publisher::RobotStatePublisher publisher_;
+  std::mutex mutex_;
+  std::condition_variable was_sent_;
+  ros::Time sent_;  ///< time of the last transforms; guarded by mutex_
   ros::CallbackQueue queue_;
   ros::NodeHandle node_;
   ros::Subscriber subscriber_;

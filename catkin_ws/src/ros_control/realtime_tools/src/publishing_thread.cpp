@@ -41,6 +41,12 @@ void PublishingThread::remove(Sender* sender) noexcept {
   }
 }
 
+void PublishingThread::sendPending() {
+  pending_.store(false, std::memory_order_relaxed);
+  const std::lock_guard<std::mutex> lock(mutex_);
+  sendAll();
+}
+
 void PublishingThread::run() {
   std::unique_lock<std::mutex> lock(mutex_);
   while (!senders_.empty()) {

@@ -97,6 +97,24 @@ TEST(RealtimePublisher, PublishesTheFirstMessageToALateSubscriberWhenLatched) {
   EXPECT_EQ(7u, collector.received()[0]);
 }
 
+TEST(RealtimePublisher, TakesEveryMessageOfALoopThatPublishesPendingOnes) {
+  constexpr std::uint32_t kMessages = 2000;
+  ros::NodeHandle node;
+  RealtimePublisher<std_msgs::UInt32> heard(node, "each", kMessages);
+  RealtimePublisher<std_msgs::UInt32> unheard(node, "each_unheard", kMessages);
+  Collector collector("each");
+  ASSERT_TRUE(eventually([&] { return collector.connected(); }));
+  for (std::uint32_t i = 0; i < kMessages; ++i) {
+    for (RealtimePublisher<std_msgs::UInt32>* publisher : {&heard, &unheard}) {
+      ASSERT_TRUE(publisher->trylock()) << "message " << i;
+      publisher->msg_.data = i;
+      publisher->unlockAndPublish();
+    }
+    realtime_tools::publishPending();
+  }
+  EXPECT_TRUE(eventually([&] { return collector.received().size() == kMessages; }));
+}
+
 TEST(RealtimePublisher, TakesAMessageEveryFiveMillisecondsOnlyWhileNobodySubscribes) {
   using Clock = std::chrono::steady_clock;
   ros::NodeHandle node;

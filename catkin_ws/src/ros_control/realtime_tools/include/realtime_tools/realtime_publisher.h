@@ -84,6 +84,7 @@ class RealtimePublisher : private detail::PublishingThread::Sender {
   void unlockAndPublish() noexcept {
     handed_over_ = Clock::now();  // not a system call where the system maps its clock
     turn_.unlockAndHandOver();
+    detail::PublishingThread::instance().noteHandOver();
   }
 
   /// Waits for the lock, whether or not the previous message has been taken. Not real-time safe.
@@ -116,6 +117,17 @@ class RealtimePublisher : private detail::PublishingThread::Sender {
   Clock::time_point handed_over_{};  ///< guarded by turn_
   Msg outgoing_;                     ///< used by the publishing thread; kept to reuse its memory
 };
+
+/// Sends what real-time publishers of this process have handed over, in the calling thread. For a
+/// loop that owns its time, as a simulation's: called after each cycle, no message of the next one
+/// is skipped because the last one has not been sent. Costs an atomic load if nothing is pending.
+/// Not real-time safe.
+inline void publishPending() {
+  detail::PublishingThread& thread = detail::PublishingThread::instance();
+  if (thread.hasPending()) {
+    thread.sendPending();
+  }
+}
 
 template <class Msg>
 using RealtimePublisherSharedPtr = std::shared_ptr<RealtimePublisher<Msg>>;

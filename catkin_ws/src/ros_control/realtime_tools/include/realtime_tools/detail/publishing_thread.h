@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <mutex>
 #include <optional>
@@ -43,6 +44,14 @@ class PublishingThread {
   /// After return the sender is no longer used. Waits for the running check. Any thread but this
   /// one; removing an unknown sender does nothing.
   void remove(Sender* sender) noexcept;
+  /// Sends all pending messages in the calling thread. Any thread but this one.
+  /// Not real-time safe.
+  void sendPending();
+
+  /// A message was handed over. Real-time safe.
+  void noteHandOver() noexcept { pending_.store(true, std::memory_order_release); }
+  /// Whether one was since the last sendPending(). Real-time safe.
+  bool hasPending() const noexcept { return pending_.load(std::memory_order_acquire); }
 
  private:
   PublishingThread() = default;
@@ -54,6 +63,7 @@ class PublishingThread {
   std::condition_variable changed_;
   std::vector<Sender*> senders_;
   std::thread thread_;
+  std::atomic<bool> pending_{false};
 };
 
 }  // namespace detail
