@@ -84,7 +84,8 @@ std::string whyClaimRefused(const hardware_interface::InterfaceResources& claim,
   };
   const std::size_t arm_joints = count([&](const auto& name) { return isArmJoint(name, arm_id); });
   const std::size_t arms = count([&](const auto& name) { return isArm(name, arm_id); });
-  const std::size_t fingers = count([&](const auto& name) { return isFinger(name, arm_id); });
+  const std::size_t fingers =
+      count([&](const auto& name) { return isFinger(name, arm_id) && others.count(name) == 0; });
   const std::size_t rest = count([&](const auto& name) { return others.count(name) > 0; });
   if (interface->cartesian) {
     return arms == names.size()

@@ -86,6 +86,24 @@ void warnOfGains(const ros::NodeHandle& node, const std::string& arm_id) {
   }
 }
 
+/// Whether the fingers are a hand's, which takes efforts. Those with other interfaces, as in
+/// descriptions of 2018, are driven as joints of any other device.
+bool fingersTakeEfforts(const std::string& arm_id,
+                        const std::vector<TransmissionInfo>& transmissions) {
+  for (const TransmissionInfo& transmission : transmissions) {
+    for (const auto& joint : transmission.joints_) {
+      for (const std::string& interface : joint.hardware_interfaces_) {
+        if (joint.name_.rfind(arm_id + "_finger_joint", 0) == 0 &&
+            (interface.find("PositionJoint") != std::string::npos ||
+             interface.find("VelocityJoint") != std::string::npos)) {
+          return false;
+        }
+      }
+    }
+  }
+  return true;
+}
+
 /// Details in parentheses, if there are more than the error's name.
 std::string detailOf(const SimArm::Abort& abort, std::size_t error) {
   std::string detail;
@@ -140,7 +158,8 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
                         const urdf::Model& model,
                         const std::vector<TransmissionInfo>& transmissions) {
   franka_sim::World& world = *robot.world;
-  const bool has_hand = world.hasHand(robot.name, arm_id_);
+  const bool has_hand =
+      world.hasHand(robot.name, arm_id_) && fingersTakeEfforts(arm_id_, transmissions);
   nameJoints(model, has_hand);
   franka_sim::ControlUnitParameters parameters =
       readArmParameters(node, robot, model, robot.arms.front());

@@ -48,6 +48,7 @@ TEST(ControllerCheck, AcceptsWholeArmsAndWholeHands) {
   EXPECT_EQ("", whyRefused(controller("EffortJointInterface", kHand), "a"));
   EXPECT_TRUE(contains(whyRefused(controller("PositionJointInterface", kHand), "a"),
                        "PositionJointInterface"));
+  EXPECT_EQ("", whyRefused(controller("PositionJointInterface", kHand), "a", kHand));
   EXPECT_TRUE(contains(whyRefused(controller("OtherInterface", kArm), "a"), "OtherInterface"));
   hardware_interface::ControllerInfo pose = controller("", {"a_robot"});
   pose.claimed_resources.front().hardware_interface = "franka_hw::FrankaPoseCartesianInterface";

@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Joints of other devices, driven beside the arm as by Gazebo's default hardware."""
 
+import re
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
@@ -9,7 +10,8 @@ import numpy as np
 import pytest
 import rospy
 from franka_msgs.msg import FrankaState
-from franka_sim_mujoco.srv import GetBodyPose
+from franka_sim_mujoco.srv import DeleteRobot, GetBodyPose, SpawnRobot
+from geometry_msgs.msg import Pose, Quaternion
 from ros_client import Controllers, call, launched
 from sensor_msgs.msg import JointState
 from std_msgs.msg import Float64
@@ -204,3 +206,32 @@ def test_a_machine_without_an_arm(machine):
     states = machine.when(lambda state: abs(state["slide"][0] - 0.25) < 1e-4, "The slide's motion")
     assert max(state["slide"][1] for state in states) < 1.01
     machine.when(lambda state: abs(state["follower"][0] + 0.25) < 1e-3, "Its mirror's")
+
+
+def test_fingers_with_position_interfaces_are_joints_as_others(machine):
+    """Descriptions of 2018 give them those."""
+    before, fingers, after = re.split(
+        r"(<transmission name=\"old_finger_joint1.*?</transmission>)",
+        rospy.get_param("/old/robot_description"),
+        flags=re.S,
+    )
+    urdf = before + fingers.replace("EffortJointInterface", "PositionJointInterface") + after
+    names = [f"old_joint{i}" for i in range(1, 8)]
+    answer = call(
+        "/gazebo/spawn_robot",
+        SpawnRobot,
+        name="old",
+        urdf=urdf,
+        robot_namespace="/old",
+        pose=Pose(orientation=Quaternion(w=1)),
+        joint_names=names,
+        joint_positions=[0, -0.785, 0, -2.356, 0, 1.571, 0.785],
+    )
+    assert answer.success, answer.error
+    old = Joints("/old")
+    assert old.switch(start=["joint_state_controller", "finger"])
+    old.command("finger", 0.03)
+    old.when(
+        lambda state: all(abs(state[f"old_finger_joint{i}"][0] - 0.03) < 1e-3 for i in (1, 2)), "Both fingers"
+    )
+    assert call("/gazebo/delete_robot", DeleteRobot, name="old").success

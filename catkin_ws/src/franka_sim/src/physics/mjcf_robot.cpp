@@ -258,9 +258,6 @@ class Writer {
         continue;
       }
       const bool brake = joint.mimic.empty();
-      if (brake && joint.type == UrdfJoint::Type::kPrismatic && robot_.isFranka(joint)) {
-        continue;  // a hand's fingers are never locked
-      }
       XMLElement* e = append(target_.equality, "joint");
       e->SetAttribute("name", (brake ? brakeName(joint.name) : joint.name + "/mimic").c_str());
       e->SetAttribute("joint1", joint.name.c_str());

@@ -125,15 +125,16 @@ void MujocoDrive::applyEffort(double effort) noexcept {
   writeTarget();
 }
 
-void MujocoDrive::follow(double position) noexcept {
-  if (!std::isfinite(position)) {
-    return;
+bool MujocoDrive::follow(double position) noexcept {
+  if (!std::isfinite(position) || slot_.brake < 0) {
+    return false;
   }
   state_.last_target = state_.follows ? state_.target : view_->data->qpos[slot_.qpos];
   state_.follows = true;
   state_.target = position;
   view_->data->qfrc_applied[slot_.dof] = 0.0;
   writeTarget();
+  return true;
 }
 
 void MujocoDrive::bind(const Slots& slots) noexcept {

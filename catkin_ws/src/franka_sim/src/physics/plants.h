@@ -94,7 +94,7 @@ class MujocoDrive final : public JointDrive {
 
   JointMeasurement measure() const noexcept override;
   void applyEffort(double effort) noexcept override;
-  void follow(double position) noexcept override;
+  bool follow(double position) noexcept override;
 
   const std::array<std::string, 1>& joints() const noexcept { return joint_; }
   using Slots = std::array<JointSlot, 1>;

@@ -260,11 +260,11 @@ double RobotModel::armature(const UrdfJoint& joint) const {
 }
 
 double RobotModel::damping(const UrdfJoint& joint) const {
-  return isFranka(joint) ? 0.0 : joint.damping;
+  return hasPhysics(joint) ? 0.0 : joint.damping;
 }
 
 double RobotModel::friction(const UrdfJoint& joint) const {
-  return isFranka(joint) ? 0.0 : joint.friction;
+  return hasPhysics(joint) ? 0.0 : joint.friction;
 }
 
 bool RobotModel::isFinger(const UrdfLink& link) const noexcept {
@@ -275,6 +275,16 @@ bool RobotModel::isFinger(const UrdfLink& link) const noexcept {
 
 bool RobotModel::isFranka(const UrdfJoint& joint) const {
   return isOneOf(urdf, joint.name, "_joint", 7) || isOneOf(urdf, joint.name, "_finger_joint", 2);
+}
+
+bool RobotModel::hasPhysics(const UrdfJoint& joint) const {
+  const auto is_given = [this](const std::string& name) {
+    return description.rotor_inertia.count(name) > 0;
+  };
+  const std::size_t finger = joint.name.rfind("_finger_joint");
+  return is_given(joint.name) ||
+         (finger != std::string::npos && isOneOf(urdf, joint.name, "_finger_joint", 2) &&
+          is_given(joint.name.substr(0, finger) + "_joint1"));
 }
 
 RobotModel buildRobot(const RobotDescription& description) {

@@ -39,14 +39,18 @@ struct RobotModel {
   double initialPosition(const UrdfJoint& joint) const;
   /// Apparent inertia of a joint; if not given 0 (fingers: kFingerArmature).
   double armature(const UrdfJoint& joint) const;
-  /// Of the URDF's <dynamics>, but 0 for Franka arms and hands, in whose URDFs these values have
-  /// another meaning (decision 1).
+  /// Of the URDF's <dynamics>, but 0 for arms whose physics the description has, and for their
+  /// fingers: in Franka's URDFs these values have another meaning (decision 1).
   double damping(const UrdfJoint& joint) const;
   double friction(const UrdfJoint& joint) const;
   /// Whether a link slides and carries no moving link: a finger, not a lift.
   bool isFinger(const UrdfLink& link) const noexcept;
   /// Whether a joint is, by name, one of the seven of a Franka arm or the two of a hand.
   bool isFranka(const UrdfJoint& joint) const;
+
+ private:
+  /// Whether the description has the physics of a joint: of an arm's, and so of its fingers.
+  bool hasPhysics(const UrdfJoint& joint) const;
 };
 
 /// Reads and checks a robot.

@@ -108,6 +108,46 @@ TEST_F(JointDriveTest, IgnoresNonFiniteCommands) {
   EXPECT_EQ(0.0, wheel_->measure().velocity);
 }
 
+/// Descriptions of 2018 give a hand's fingers position interfaces: they are joints as others.
+TEST_F(JointDriveTest, DrivesFingersAndReportsWhatItCannotHold) {
+  world_.addRobot(robot("panda"));
+  JointDrive& leader = world_.drive("panda", "panda_finger_joint1");
+  JointDrive& follower = world_.drive("panda", "panda_finger_joint2");
+  EXPECT_FALSE(follower.follow(0.01)) << "a mimic joint";
+  EXPECT_FALSE(leader.follow(std::numeric_limits<double>::quiet_NaN()));
+  EXPECT_TRUE(leader.follow(0.03));
+  step(500);
+  EXPECT_NEAR(0.03, leader.measure().position, 1e-4);
+  EXPECT_NEAR(0.03, follower.measure().position, 1e-3);
+}
+
+/// Only physics that a description states replaces <dynamics>, not the names of its joints.
+TEST(JointDriveNames, DoNotSwitchFrictionOff) {
+  std::string others;
+  for (int i = 2; i <= 7; ++i) {
+    const std::string name = "wheel_joint" + std::to_string(i);
+    others += "<link name='of_" + name +
+              "'><inertial><mass value='0.1'/><inertia ixx='0.001' iyy='0.001' izz='0.001' "
+              "ixy='0' ixz='0' iyz='0'/></inertial></link><joint name='" +
+              name + "' type='continuous'><parent link='platform'/><child link='of_" + name +
+              "'/><axis xyz='0 0 1'/></joint>";
+  }
+  RobotDescription description;
+  description.name = "machine";
+  description.urdf =
+      replaceAll(franka_test::readSource("franka_sim/test/physics/data/lift_and_wheel.urdf"),
+                 "</robot>", others + "</robot>");
+  World world;
+  world.addRobot(description);
+  JointDrive& wheel = world.drive("machine", "wheel_joint1");
+  ASSERT_TRUE(world.drive("machine", "lift").follow(0.5));
+  wheel.applyEffort(1.2);
+  for (int i = 0; i < 500; ++i) {
+    world.step();
+  }
+  EXPECT_NEAR((1.2 - 0.2) / 0.5, wheel.measure().velocity, 1e-6);
+}
+
 TEST_F(JointDriveTest, OnlyMovingJointsHaveADrive) {
   EXPECT_THROW(world_.drive("lift_and_wheel", "elevator"), std::runtime_error);
   EXPECT_THROW(world_.drive("elevator", "lift"), std::runtime_error);

@@ -104,7 +104,9 @@ class JointDrive {
   virtual void applyEffort(double effort) noexcept = 0;
   /// Moves the joint to a position [rad] or [m] and holds it there with any effort needed (time
   /// constant 2 ms, critically damped: it lags a steady motion by 4 ms).
-  virtual void follow(double position) noexcept = 0;
+  /// @returns false if it does nothing: the position is not finite, or the joint follows another
+  /// one (mimic) and cannot be held
+  virtual bool follow(double position) noexcept = 0;
 };
 
 }  // namespace franka_sim
