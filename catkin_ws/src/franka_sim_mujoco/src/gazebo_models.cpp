@@ -108,10 +108,7 @@ franka_sim::BodyState GazeboModels::toWorld(const franka_sim::BodyState& in_fram
 
 void GazeboModels::place(const std::string& name, const franka_sim::BodyState& state,
                          const std::string& frame) {
-  const std::string what = body(name);
-  const franka_sim::BodyState target = toWorld(state, frame);
-  setBodyPose(world_, what, target.pose);
-  setBodyTwist(world_, what, target.twist);
+  setBodyState(world_, body(name), toWorld(state, frame));
 }
 
 void place(Simulation& simulation, const gazebo_msgs::ModelState& state) {

@@ -113,17 +113,9 @@ void SimServices::offerStates() {
       });
   services_.offer<SetBodyState>(
       "set_body_state", [this](SetBodyState::Request& request, SetBodyState::Response&) {
-        const franka_sim::Pose pose = fromMessage(request.pose);
-        const franka_sim::Twist twist = fromMessage(request.twist);
-        // Checked before the pose is set, so that nothing changes on error.
-        franka_sim::sizes::check(twist.linear, franka_sim::sizes::kMaxVelocity, "m/s",
-                                 "The linear velocity");
-        franka_sim::sizes::check(twist.angular, franka_sim::sizes::kMaxVelocity, "rad/s",
-                                 "The angular velocity");
-        simulation_.withWorld([&](franka_sim::World& world) {
-          setBodyPose(world, request.body, pose);
-          setBodyTwist(world, request.body, twist);
-        });
+        const franka_sim::BodyState state{fromMessage(request.pose), fromMessage(request.twist)};
+        simulation_.withWorld(
+            [&](franka_sim::World& world) { setBodyState(world, request.body, state); });
       });
   services_.offer<GetJointStates>("get_joint_states", [this](GetJointStates::Request& request,
                                                              GetJointStates::Response& response) {

@@ -125,7 +125,12 @@ std::vector<franka_sim::SceneRobot> RobotSet::inScene() const {
 std::string RobotSet::spawn(const SpawnOrder& order) {
   if (franka_sim::isUrdfOfObject(order.urdf)) {
     const std::string notes = spawnObject(order.name, order.urdf, order.pose);
-    placeJoints(order);
+    try {
+      placeJoints(order);
+    } catch (...) {
+      removeObject(order.name);
+      throw;
+    }
     return notes;
   }
   const RobotPlan plan = planRobot(order);

@@ -587,9 +587,11 @@ def test_gazebo_services_and_topics_set_states():
         (ModelState("table", at(0, 0, 1), Twist(), ""), "not free to move"),
         (ModelState("stone", at(0, 0, math.nan), Twist(), ""), "finite"),
         (ModelState("stone", at(0, 0, 1), Twist(), "moon"), "'moon'"),
+        (ModelState("stone", at(0, 0, 9), Twist(Vector3(1e6, 0, 0), NONE), ""), "at most 1000 m/s"),
     ):
         answer = gazebo("set_model_state", SetModelState, state, fails=True)
         assert word in answer.status_message
+    assert gazebo("get_model_state", GetModelState, "stone", "").pose.position.z < 2, "nothing was half done"
     with_topic = rospy.Publisher("/gazebo/set_model_state", ModelState, queue_size=1, latch=True)
     with_topic.publish(ModelState("stone", at(-2, 1, 1), Twist(), ""))
 

@@ -193,14 +193,28 @@ BodyState bodyState(const World& world, const std::string& body) {
   return bodyStates(world, {body}).front();
 }
 
-void setBodyTwist(World& world, const std::string& body, const Twist& twist) {
-  World::Impl& impl = implOf(world);
-  const int joint = impl.freeJoint(body);
-  impl.requireRuns();
+namespace {
+
+void checkTwist(const std::string& body, const Twist& twist) {
   sizes::check(twist.linear, sizes::kMaxVelocity, "m/s",
                "The linear velocity of body '" + body + "'");
   sizes::check(twist.angular, sizes::kMaxVelocity, "rad/s",
                "The angular velocity of body '" + body + "'");
+}
+
+}  // namespace
+
+void setBodyState(World& world, const std::string& body, const BodyState& state) {
+  checkTwist(body, state.twist);
+  setBodyPose(world, body, state.pose);
+  setBodyTwist(world, body, state.twist);
+}
+
+void setBodyTwist(World& world, const std::string& body, const Twist& twist) {
+  World::Impl& impl = implOf(world);
+  const int joint = impl.freeJoint(body);
+  impl.requireRuns();
+  checkTwist(body, twist);
   const Frame frame = impl.frame(body);
   const Eigen::Isometry3d pose = impl.pose(frame);
   const Eigen::Isometry3d body_pose = pose * frame.pose.inverse();
@@ -293,9 +307,9 @@ JointMeasurement jointState(const World& world, const std::string& joint) {
   return {impl.data->qpos[slot.qpos], impl.data->qvel[slot.dof], impl.motor_side.torque(slot.dof)};
 }
 
-void setJointPosition(World& world, const std::string& joint, double position) {
+void checkJointPosition(const World& world, const std::string& joint, double position) {
   World::Impl& impl = implOf(world);
-  const physics::JointSlot slot = impl.slot(joint);
+  impl.slot(joint);
   const int id = mj_name2id(impl.model.get(), mjOBJ_JOINT, joint.c_str());
   impl.requireRuns();
   sizes::check(position, sizes::kMaxPosition, "m or rad", "The position for joint '" + joint + "'");
@@ -306,6 +320,12 @@ void setJointPosition(World& world, const std::string& joint, double position) {
                              franka_core::numberText(range[0]) + " and " +
                              franka_core::numberText(range[1]) + ".");
   }
+}
+
+void setJointPosition(World& world, const std::string& joint, double position) {
+  checkJointPosition(world, joint, position);
+  World::Impl& impl = implOf(world);
+  const physics::JointSlot slot = impl.slot(joint);
   impl.data->qpos[slot.qpos] = position;
   impl.data->qvel[slot.dof] = 0;
   impl.disturb();

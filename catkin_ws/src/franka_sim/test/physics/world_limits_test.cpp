@@ -57,6 +57,8 @@ const Entrance kEntrances[] = {
      [](World& w, double size) { setBodyTwist(w, "stone", {{size, 0, 0}, {}}); }},
     {"angular velocity", " rad/s", 1e3,
      [](World& w, double size) { setBodyTwist(w, "stone", {{}, {0, 0, size}}); }},
+    {"pose and velocity", " rad/s", 1e3,
+     [](World& w, double size) { setBodyState(w, "stone", {at(1, 0, 1), {{}, {0, 0, size}}}); }},
     {"joint position", " rad", 1e3,
      [](World& w, double size) { setJointPosition(w, "axle", size); }},
     {"joint velocity", " rad/s", 1e3,

@@ -92,6 +92,8 @@ void checkBodyPose(const World& world, const std::string& body, const Pose& pose
 /// Free bodies only; velocity becomes 0.
 void setBodyPose(World& world, const std::string& body, const Pose& pose);
 void setBodyTwist(World& world, const std::string& body, const Twist& twist);  ///< free bodies only
+/// Both of the last two; nothing changes when it throws.
+void setBodyState(World& world, const std::string& body, const BodyState& state);
 /// A force and torque on a body at its origin or at `point` (world), for `ticks` ticks from now.
 void pushBody(World& world, const std::string& body, const std::array<double, 3>& force,
               const std::array<double, 3>& torque, std::uint64_t ticks,
@@ -115,6 +117,8 @@ BodyInertia bodyInertia(const World& world, const std::string& body);
 /// @name Joints with one degree of freedom
 /// @{
 JointMeasurement jointState(const World& world, const std::string& joint);  ///< with its torque
+/// @throws std::runtime_error if such a position cannot be set
+void checkJointPosition(const World& world, const std::string& joint, double position);
 /// Teleports; velocity becomes 0.
 void setJointPosition(World& world, const std::string& joint, double position);
 void setJointVelocity(World& world, const std::string& joint, double velocity);  ///< [rad/s], [m/s]
