@@ -131,7 +131,6 @@ ArmServices::ArmServices(const ros::NodeHandle& node, const SimulatedArm& descri
       arm_node_(node, described.service_namespace),
       control_node_(arm_node_, "franka_control"),
       arm_id_(described.arm_id),
-      is_only_arm_(described.service_namespace.empty()),
       arm_(arm),
       between_ticks_(std::move(between_ticks)),
       place_joint_(std::move(place_joint)),
@@ -237,12 +236,20 @@ void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request&
   }
   std::vector<std::string> complaints;
   between_ticks_([&] {
+    std::vector<std::size_t> possible;
     for (std::size_t i = 0; i < names.size(); ++i) {
       try {
-        place_joint_(names[i], request.joint_positions[i]);
+        place_joint_.check(names[i], request.joint_positions[i]);
+        possible.push_back(i);
       } catch (const std::exception& error) {
         complaints.emplace_back(error.what());
       }
+    }
+    if (possible.empty()) {
+      return;  // nothing changes: no motion may end
+    }
+    for (const std::size_t i : possible) {
+      place_joint_.place(names[i], request.joint_positions[i]);
     }
     if (restart_controllers_) {
       arm_.jointsWerePlaced();
@@ -258,7 +265,7 @@ void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request&
     throw std::runtime_error("No joint could be moved. " + complaints.front());
   }
   if (restart_controllers_) {
-    restartArmControllers();
+    switchArmControllers(true);
   }
 }
 
@@ -267,8 +274,8 @@ void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request&
 void ArmServices::recover() {
   try {
     recoverUnit();
-    if (restart_controllers_) {
-      restartArmControllers();
+    if (restart_controllers_ || !moves()) {
+      switchArmControllers(restart_controllers_);
     }
     recovery_.setSucceeded();
   } catch (const std::exception& error) {
@@ -310,6 +317,12 @@ bool ArmServices::recovering() {
   return recovering;
 }
 
+bool ArmServices::moves() {
+  bool moves = false;
+  between_ticks_([&] { moves = arm_.unit().state().robot_mode == franka_core::RobotMode::kMove; });
+  return moves;
+}
+
 std::vector<std::string> ArmServices::runningArmControllers() {
   const std::string service = robot_node_.resolveName("controller_manager/list_controllers");
   controller_manager_msgs::ListControllers list;
@@ -334,33 +347,32 @@ std::vector<std::string> ArmServices::runningArmControllers() {
   return names;
 }
 
-void ArmServices::restartArmControllers() {
+// In two steps, so that the hardware is told which controllers stop and start.
+void ArmServices::switchArmControllers(bool restart) {
   const std::vector<std::string> names = runningArmControllers();
-  if (names.empty()) {
-    return;
+  const std::string by =
+      " by " + robot_node_.resolveName("controller_manager/switch_controller") + ". ";
+  if (!names.empty() && !switches({}, names)) {
+    throw std::runtime_error("The arm is ready but its controllers could not be stopped" + by +
+                             "Is the simulation paused? Stop them, and start them again.");
   }
-  if (is_only_arm_) {
-    switchControllers(names, names);
-  } else {
-    // A restart in one step does not tell the hardware whose controllers they are.
-    switchControllers({}, names);
-    switchControllers(names, {});
+  if (restart && !names.empty() && !switches(names, {})) {
+    throw std::runtime_error("The arm is ready but its controllers could not be started again" +
+                             by + "They are stopped.");
   }
 }
 
-void ArmServices::switchControllers(const std::vector<std::string>& start,
-                                    const std::vector<std::string>& stop) {
-  const std::string service = robot_node_.resolveName("controller_manager/switch_controller");
-  controller_manager_msgs::SwitchController restart;
-  restart.request.start_controllers = start;
-  restart.request.stop_controllers = stop;
-  restart.request.strictness = controller_manager_msgs::SwitchController::Request::STRICT;
-  restart.request.start_asap = true;
-  restart.request.timeout = kSwitchTimeout;
-  if (!ros::service::call(service, restart) || !restart.response.ok) {
-    throw std::runtime_error("The arm is ready but its controllers could not be restarted by " +
-                             service + ". Is the simulation paused? Restart them by hand.");
-  }
+bool ArmServices::switches(const std::vector<std::string>& start,
+                           const std::vector<std::string>& stop) {
+  controller_manager_msgs::SwitchController request;
+  request.request.start_controllers = start;
+  request.request.stop_controllers = stop;
+  request.request.strictness = controller_manager_msgs::SwitchController::Request::STRICT;
+  request.request.start_asap = true;
+  request.request.timeout = kSwitchTimeout;
+  return ros::service::call(robot_node_.resolveName("controller_manager/switch_controller"),
+                            request) &&
+         request.response.ok;
 }
 
 }  // namespace franka_sim_mujoco

@@ -146,6 +146,7 @@ bool FrankaHWSim::initSim(const std::string& /*robot_namespace*/, ros::NodeHandl
       throw std::invalid_argument("it was given no world, no robot model or not one arm");
     }
     arm_id_ = robot.arms.front().arm_id;
+    between_ticks_ = robot.between_ticks;
     start(model_nh, robot, *urdf_model, transmissions);
     return true;
   } catch (...) {
@@ -185,10 +186,14 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
 
   const bool restart_controllers =
       readBool(node, "restart_controllers_after_recovery").value_or(true);
-  const PlaceJoint place_joint = [this, &world](const std::string& joint, double position) {
+  PlaceJoint place_joint;
+  place_joint.check = [this, &world](const std::string& joint, double position) {
     if (findJoint(joint) == nullptr && devices_->names().count(joint) == 0) {
       throw std::runtime_error("'" + joint + "' is not a joint of this robot that is driven.");
     }
+    checkJointPosition(world, joint, position);
+  };
+  place_joint.place = [&world](const std::string& joint, double position) {
     setJointPosition(world, joint, position);
   };
   services_ = std::make_unique<ArmServices>(node, robot.arms.front(), *arm_, robot.between_ticks,
@@ -254,7 +259,7 @@ void FrankaHWSim::writeSim(ros::Time /*time*/, ros::Duration period) {
 
 void FrankaHWSim::eStopActive(bool active) {
   if (active && arm_->mode() != ControlMode::None) {
-    arm_->control(ControlMode::None, ControlMode::None);
+    arm_->control(ControlMode::None, arm_->mode());
   }
 }
 
@@ -278,9 +283,8 @@ bool FrankaHWSim::checkForConflict(
   return conflict(controllers, arm_id_);
 }
 
-bool FrankaHWSim::prepareSwitch(
-    const std::list<hardware_interface::ControllerInfo>& start_list,
-    const std::list<hardware_interface::ControllerInfo>& /*stop_list*/) {
+bool FrankaHWSim::prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
+                                const std::list<hardware_interface::ControllerInfo>& stop_list) {
   for (const auto& controller : start_list) {
     const std::string reason = whyRefused(controller, arm_id_, devices_->names());
     if (!reason.empty()) {
@@ -288,7 +292,8 @@ bool FrankaHWSim::prepareSwitch(
       return false;
     }
   }
-  if (claimedMode(start_list, arm_id_) == ControlMode::None) {
+  const ControlMode starts = claimedMode(start_list, arm_id_);
+  if (starts == ControlMode::None) {
     return true;
   }
   if (!arm_->connected()) {
@@ -307,7 +312,27 @@ bool FrankaHWSim::prepareSwitch(
         arm_->userStopped() ? "the user stop is pressed" : "an error has stopped the arm",
         arm_->userStopped() ? "the stop is released and " : "");
   }
-  return true;
+  return !refusesAtSingularPose(starts, claimedMode(stop_list, arm_id_));
+}
+
+// Before the switch, so that a refusal stops nothing.
+bool FrankaHWSim::refusesAtSingularPose(ControlMode starts, ControlMode stops) const {
+  bool refuses = false;
+  try {
+    between_ticks_([&] { refuses = arm_->refuses(starts, stops); });
+  } catch (const std::exception& error) {
+    ROS_ERROR_NAMED(kHardwareLog, "%s: %s", arm_id_.c_str(), error.what());
+    return true;
+  }
+  if (refuses) {
+    ROS_ERROR_NAMED(
+        kHardwareLog,
+        "%s: no Cartesian motion can start here, because the pose is singular: move the "
+        "arm away by a controller of its joints, or place it elsewhere (service "
+        "set_franka_model_configuration).",
+        arm_id_.c_str());
+  }
+  return refuses;
 }
 
 void FrankaHWSim::doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
@@ -315,17 +340,16 @@ void FrankaHWSim::doSwitch(const std::list<hardware_interface::ControllerInfo>& 
   devices_->doSwitch(start_list, stop_list);
   const ControlMode starts = claimedMode(start_list, arm_id_);
   const ControlMode stops = claimedMode(stop_list, arm_id_);
-  const ControlMode rest = arm_->mode() & ~stops;
-  if (starts != ControlMode::None || stops != ControlMode::None) {
+  switch_concerns_arm_ = starts != ControlMode::None || stops != ControlMode::None;
+  if (switch_concerns_arm_ && arm_->control(starts, stops)) {
     position_limits_.reset();
-    arm_->control(rest | starts, rest);
-  } else if (start_list.empty() && stop_list.empty()) {
-    position_limits_.reset();
-    arm_->controlRestarts();
   }
 }
 
 FrankaHWSim::SwitchState FrankaHWSim::switchResult() const {
+  if (!switch_concerns_arm_) {
+    return SwitchState::DONE;
+  }
   switch (arm_->switchResult()) {
     case SimArm::Switch::kOngoing:
       return SwitchState::ONGOING;

@@ -222,7 +222,7 @@ void FrankaHWSim::registerLimits(const urdf::Model& model) {
 }
 
 void FrankaHWSim::holdJointLimits(const ros::Duration& period) {
-  if (arm_->switchResult() == SimArm::Switch::kOngoing) {
+  if (arm_->waits()) {
     // No controller commands yet: the limits must not start from the positions of the last motion.
     position_limits_.reset();
     return;

@@ -94,6 +94,10 @@ MotionGeneratorMode generatorOf(ControlMode mode) noexcept {
   return MotionGeneratorMode::kNone;
 }
 
+bool isCartesian(ControlMode mode) noexcept {
+  return contains(mode, ControlMode::CartesianPose | ControlMode::CartesianVelocity);
+}
+
 }  // namespace
 
 SimArm::SimArm(const franka_sim::ControlUnitParameters& parameters, franka_sim::ArmPlant& plant,
@@ -106,7 +110,7 @@ SimArm::SimArm(const franka_sim::ControlUnitParameters& parameters, franka_sim::
 
 void SimArm::read(const ros::Time& time) noexcept {
   unit_.observe(plant_.measure());
-  if (switch_ == Switch::kOngoing) {
+  if (waits_) {
     tryToStart();
   }
   time_ = franka::Duration(time.toNSec() / 1000000);
@@ -175,7 +179,7 @@ void SimArm::write() noexcept {
 }
 
 const franka_core::RobotCommand* SimArm::command() noexcept {
-  if (unit_.state().robot_mode != RobotMode::kMove || switch_ == Switch::kOngoing) {
+  if (unit_.state().robot_mode != RobotMode::kMove || waits_) {
     return nullptr;
   }
   command_ = shapeCommand(options_.shaping, mode_, applied_, unit_.state(), unit_.limits());
@@ -210,34 +214,40 @@ bool SimArm::canConnect() const noexcept {
           unit_.state().robot_mode == RobotMode::kMove);
 }
 
-void SimArm::control(ControlMode mode, ControlMode without) noexcept {
-  stopMotion();
-  mode_ = mode;
-  fallback_ = without;
-  needs_recovery_ = needs_recovery_ && (userStopped() || mode == ControlMode::None);
-  connect();
+bool SimArm::refuses(ControlMode starts, ControlMode stops) const noexcept {
+  return starts != ControlMode::None && isCartesian((mode_ & ~stops) | starts) && canConnect() &&
+         unit_.stopsAtSingularPose();
 }
 
-void SimArm::controlRestarts() noexcept {
-  if (mode_ != ControlMode::None && !needs_recovery_ &&
-      (unit_.state().robot_mode != RobotMode::kMove || generates())) {
-    stopMotion();
-    connect();
+bool SimArm::control(ControlMode starts, ControlMode stops) noexcept {
+  // Checked before anything is stopped: a motion that ends here could not start again.
+  refused_ = refuses(starts, stops);
+  if (refused_) {
+    refusal_.store(Refusal::kSingular, std::memory_order_relaxed);
+    starts = ControlMode::None;
+    if (stops == ControlMode::None) {
+      return false;
+    }
   }
+  stopMotion();
+  remaining_ = mode_ & ~stops;
+  mode_ = remaining_ | starts;
+  connect();
+  return true;
 }
 
 void SimArm::connect() noexcept {
-  switch_ = Switch::kDone;
+  waits_ = false;
   ticks_waited_ = 0;
   resetCommands();
-  if (mode_ != ControlMode::None && canConnect()) {
+  if (mode_ != ControlMode::None) {
     tryToStart();
   }
 }
 
 void SimArm::tryToStart() noexcept {
+  waits_ = false;
   if (!canConnect()) {
-    switch_ = Switch::kDone;
     return;
   }
   franka_core::fci::MoveRequest request;
@@ -245,8 +255,11 @@ void SimArm::tryToStart() noexcept {
   request.controller_mode = contains(mode_, ControlMode::JointTorque)
                                 ? franka_core::ControllerMode::kExternalController
                                 : options_.internal_controller;
-  if (unit_.request(request) != franka_sim::Status::kMotionStarted) {
-    switch_ = Switch::kOngoing;
+  const bool continued = generatorOf(remaining_) != MotionGeneratorMode::kNone;
+  const auto status =
+      continued ? unit_.request(franka_sim::ContinuedMove{request}) : unit_.request(request);
+  if (status != franka_sim::Status::kMotionStarted) {
+    waits_ = true;
     if (++ticks_waited_ > kMaxStopTime) {
       refuse(Refusal::kNotAtRest);
     }
@@ -256,7 +269,7 @@ void SimArm::tryToStart() noexcept {
     refuse(Refusal::kSingular);
     return;
   }
-  switch_ = Switch::kDone;
+  remaining_ = mode_;
   resetCommands();
   // Controllers that start in this tick read the start of the new motion, not the end of the old
   // one: a step in the first position would make every rate limiter oscillate.
@@ -265,13 +278,14 @@ void SimArm::tryToStart() noexcept {
 
 void SimArm::stopMotion() noexcept { unit_.request(franka_core::fci::StopMoveRequest{}); }
 
+// What ran before is connected again.
 void SimArm::refuse(Refusal why) noexcept {
   refusal_.store(why, std::memory_order_relaxed);
-  switch_ = Switch::kRefused;
-  mode_ = fallback_;
-  resetCommands();
-  if (mode_ == ControlMode::JointTorque) {
-    unit_.request(franka_sim::torqueControl());
+  refused_ = true;
+  waits_ = false;
+  if (mode_ != remaining_) {
+    mode_ = remaining_;
+    connect();
   }
 }
 
@@ -293,7 +307,6 @@ void SimArm::setUserStop(bool pressed) noexcept {
   }
   unit_.request(franka_sim::UserStop{pressed});
   user_stopped_.store(pressed, std::memory_order_relaxed);
-  needs_recovery_ = true;
 }
 
 bool SimArm::recover() noexcept {
@@ -302,11 +315,7 @@ bool SimArm::recover() noexcept {
   }
   const std::optional<franka_sim::Status> refusal =
       unit_.request(franka_core::fci::AutomaticErrorRecoveryRequest{});
-  if (refusal && refusal != franka_sim::Status::kSuccess) {
-    return false;
-  }
-  needs_recovery_ = false;
-  return true;
+  return !refusal || refusal == franka_sim::Status::kSuccess;
 }
 
 bool SimArm::recovering() const noexcept {
@@ -332,14 +341,12 @@ void SimArm::worldWasReset() noexcept {
   filter_is_fresh_ = true;
   resetCommands();
   ticks_waited_ = 0;
-  if (moving) {
-    switch_ = Switch::kOngoing;
-  }
+  waits_ = waits_ || moving;
 }
 
 void SimArm::jointsWerePlaced() noexcept {
   stopMotion();
-  switch_ = Switch::kDone;
+  waits_ = false;
   worldWasReset();
 }
 

@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// An arm that controllers drive in the simulation: flags of contact and collision, and
-/// controllers that run less often than the robot.
+/// An arm that controllers drive in the simulation: flags of contact and collision, controllers
+/// that run less often than the robot, and switches near a singular pose.
 
 #include <franka_sim_mujoco/sim_arm.h>
 #include <gtest/gtest.h>
@@ -120,6 +120,87 @@ TEST_P(SimArmPeriod, MotionReachesItsGoalWithoutExternalTorqueAndRests) {
 
 INSTANTIATE_TEST_SUITE_P(Milliseconds, SimArmPeriod,
                          ::testing::Values(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 20));
+
+using franka_core::RobotMode;
+using franka_hw::ControlMode;
+
+franka_sim::ControlUnitParameters rosControl() {
+  franka_sim::ControlUnitParameters parameters = franka_sim::test::pandaWithHand();
+  parameters.rules = franka_sim::InterfaceRules::kRosControl;
+  return parameters;
+}
+
+/// An arm whose Cartesian controller moves it towards the axis of its first joint, over which the
+/// pose is singular.
+class ArmNearSingularPose {
+ public:
+  ArmNearSingularPose()
+      : parameters_(rosControl()),
+        plant_(parameters_.model, {{0, -1.43, 0, -2.35619449, 0, 1.57079633, 0.78539816}}),
+        arm(parameters_, plant_, SimArmOptions()) {
+    plant_.payload = parameters_.end_effector;
+    run(1);
+    arm.control(ControlMode::CartesianVelocity, ControlMode::None);
+    for (int i = 0; i < 3000 && !arm.unit().stopsAtSingularPose(); ++i) {
+      run(1);
+    }
+    run(100);
+  }
+
+  /// @returns whether it moved in each tick
+  bool run(int ticks) {
+    bool moved = true;
+    for (int i = 0; i < ticks; ++i) {
+      arm.read(ros::Time(1));
+      moved = moved && arm.unit().state().robot_mode == RobotMode::kMove;
+      speed_ = std::min(speed_ + 1e-4, 0.02);
+      arm.commands().twist = {{-speed_, 0, 0, 0, 0, 0}};
+      arm.approachCommands();
+      arm.write();
+      plant_.step();
+    }
+    return moved;
+  }
+
+  void resetWorld() {
+    arm.worldWasReset();
+    speed_ = 0.0;
+  }
+
+  double x() { return arm.unit().state().O_T_EE[12]; }
+
+ private:
+  franka_sim::ControlUnitParameters parameters_;
+  franka_sim::test::FakeArm plant_;
+  double speed_{0};
+
+ public:
+  SimArm arm;
+};
+
+TEST(SimArmSwitch, ARefusedStartChangesNothing) {
+  ArmNearSingularPose undisturbed, refusing;
+  ASSERT_TRUE(refusing.arm.unit().stopsAtSingularPose());
+  EXPECT_TRUE(refusing.arm.refuses(ControlMode::JointTorque, ControlMode::None));
+  EXPECT_FALSE(refusing.arm.control(ControlMode::JointTorque, ControlMode::None));
+  EXPECT_EQ(SimArm::Switch::kRefused, refusing.arm.switchResult());
+  EXPECT_EQ(ControlMode::CartesianVelocity, refusing.arm.mode());
+  const double before = refusing.x();
+  EXPECT_TRUE(undisturbed.run(300) && refusing.run(300));
+  EXPECT_LT(refusing.x(), before - 0.004);
+  EXPECT_EQ(undisturbed.arm.unit().state().q, refusing.arm.unit().state().q) << "to the last bit";
+}
+
+TEST(SimArmSwitch, AControllerThatRemainsGoesOnAtASingularPose) {
+  ArmNearSingularPose moved;
+  ASSERT_TRUE(moved.arm.unit().stopsAtSingularPose());
+  moved.resetWorld();
+  EXPECT_TRUE(moved.run(100));
+  // A restart is a stop and a start: what would be stopped is stopped, but not what only remains.
+  EXPECT_TRUE(moved.arm.control(ControlMode::CartesianVelocity, ControlMode::CartesianVelocity));
+  EXPECT_EQ(SimArm::Switch::kRefused, moved.arm.switchResult());
+  EXPECT_EQ(ControlMode::None, moved.arm.mode());
+}
 
 }  // namespace
 }  // namespace franka_sim_mujoco

@@ -494,10 +494,13 @@ def test_connect_and_disconnect(arm):
 
 
 def test_configuration_of_the_joints(arm):
+    arm.load("joint_position_example_controller")  # only near the start pose
     assert arm.place([0.1, -0.7, 0.1, -2.2, 0.1, 1.6, 0.9]).success
     state = arm.after(0.2)
     np.testing.assert_allclose(state.q, [0.1, -0.7, 0.1, -2.2, 0.1, 1.6, 0.9], atol=1e-3)
     name = "/set_franka_model_configuration"
+    assert arm.switch(start=["joint_position_example_controller"])
+    begin = arm.when(lambda state: state.robot_mode == MOVE)
     for names, positions, expected in (
         ([""], [], "No joints"),
         ([arm.arm_id + "_joint1"], [], "positions"),
@@ -507,8 +510,10 @@ def test_configuration_of_the_joints(arm):
         answer = call(name, SetJointConfiguration, joint_names=names, joint_positions=positions)
         assert not answer.success
         assert expected in answer.error
+    # A refused call changes nothing.
+    arm.when(lambda state: abs(state.q_d[0] - begin.q_d[0]) > 0.01)
+    assert {state.robot_mode for state in arm.states[arm.states.index(begin) :]} == {MOVE}
     # A running motion restarts at the arm's present position.
-    assert arm.switch(start=["joint_position_example_controller"])
     assert arm.place().success
     state = arm.when(lambda state: state.robot_mode == MOVE)
     assert np.abs(np.array(state.q) - START).max() < 0.08  # the controller's amplitude

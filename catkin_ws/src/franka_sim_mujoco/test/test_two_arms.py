@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 import rospy
 from actionlib_msgs.msg import GoalStatus
+from control_msgs.msg import FollowJointTrajectoryAction
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
 from franka_sim_mujoco.pick_and_place import Arm, Gripper, PickAndPlace, Scene, wait_until
 from franka_sim_mujoco.srv import DeleteRobot, SpawnRobot
 from geometry_msgs.msg import Point, Pose, Quaternion
-from ros_client import Action, Controllers, call, follow, launched
+from ros_client import Action, Controllers, call, follow, launched, outcome, trajectory
 from std_srvs.srv import SetBool
 from waiting import wait_for
 
@@ -89,6 +90,26 @@ def test_a_stopped_arm_recovers_while_the_other_holds_on(arms):
     assert f"left/{IMPEDANCE}" in manager.running()
     assert right.modes == [MOVE]
     assert np.linalg.norm(right.pose[:3, 3] - held) < 1e-3
+
+
+def test_a_switch_on_one_arm_leaves_the_motion_of_the_other_alone(arms):
+    manager, sides = arms
+    right = sides["right"]
+    manager.load("right_alone")
+    assert manager.switches(start=["right_alone"], stop=[f"right/{IMPEDANCE}"])
+    target = START[:6] + [-2.6]
+    goal = Action("/duo/right_alone/follow_joint_trajectory", FollowJointTrajectoryAction).send(
+        trajectory(dict(zip([f"right_joint{i}" for i in range(1, 8)], target)), 8.0)
+    )
+    wait_for(lambda: max(map(abs, right.state.dq_d)) > 0.2, "The motion of the right arm")
+    right.modes.clear()
+    for name in (f"left/{IMPEDANCE}", "left/franka_gripper", "left/franka_state_controller"):
+        assert manager.switches(stop=[name])
+        assert manager.switches(start=[name])
+        assert manager.switches(start=[name], stop=[name]), "a restart"
+    assert outcome(goal)[0] == GoalStatus.SUCCEEDED
+    assert right.modes == [MOVE] and right.errors == set()
+    assert manager.switches(start=[f"right/{IMPEDANCE}"], stop=["right_alone"])
 
 
 def test_one_controller_commands_both_arms_and_excludes_those_of_each(arms):

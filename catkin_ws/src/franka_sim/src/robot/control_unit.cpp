@@ -147,6 +147,10 @@ void ControlUnit::restart() noexcept {
   parts_->laws.restart();
 }
 
+bool ControlUnit::stopsAtSingularPose() const noexcept {
+  return parts_->supervisor.stopsAtSingularPose();
+}
+
 UnitStatus ControlUnit::status() const noexcept { return parts_->supervisor.status(); }
 
 const ControlUnitParameters& ControlUnit::configuration() const noexcept {

@@ -255,7 +255,7 @@ bool ClientMotion::hasExternalController() const noexcept {
   return request_.controller_mode == ControllerMode::kExternalController;
 }
 
-MotionStartResult ClientMotion::start(const franka_core::fci::MoveRequest& request,
+MotionStartResult ClientMotion::start(const franka_core::fci::MoveRequest& request, bool continued,
                                       const franka_core::RobotState& state,
                                       const franka_core::ArmModel& model) noexcept {
   if (request.motion_generator_mode != MotionGeneratorMode::kNone) {
@@ -263,6 +263,7 @@ MotionStartResult ClientMotion::start(const franka_core::fci::MoveRequest& reque
     start.mode = request.motion_generator_mode;
     start.q_d = state.q_d;
     start.F_T_EE = state.F_T_EE;
+    start.continued = continued;
     start.asynchronous = request.use_async_motion_generator;
     start.maximum_velocity = request.maximum_velocity;
     const MotionStartResult result = generator_.start(start, model);

@@ -49,7 +49,8 @@ class ClientMotion {
       : generator_(limits), torque_(max_torque) {}
 
   /// Starts the generator, if the request has one. Nothing changes if that is refused.
-  MotionStartResult start(const franka_core::fci::MoveRequest& request,
+  /// @param continued whether it may also start at a singular pose
+  MotionStartResult start(const franka_core::fci::MoveRequest& request, bool continued,
                           const franka_core::RobotState& state,
                           const franka_core::ArmModel& model) noexcept;
   /// Filters begin at the desired motion of the state.
@@ -147,9 +148,12 @@ class MotionSupervisor {
   Answer handle(const Brakes& request) noexcept;
   Answer handle(const FciActivation& request) noexcept;
   Answer handle(const OperatorMove& request) noexcept;
+  Answer handle(const ContinuedMove& request) noexcept;
   Answer handle(const ClientLost& request) noexcept;
   Answer take(PendingAnswer which) noexcept { return answers_.take(which); }
 
+  /// See ControlUnit::stopsAtSingularPose.
+  bool stopsAtSingularPose() const noexcept;
   /// The arm was moved to another pose, see ControlUnit::restart.
   void restart() noexcept;
   /// Frames or loads have changed: the desired pose is computed again.
@@ -178,7 +182,7 @@ class MotionSupervisor {
   bool rests() const noexcept;
 
   // transitions
-  Answer startMotion(const franka_core::fci::MoveRequest& request) noexcept;
+  Answer startMotion(const franka_core::fci::MoveRequest& request, bool continued) noexcept;
   Answer recover() noexcept;
   void react() noexcept;
   void endMotion(ModeEvent event, Status status, bool at_rest) noexcept;
@@ -188,7 +192,7 @@ class MotionSupervisor {
   void settle() noexcept;
   void clearMotionData() noexcept;
   void clearErrors() noexcept;
-  void brake() noexcept;
+  void brake(RestSequence& rest) const noexcept;
   void stopAndClose() noexcept;
   void leaveStop(ModeEvent event) noexcept;
   void holdPosition() noexcept;

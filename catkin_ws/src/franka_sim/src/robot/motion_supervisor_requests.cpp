@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "robot/motion/cartesian_motion.h"
 #include "robot/motion_supervisor.h"
 #include "robot/transforms.h"
 
@@ -42,14 +43,20 @@ bool anyError(const franka_core::RobotState& state) noexcept {
 // --- motions -------------------------------------------------------------------------------------
 
 MotionSupervisor::Answer MotionSupervisor::handle(const codec::MoveRequest& request) noexcept {
-  return operator_.fci_active ? startMotion(request) : Status::kCommandNotPossibleRejected;
+  return operator_.fci_active ? startMotion(request, false) : Status::kCommandNotPossibleRejected;
 }
 
 MotionSupervisor::Answer MotionSupervisor::handle(const OperatorMove& request) noexcept {
-  return startMotion(request.move);
+  return startMotion(request.move, false);
 }
 
-MotionSupervisor::Answer MotionSupervisor::startMotion(const codec::MoveRequest& request) noexcept {
+MotionSupervisor::Answer MotionSupervisor::handle(const ContinuedMove& request) noexcept {
+  return operator_.fci_active ? startMotion(request.move, true)
+                              : Status::kCommandNotPossibleRejected;
+}
+
+MotionSupervisor::Answer MotionSupervisor::startMotion(const codec::MoveRequest& request,
+                                                       bool continued) noexcept {
   const bool with_generator = request.motion_generator_mode != MotionGeneratorMode::kNone;
   if (!estimator_->started() || mode() != RobotMode::kIdle ||
       (with_generator && rest_.isBraking())) {
@@ -59,7 +66,7 @@ MotionSupervisor::Answer MotionSupervisor::startMotion(const codec::MoveRequest&
       !isDeviation(request.max_goal_deviation)) {
     return Status::kInvalidArgumentRejected;
   }
-  switch (motion_.start(request, *state_, configuration_->parameters().model)) {
+  switch (motion_.start(request, continued, *state_, configuration_->parameters().model)) {
     case MotionStartResult::kInvalidArgument:
       return Status::kInvalidArgumentRejected;
     case MotionStartResult::kSingular:
@@ -216,6 +223,16 @@ UnitStatus MotionSupervisor::status() const noexcept {
   return status;
 }
 
+// The stop is computed in advance on a copy.
+bool MotionSupervisor::stopsAtSingularPose() const noexcept {
+  RestSequence rest = rest_;
+  if (isMoving()) {
+    brake(rest);
+  }
+  return InverseKinematics::isSingular(rest.isBraking() ? rest.restingPosition() : state_->q_d,
+                                       state_->F_T_EE, configuration_->parameters().model);
+}
+
 void MotionSupervisor::restart() noexcept {
   if (isMoving() && generates()) {
     endMotion(ModeEvent::kMotionEnded, Status::kAborted, false);
@@ -300,7 +317,7 @@ void MotionSupervisor::enter(RobotMode before) noexcept {
       if (brakesClosed()) {
         holdPosition();
       } else if (before != RobotMode::kAutomaticErrorRecovery) {
-        brake();
+        brake(rest_);
       }
       break;
     case RobotMode::kGuiding:
@@ -326,7 +343,7 @@ void MotionSupervisor::stopAndClose() noexcept {
   if (brakesClosed()) {
     holdPosition();
   } else {
-    brake();
+    brake(rest_);
   }
 }
 
@@ -358,14 +375,14 @@ void MotionSupervisor::clearErrors() noexcept {
 }
 
 // Brakes the desired motion; without one, the measured motion.
-void MotionSupervisor::brake() noexcept {
+void MotionSupervisor::brake(RestSequence& rest) const noexcept {
   const bool desired = state_->motion_generator_mode != MotionGeneratorMode::kIdle &&
                        state_->motion_generator_mode != MotionGeneratorMode::kNone &&
                        state_->controller_mode != ControllerMode::kExternalController;
-  if (desired || rest_.isBraking()) {
-    rest_.brake(state_->q_d, state_->dq_d, state_->ddq_d, limits().arm);
+  if (desired || rest.isBraking()) {
+    rest.brake(state_->q_d, state_->dq_d, state_->ddq_d, limits().arm);
   } else {
-    rest_.brake(state_->q, estimator_->estimate().dq, {}, limits().arm);
+    rest.brake(state_->q, estimator_->estimate().dq, {}, limits().arm);
   }
 }
 

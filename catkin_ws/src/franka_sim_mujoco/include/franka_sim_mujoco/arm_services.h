@@ -15,9 +15,12 @@
 
 namespace franka_sim_mujoco {
 
-/// Teleports a joint of the robot, between ticks. @throws std::runtime_error for an impossible
-/// position
-using PlaceJoint = std::function<void(const std::string& joint, double position)>;
+/// Of a teleport of a joint of the robot, between ticks.
+struct PlaceJoint {
+  using Function = std::function<void(const std::string& joint, double position)>;
+  Function check;  ///< @throws std::runtime_error for an impossible position
+  Function place;  ///< of one that was checked
+};
 
 /// The services and the recovery action of a simulated arm: those of the robot's own node and
 /// set_user_stop under `franka_control` in its service namespace, set_franka_model_configuration in
@@ -27,7 +30,7 @@ class ArmServices {
  public:
   /// @param node of the robot's namespace @param described names the arm
   /// @param restart_controllers restarts the controllers that command the arm, after a recovery and
-  /// after a teleport of the joints
+  /// after a teleport of the joints; without it, they are stopped after a recovery
   ArmServices(const ros::NodeHandle& node, const SimulatedArm& described, SimArm& arm,
               BetweenTicks between_ticks, PlaceJoint place_joint, bool restart_controllers);
   ~ArmServices();
@@ -49,14 +52,15 @@ class ArmServices {
   void recover();
   void recoverUnit();
   bool recovering();
-  void restartArmControllers();
-  void switchControllers(const std::vector<std::string>& start,
-                         const std::vector<std::string>& stop);
+  bool moves();
+  /// Stops the controllers that command the arm, and starts them again if `restart`.
+  /// @throws std::runtime_error if that failed
+  void switchArmControllers(bool restart);
+  bool switches(const std::vector<std::string>& start, const std::vector<std::string>& stop);
   std::vector<std::string> runningArmControllers();
 
   ros::NodeHandle robot_node_, arm_node_, control_node_;
   std::string arm_id_;
-  bool is_only_arm_;
   SimArm& arm_;
   BetweenTicks between_ticks_;
   PlaceJoint place_joint_;

@@ -56,12 +56,14 @@ class FrankaHWSim : public RobotHWSim {
   /// The claim rules of franka_hw; refusals are logged.
   bool checkForConflict(
       const std::list<hardware_interface::ControllerInfo>& controllers) const override;
-  /// Refuses controllers whose claims this hardware does not support; the reason is logged.
+  /// Refuses controllers whose claims this hardware does not support, and Cartesian motions where
+  /// none can start; the reason is logged.
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                      const std::list<hardware_interface::ControllerInfo>& stop_list) override;
   void doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                 const std::list<hardware_interface::ControllerInfo>& stop_list) override;
-  /// Ongoing while the arm comes to rest for the next motion; an error if it cannot start.
+  /// Of the last switch, if it concerned the arm: ongoing while the arm comes to rest for the next
+  /// motion; an error if it cannot start.
   SwitchState switchResult() const override;
   SwitchState switchResult(const hardware_interface::ControllerInfo& controller) const override;
 
@@ -92,12 +94,14 @@ class FrankaHWSim : public RobotHWSim {
   void registerCartesian();
   void registerLimits(const urdf::Model& model);
   void holdJointLimits(const ros::Duration& period);
+  bool refusesAtSingularPose(franka_hw::ControlMode starts, franka_hw::ControlMode stops) const;
   Joint* findJoint(const std::string& name);
   void publishInitialized(bool initialized);
   void report();
 
   std::string failure_;
   std::string arm_id_;
+  BetweenTicks between_ticks_;
   double singularity_threshold_{-1.0};
   std::array<Joint, kJoints> joints_;
   franka_sim::HandPlant* hand_{nullptr};
@@ -117,6 +121,7 @@ class FrankaHWSim : public RobotHWSim {
   std::unique_ptr<ArmServices> services_;
   std::unique_ptr<realtime_tools::RealtimePublisher<std_msgs::Bool>> initialized_;
   bool initialized_published_{false};
+  bool switch_concerns_arm_{false};  ///< the last one
   ros::WallTimer reporter_;
   std::uint64_t reported_commands_{0}, reported_aborts_{0};
 };

@@ -42,7 +42,7 @@ class SimArm {
   enum class Switch {
     kDone,     ///< the motion runs; or none can, and the controllers are disconnected
     kOngoing,  ///< the arm must come to rest before its next motion
-    kRefused,  ///< the motion cannot start, see refusal()
+    kRefused,  ///< the motion cannot start, see refusal(); what ran before goes on
   };
   /// Why the last motion did not start.
   enum class Refusal { kNone, kSingular, kNotAtRest };
@@ -67,16 +67,22 @@ class SimArm {
   /// end the motion with an error.
   void write() noexcept;
 
-  /// The controllers of the arm change. Torques alone connect at once; motions when the arm rests.
-  /// Commands are reset to the desired position and the commanded pose. No controllers are
-  /// connected while the user stop is pressed, after an error or without connection, see
-  /// needsRecovery().
-  /// @param mode of the new claims @param without mode of the claims that remain if the new
-  /// controllers cannot start
-  void control(franka_hw::ControlMode mode, franka_hw::ControlMode without) noexcept;
-  /// Running controllers were restarted: connects them again after a recovery.
-  void controlRestarts() noexcept;
-  Switch switchResult() const noexcept { return switch_; }
+  /// Whether control() would refuse to start controllers, because no Cartesian motion can start
+  /// where the arm would come to rest.
+  bool refuses(franka_hw::ControlMode starts, franka_hw::ControlMode stops) const noexcept;
+  /// The controllers of the arm change; a restarted one is in both. Torques alone connect at once;
+  /// motions when the arm rests. Commands are reset to the desired position and the commanded pose.
+  /// No controllers are connected while the user stop is pressed, after an error or without
+  /// connection, see needsRecovery(). Controllers that remain are connected again in any case, also
+  /// if the new ones cannot start.
+  /// @param starts, stops claims of the controllers
+  /// @returns false if the start is refused and nothing is stopped: nothing has changed
+  bool control(franka_hw::ControlMode starts, franka_hw::ControlMode stops) noexcept;
+  Switch switchResult() const noexcept {
+    return refused_ ? Switch::kRefused : waits_ ? Switch::kOngoing : Switch::kDone;
+  }
+  /// Whether a motion waits until the arm rests: no controller commands it yet.
+  bool waits() const noexcept { return waits_; }
   /// The mode of the claims, connected or not.
   franka_hw::ControlMode mode() const noexcept { return mode_; }
 
@@ -146,10 +152,10 @@ class SimArm {
   int ticks_to_target_{1};
   franka_core::RobotCommand command_{};
   franka_hw::ControlMode mode_{franka_hw::ControlMode::None};
-  franka_hw::ControlMode fallback_{franka_hw::ControlMode::None};
-  Switch switch_{Switch::kDone};
+  franka_hw::ControlMode remaining_{franka_hw::ControlMode::None};  ///< without the new ones
+  bool refused_{false};                                             ///< the last switch
+  bool waits_{false};
   int ticks_waited_{0};
-  bool needs_recovery_{false};  ///< since a user stop
   std::atomic<bool> user_stopped_{false}, connected_{true}, faulty_{false};
   std::atomic<Refusal> refusal_{Refusal::kNone};
   std::atomic<std::uint64_t> refused_commands_{0};

@@ -47,6 +47,11 @@ struct FciActivation {
 struct OperatorMove {
   franka_core::fci::MoveRequest move;  ///< its request
 };
+/// A motion that goes on after a stop, with another controller: a Cartesian one also at a singular
+/// pose.
+struct ContinuedMove {
+  franka_core::fci::MoveRequest move;  ///< its request
+};
 /// The end effector as it is set in Desk. Refused in Move, and if no arm can hold it.
 struct SetEndEffector {
   franka_core::Payload payload;   ///< m_ee, F_x_Cee, I_ee
@@ -73,7 +78,7 @@ using UnitRequest = std::variant<
     franka_core::fci::SetGuidingModeRequest, franka_core::fci::SetEEToKRequest,
     franka_core::fci::SetNEToEERequest, franka_core::fci::SetLoadRequest,
     franka_core::fci::SetFiltersRequest, UserStop, Guiding, Brakes, FciActivation, OperatorMove,
-    SetEndEffector, SetVirtualWall, SetProtocolVersion, ClientLost>;
+    ContinuedMove, SetEndEffector, SetVirtualWall, SetProtocolVersion, ClientLost>;
 
 /// The requests that are answered later than they are made.
 enum class PendingAnswer {
@@ -198,6 +203,9 @@ class ControlUnit {
   /// as at rest. Otherwise the mode and the configuration stay.
   void restart() noexcept;
 
+  /// Whether no Cartesian motion could start where the arm would come to rest if it was stopped
+  /// now (kStartAtSingularPoseRejected). Real-time safe.
+  bool stopsAtSingularPose() const noexcept;
   /// What clients and operators see of it. Real-time safe.
   UnitStatus status() const noexcept;
   /// The parameters with the changes by requests.

@@ -60,8 +60,9 @@ bool BrakeTrajectory::atRest() const noexcept {
 
 namespace {
 
-constexpr int kYieldTicks = 200;   // duration of yielding after a reflex (decision 16)
-constexpr int kReflexTicks = 200;  // then braking restarts (decision 16)
+constexpr int kYieldTicks = 200;      // duration of yielding after a reflex (decision 16)
+constexpr int kReflexTicks = 200;     // then braking restarts (decision 16)
+constexpr int kMaxBrakeTicks = 2000;  // an arm at full speed comes to rest within half a second
 
 }  // namespace
 
@@ -71,6 +72,14 @@ void RestSequence::brake(const std::array<double, 7>& q_d, const std::array<doub
   brake_.start(q_d, dq_d, ddq_d, limits);
   phase_ = Phase::kBraking;
   ticks_ = 0;
+}
+
+std::array<double, 7> RestSequence::restingPosition() const noexcept {
+  BrakeTrajectory brake = brake_;
+  for (int i = 0; i < kMaxBrakeTicks && !brake.atRest(); ++i) {
+    brake.step();
+  }
+  return brake.q();
 }
 
 RestSequence::Step RestSequence::step(bool reflex, const std::array<double, 7>& q,
@@ -279,7 +288,7 @@ MotionStartResult MotionGenerator::start(const MotionStart& start, const ArmMode
   if (!isPossible(start)) {
     return MotionStartResult::kInvalidArgument;
   }
-  if (isCartesianMode(start.mode) &&
+  if (isCartesianMode(start.mode) && !start.continued &&
       InverseKinematics::isSingular(start.q_d, start.F_T_EE, model)) {
     return MotionStartResult::kSingular;
   }

@@ -71,6 +71,9 @@ class RestSequence {
   bool isBraking() const noexcept { return phase_ == Phase::kBraking; }
   bool isFinished() const noexcept { return phase_ == Phase::kReached; }
   const BrakeTrajectory& braking() const noexcept { return brake_; }
+  /// Where the desired motion, which brakes, comes to rest [rad]. Takes as long as hundreds of
+  /// steps.
+  std::array<double, 7> restingPosition() const noexcept;
 
  private:
   enum class Phase { kBraking, kYielding, kReached };
@@ -142,7 +145,8 @@ struct MotionStart {
   /// Last desired positions [rad]; O_T_EE_c and the elbow start at their forward kinematics.
   std::array<double, 7> q_d{};
   Transform F_T_EE{franka_core::kIdentityTransform};
-  bool asynchronous{false};                  ///< point to point; joint positions only (protocol 10)
+  bool continued{false};     ///< after a stop: a Cartesian motion also starts at a singular pose
+  bool asynchronous{false};  ///< point to point; joint positions only (protocol 10)
   std::array<double, 7> maximum_velocity{};  ///< of the asynchronous generator [rad/s]
 };
 
