@@ -55,6 +55,7 @@ RobotServer::~RobotServer() = default;
 void RobotServer::serve(bool stops_only) {
   collectEnds();
   datagrams_left_ = kDatagramsAtOnce;
+  targets_left_ = kTargetsAtOnce;
   slot_.setOpen(handler_.active());
   if (!handler_.active() && version_ == 0) {
     slot_.drop();  // not connected yet; a client first gets the end of its motion (publish)
@@ -324,10 +325,10 @@ bool RobotServer::receiveCommand() noexcept {
     return false;
   }
   codec::CommandBuffer buffer;
-  while (!answered_ && datagrams_left_ > 0) {
+  while (readsCommands()) {
     const std::ptrdiff_t size = datagrams_.receive(buffer.data(), buffer.size());
     if (size < 0) {
-      return false;
+      break;
     }
     franka_core::RobotCommand command;
     const CodecError error =
@@ -337,13 +338,28 @@ bool RobotServer::receiveCommand() noexcept {
                                    command);
     const bool read = error == CodecError::kNone || error == CodecError::kNotFinite;
     if (read && answersAState(command.message_id)) {
-      command_ = command;
+      keep(command);
       answered_ = true;
-    } else {
+    } else if (!asynchronous()) {
       datagrams_left_--;
     }
+    targets_left_ -= asynchronous() ? 1 : 0;
   }
   return answered_;
+}
+
+// Whether another datagram may still change the command of this tick.
+bool RobotServer::readsCommands() const noexcept {
+  return asynchronous() ? targets_left_ > 0 : !answered_ && datagrams_left_ > 0;
+}
+
+// Of several targets the newest one counts. Nothing comes after the end of a motion.
+void RobotServer::keep(const franka_core::RobotCommand& command) noexcept {
+  const bool outdated = answered_ && (command_.motion_generation_finished ||
+                                      command.message_id < command_.message_id);
+  if (!outdated) {
+    command_ = command;
+  }
 }
 
 const franka_core::RobotCommand* RobotServer::takeCommand() noexcept {
@@ -365,7 +381,7 @@ bool RobotServer::expectsCommands() const noexcept {
 void RobotServer::addDescriptors(std::vector<pollfd>& fds) const { slot_.addDescriptors(fds); }
 
 void RobotServer::addCommandDescriptor(std::vector<pollfd>& fds) const {
-  if (version_ != 0 && !answered_ && datagrams_left_ > 0) {
+  if (version_ != 0 && readsCommands()) {
     fds.push_back({datagrams_.descriptor(), POLLIN, 0});
   }
 }

@@ -122,8 +122,8 @@ class RobotServer {
            (motion_shown_ && !expectsCommands());
   }
 
-  /// Reads datagrams and keeps the command that answers the last state. @returns whether it has
-  /// arrived. Real-time safe.
+  /// Reads datagrams and keeps the command that answers the last state; in an asynchronous motion
+  /// the newest target, or its end. @returns whether one has arrived. Real-time safe.
   bool receiveCommand() noexcept;
   /// The answer to the last state, returned once; nothing if there is none. Real-time safe.
   const franka_core::RobotCommand* takeCommand() noexcept;
@@ -151,6 +151,8 @@ class RobotServer {
   };
   static constexpr std::size_t kMaxAnswered = 8;  // genuine clients have one pending
   static constexpr int kDatagramsAtOnce = 64;     // that are not an answer, between calls of serve
+  // The same for targets of an asynchronous motion. Chosen here: more than a socket's buffer holds.
+  static constexpr int kTargetsAtOnce = 512;
 
   void clearClient() noexcept;
   void dropClient() noexcept;
@@ -165,6 +167,8 @@ class RobotServer {
   bool replyWithModel(const Pending& to, const Blob& model);
   bool replyWithWall(const Pending& to, std::int32_t id);
   bool answersAState(std::uint64_t message_id) const noexcept;
+  bool readsCommands() const noexcept;
+  void keep(const franka_core::RobotCommand& command) noexcept;
   void collectEnds() noexcept;
   bool replyToSetters();
   void replyTo(std::optional<Pending>& pending, std::optional<franka_core::fci::Status>& status);
@@ -192,6 +196,7 @@ class RobotServer {
   bool motion_shown_{false};  // by the last state sent
   bool end_unread_{false};    // see publish
   int datagrams_left_{kDatagramsAtOnce};
+  int targets_left_{kTargetsAtOnce};
   franka_core::fci::StateBuffer state_bytes_{};
   franka_core::RobotState shown_;
   franka_core::RobotCommand command_;

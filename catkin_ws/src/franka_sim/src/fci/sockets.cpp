@@ -88,6 +88,9 @@ constexpr int kSilence = 5000;  // [ms]
 /// Datagrams of other senders dropped per call (chosen here: bounds the time of a call).
 constexpr int kMaxForeignDatagrams = 64;
 
+/// A full buffer loses the newest datagrams. Chosen here: more than systems grant by default.
+constexpr int kReceiveBuffer = 1 << 20;  // [bytes]
+
 bool wouldBlock(int error) noexcept { return error == EAGAIN || error == EWOULDBLOCK; }
 
 }  // namespace
@@ -268,7 +271,9 @@ void Connection::reset() noexcept {
 }
 
 Datagrams::Datagrams(const std::string& address)
-    : socket_(bound(SOCK_DGRAM, "a UDP socket at", address, 0)) {}
+    : socket_(bound(SOCK_DGRAM, "a UDP socket at", address, 0)) {
+  setOption(socket_.get(), SOL_SOCKET, SO_RCVBUF, kReceiveBuffer);
+}
 
 void Datagrams::setPeer(const sockaddr_in& peer) noexcept {
   peer_ = peer;

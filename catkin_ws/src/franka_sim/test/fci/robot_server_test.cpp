@@ -186,6 +186,41 @@ TEST_F(RobotServerTest, AcceptsTargetsOfAnAsynchronousMotionAtAnyTime) {
   EXPECT_FALSE(server_.asynchronous());
 }
 
+TEST_F(RobotServerTest, TheNewestTargetOfAnAsynchronousMotionCounts) {
+  constexpr int kSent = 100;
+  TestClient client(server_.port());
+  connect(client, 10);
+  handler_.startMotion();
+  codec::MoveRequest request;
+  request.use_async_motion_generator = true;
+  request.maximum_velocity.fill(0.5);
+  client.request(request);
+  serve();
+  franka_core::RobotCommand command;
+  server_.publish();
+  command.message_id = client.state()->message_id;
+  const auto send = [&](double position, bool finished) {
+    command.q_c.fill(position);
+    command.motion_generation_finished = finished;
+    client.command(command);
+  };
+  for (int i = 1; i <= kSent; i++) {
+    send(1e-3 * i, false);
+  }
+  EXPECT_TRUE(server_.receiveCommand());
+  const franka_core::RobotCommand* taken = server_.takeCommand();
+  ASSERT_NE(taken, nullptr);
+  EXPECT_EQ(taken->q_c[0], 1e-3 * kSent);
+  server_.publish();
+  EXPECT_FALSE(server_.receiveCommand()) << "older targets wait for later ticks";
+  send(0.2, true);
+  send(0.3, false);
+  EXPECT_TRUE(server_.receiveCommand());
+  taken = server_.takeCommand();
+  ASSERT_NE(taken, nullptr);
+  EXPECT_TRUE(taken->motion_generation_finished) << "a target hides the end of the motion";
+}
+
 TEST_F(RobotServerTest, SwitchedOffEndsTheMotionAndRefusesConnections) {
   TestClient client(server_.port());
   connect(client, 5);
