@@ -74,13 +74,15 @@ std::function<void(bool quick)> HostClock::makeWakeUpRequest() {
   };
 }
 
+std::shared_ptr<LockStepTurn> HostClock::makeTurn() { return std::make_shared<LockStepTurn>(); }
+
 Host::Host(std::function<void()> step, const Pace& pace, std::function<void()> prepare,
            HostClock clock)
     : step_(std::move(step)),
       prepare_(std::move(prepare)),
       clock_(std::move(clock)),
       robots_(std::make_unique<HostedRobots>(pace_, clock_)),
-      turn_(std::make_unique<LockStepTurn>()) {
+      turn_(clock_.make_turn()) {
   setPace(pace);
   // By default the system groups wake-ups within 50 us.
   prctl(PR_SET_TIMERSLACK, 1UL, 0UL, 0UL, 0UL);
@@ -309,15 +311,28 @@ void Host::takeTurn() {
     if (turn_->take(clock_.now()) || stopped()) {
       return;
     }
+    waitForTurn();
+  }
+  endTurn();
+}
+
+// Only the motion waits: others are served and see that their robots are there.
+void Host::waitForTurn() {
+  const Clock::time_point retry = clock_.now() + turn_->retryAfter(clock_.now());
+  bool is_woken = false;
+  while (!is_woken && clock_.now() < retry) {
     turn_descriptor_.clear();
     if (turn_->descriptor() >= 0) {
       turn_descriptor_.push_back({turn_->descriptor(), POLLIN, 0});
     }
-    clock_.wait(turn_descriptor_, turn_->retryAfter(clock_.now()));
+    const Clock::time_point now = clock_.now();
+    const bool others = robots_->publishToOthers(now);
+    const Clock::duration rest = std::max(retry - now, Clock::duration::zero());
+    is_woken =
+        clock_.wait(turn_descriptor_, others ? std::min<Clock::duration>(rest, kTick) : rest);
     robots_->pollUntil(clock_.now());
     serveIfDue();
   }
-  endTurn();
 }
 
 void Host::endTurn() {

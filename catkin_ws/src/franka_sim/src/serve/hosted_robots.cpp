@@ -117,14 +117,32 @@ void HostedRobots::publishWhileWaiting(Clock::time_point now) {
         publish(entry, true, now);
         entry.starts_shown++;
       }
-    } else if (!robot.expectsCommand()) {
-      if (now - entry.shown_at >= kStateInterval) {
-        publish(entry, true, now);
-      }
-    } else if (now - entry.shown_at >= kRepeatPeriod) {
-      robot.repeat();
-      entry.shown_at = now;
+    } else {
+      repeatIfDue(entry, now);
     }
+  }
+}
+
+// A client that starts a motion gets no more states than it would without the wait.
+bool HostedRobots::publishToOthers(Clock::time_point now) {
+  bool exist = false;
+  for (Entry& entry : entries_) {
+    exist = exist || !entry.robot->expectsCommand();
+    if (!entry.isStarting()) {
+      repeatIfDue(entry, now);
+    }
+  }
+  return exist;
+}
+
+void HostedRobots::repeatIfDue(Entry& entry, Clock::time_point now) {
+  if (!entry.robot->expectsCommand()) {
+    if (now - entry.shown_at >= kStateInterval) {
+      publish(entry, true, now);
+    }
+  } else if (now - entry.shown_at >= kRepeatPeriod) {
+    entry.robot->repeat();
+    entry.shown_at = now;
   }
 }
 

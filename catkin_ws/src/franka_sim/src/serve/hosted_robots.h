@@ -37,6 +37,9 @@ class HostedRobots {
   void publishHalted();
   /// While a tick waits for the clients of motions.
   void publishWhileWaiting(Clock::time_point now);
+  /// While a tick waits for something else: to clients that need not answer.
+  /// @returns whether there are any
+  bool publishToOthers(Clock::time_point now);
   void reportPublished();  ///< to the services
   Clock::time_point publishedAt() const noexcept { return published_at_; }
 
@@ -75,6 +78,7 @@ class HostedRobots {
   };
 
   void publish(Entry& entry, bool same_tick, Clock::time_point now);
+  void repeatIfDue(Entry& entry, Clock::time_point now);
 
   const Pace& pace_;
   const HostClock& clock_;

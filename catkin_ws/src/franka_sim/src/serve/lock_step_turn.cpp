@@ -2,50 +2,61 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "serve/lock_step_turn.h"
 
+#include <fcntl.h>
 #include <sched.h>
-#include <sys/socket.h>
-#include <sys/un.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstddef>
 #include <cstdio>
-#include <cstring>
 #include <utility>
 
 namespace franka_sim::fci {
 
 namespace {
 
-constexpr int kHead = -1;
+constexpr mode_t kOwnerOnly = 0700;
 
-struct Name {
-  sockaddr_un address;
-  socklen_t size;
-};
-
-/// "NAME 0" for the first place, "NAME queue" for the head of the queue.
-Name nameOf(const std::string& name, int place) noexcept {
-  Name result{};
-  result.address.sun_family = AF_UNIX;
-  char* const text = result.address.sun_path + 1;  // after the zero of the abstract namespace
-  constexpr std::size_t kCapacity = sizeof(result.address.sun_path) - 1;
-  const int length = place == kHead ? std::snprintf(text, kCapacity, "%s queue", name.c_str())
-                                    : std::snprintf(text, kCapacity, "%s %d", name.c_str(), place);
-  const std::size_t used = std::min<std::size_t>(std::max(length, 0), kCapacity - 1);
-  result.size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + used);
-  return result;
+/// Opens a directory, if nobody but this user may write to it. Else nothing is opened: another
+/// user's process could hold places for ever.
+Descriptor openOwnDirectory(const std::string& path) noexcept {
+  Descriptor directory(open(path.c_str(), O_RDONLY | O_DIRECTORY | O_NOFOLLOW | O_CLOEXEC));
+  struct stat found{};
+  const bool is_own = directory && fstat(directory.get(), &found) == 0 &&
+                      found.st_uid == geteuid() && (found.st_mode & 0077) == 0;
+  return is_own ? std::move(directory) : Descriptor();
 }
 
-Descriptor makeSocket() noexcept {
-  return Descriptor(socket(AF_UNIX, SOCK_DGRAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+/// The user's runtime directory, or one below /tmp where there is none, as in containers: the same
+/// for all processes of a user.
+Descriptor openUserDirectory() {
+  const std::string user = std::to_string(geteuid());
+  for (const std::string& path : {"/run/user/" + user + "/franka_sim", "/tmp/franka_sim-" + user}) {
+    mkdir(path.c_str(), kOwnerOnly);
+    if (Descriptor directory = openOwnDirectory(path)) {
+      return directory;
+    }
+  }
+  return Descriptor();
 }
 
-bool bindTo(const Descriptor& socket, const Name& name) noexcept {
-  return bind(socket.get(), reinterpret_cast<const sockaddr*>(&name.address), name.size) == 0;
+constexpr int kOpenFlags = O_RDWR | O_NONBLOCK | O_NOFOLLOW | O_CLOEXEC;
+
+/// Locks a file of the directory, without waiting. @param create 0 or O_CREAT
+/// @returns an empty descriptor if another process has it: then errno is EWOULDBLOCK
+Descriptor lock(const Descriptor& directory, const char* name, int create) noexcept {
+  Descriptor file(openat(directory.get(), name, kOpenFlags | create, 0600));
+  if (file && flock(file.get(), LOCK_EX | LOCK_NB) != 0) {
+    const int error = errno;
+    file.close();
+    errno = error;
+  }
+  return file;
 }
 
-/// "franka_sim lock-step 3": the digits are the processors, a bit for each.
+/// "lock-step-3": the digits are the processors, a bit for each.
 std::string nameOfProcessors(const cpu_set_t& processors) {
   std::string digits;
   for (int i = 0; i < CPU_SETSIZE; i += 4) {
@@ -56,7 +67,7 @@ std::string nameOfProcessors(const cpu_set_t& processors) {
     digits += "0123456789abcdef"[digit];
   }
   digits.erase(digits.find_last_not_of('0') + 1);
-  return "franka_sim lock-step " + digits.substr(0, 64);
+  return "lock-step-" + digits.substr(0, 64);
 }
 
 /// Empty on machines with more processors than the set has places for.
@@ -71,11 +82,21 @@ int countOf(const cpu_set_t& processors) noexcept { return CPU_COUNT(&processors
 
 }  // namespace
 
-LockStepTurn::LockStepTurn(std::string name, int places)
-    : name_(std::move(name)), places_(places) {}
+LockStepTurn::LockStepTurn(Descriptor directory, const std::string& name, int places)
+    : directory_(std::move(directory)), name_(name), queue_(name + ".queue") {
+  places_ = directory_ ? places : 0;
+  if (directory_) {
+    // Pipes hold what wakes the head; other files would grow.
+    mkfifoat(directory_.get(), queue_.c_str(), 0600);
+  }
+}
+
+LockStepTurn::LockStepTurn(const std::string& directory, const std::string& name, int places)
+    : LockStepTurn(openOwnDirectory(directory), name, places) {}
 
 LockStepTurn::LockStepTurn()
-    : LockStepTurn(nameOfProcessors(ownProcessors()), countOf(ownProcessors())) {}
+    : LockStepTurn(openUserDirectory(), nameOfProcessors(ownProcessors()),
+                   countOf(ownProcessors())) {}
 
 bool LockStepTurn::take(Clock::time_point now) noexcept {
   if (place_) {
@@ -99,17 +120,13 @@ bool LockStepTurn::take(Clock::time_point now) noexcept {
     return goWithout(timeouts_ == 1 ? now + kLength : now + kWithoutTurn);
   }
   if (!head_) {
-    Descriptor socket = makeSocket();
-    if (!socket) {
-      return goWithout(now + kWithoutTurn);
+    head_ = lock(directory_, queue_.c_str(), 0);
+    if (!head_) {
+      return errno != EWOULDBLOCK && goWithout(now + kWithoutTurn);
     }
-    if (!bindTo(socket, nameOf(name_, kHead))) {
-      return errno != EADDRINUSE && goWithout(now + kWithoutTurn);
-    }
-    head_ = std::move(socket);
   }
-  char datagram = 0;
-  while (recv(head_.get(), &datagram, sizeof(datagram), 0) >= 0) {
+  char bytes[16];
+  while (read(head_.get(), bytes, sizeof(bytes)) > 0) {
   }
   return takePlace(now);
 }
@@ -120,10 +137,11 @@ LockStepTurn::Clock::duration LockStepTurn::retryAfter(Clock::time_point now) co
 }
 
 bool LockStepTurn::takePlace(Clock::time_point now) noexcept {
-  Descriptor socket = makeSocket();
   for (int place = 0; place < places_; place++) {
-    if (bindTo(socket, nameOf(name_, place))) {
-      place_ = std::move(socket);
+    char file[128];
+    std::snprintf(file, sizeof(file), "%s.%d", name_.c_str(), place);
+    place_ = lock(directory_, file, O_CREAT);
+    if (place_) {
       head_.close();
       since_ = now;
       timeouts_ = 0;
@@ -163,13 +181,13 @@ void LockStepTurn::giveForSilence(Clock::time_point now) noexcept {
 
 // @returns whether a process is at the head of the queue.
 bool LockStepTurn::wakeNext() noexcept {
-  const Descriptor socket = makeSocket();
-  const Name head = nameOf(name_, kHead);
-  const char datagram = 0;
-  const auto* const address = reinterpret_cast<const sockaddr*>(&head.address);
-  // A full queue of datagrams wakes it as well.
-  return sendto(socket.get(), &datagram, sizeof(datagram), 0, address, head.size) >= 0 ||
-         errno == EAGAIN;
+  const Descriptor queue(openat(directory_.get(), queue_.c_str(), kOpenFlags));
+  if (!queue || flock(queue.get(), LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK) {
+    return false;
+  }
+  const char byte = 0;
+  // A full pipe wakes it as well.
+  return write(queue.get(), &byte, sizeof(byte)) >= 0 || errno == EAGAIN;
 }
 
 }  // namespace franka_sim::fci

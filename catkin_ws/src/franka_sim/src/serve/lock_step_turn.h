@@ -12,9 +12,10 @@ namespace franka_sim::fci {
 /// The right to run motions in lock-step, which as many processes of a machine have at once as it
 /// has processors; the others wait for their turn (decision 65).
 ///
-/// Places and the head of the queue are names of sockets in the system's abstract namespace. The
-/// system gives them back when a process ends, however it ends. Without sockets, or if others keep
-/// their places for too long, a process goes on without a turn.
+/// Places and the head of the queue are locks of files in a directory to which only their user can
+/// write, so that no other user can keep them. The system gives them back when a process ends,
+/// however it ends. Without such a directory, or if others keep their places for too long, a
+/// process goes on without a turn.
 ///
 /// Called by one thread. Does not block. After construction no function allocates or throws.
 class LockStepTurn {
@@ -38,10 +39,11 @@ class LockStepTurn {
   static constexpr std::chrono::milliseconds kMaxRetry{12};
   static constexpr std::chrono::milliseconds kMinRetry{2};
 
+  /// @param directory of the files; goes on without turns if others than this user may write there
   /// @param name processes of equal names share places @param places 0: goes on without turns
-  LockStepTurn(std::string name, int places);
-  /// For the processors on which this thread may run, shared with all processes that may run on the
-  /// same ones.
+  LockStepTurn(const std::string& directory, const std::string& name, int places);
+  /// For the processors on which this thread may run, shared with all processes of the user that
+  /// may run on the same ones.
   LockStepTurn();
 
   /// Whether the process may go on. If not, ask again after retryAfter(), or when descriptor() can
@@ -58,13 +60,15 @@ class LockStepTurn {
   int descriptor() const noexcept { return head_.get(); }
 
  private:
+  LockStepTurn(Descriptor directory, const std::string& name, int places);
   bool takePlace(Clock::time_point now) noexcept;
   bool wakeNext() noexcept;
   bool goWithout(Clock::time_point end) noexcept;
 
-  std::string name_;
-  int places_;
-  Descriptor place_, head_;  ///< sockets with the names of a place and of the queue's head
+  Descriptor directory_;
+  std::string name_, queue_;  ///< of the files
+  int places_{0};
+  Descriptor place_, head_;  ///< locked files
   Clock::time_point since_{};
   Clock::time_point waiting_since_{};  ///< zero: does not wait
   Clock::time_point without_until_{};

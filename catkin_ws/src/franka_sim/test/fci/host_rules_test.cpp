@@ -8,7 +8,11 @@
 #include <atomic>
 #include <chrono>
 #include <functional>
+#include <memory>
 #include <vector>
+
+#include "own_directory.h"
+#include "serve/lock_step_turn.h"
 
 namespace franka_sim::fci {
 
@@ -129,13 +133,16 @@ class HostRules : public ::testing::Test {
   }
 
   int steps{0};
-  std::vector<bool> wake_ups;  ///< requested by the host: quick or not
+  const OwnDirectory directory;  ///< of turns that no other process takes
+  std::vector<bool> wake_ups;    ///< requested by the host: quick or not
   FakeClock clock;
   CountingRobot robot{clock};
-  Host host{[this] { steps++; }, Pace{}, [] {},
-            HostClock{[this] { return clock.now(); },
-                      [this](auto& fds, Clock::duration limit) { return clock.wait(fds, limit); },
-                      [this](bool quick) { wake_ups.push_back(quick); }}};
+  Host host{
+      [this] { steps++; }, Pace{}, [] {},
+      HostClock{[this] { return clock.now(); },
+                [this](auto& fds, Clock::duration limit) { return clock.wait(fds, limit); },
+                [this](bool quick) { wake_ups.push_back(quick); },
+                [this] { return std::make_shared<LockStepTurn>(directory.path(), "turn", 1); }}};
 };
 
 Pace waiting(PaceMode mode) {
@@ -349,6 +356,21 @@ TEST_F(HostRules, TickAtOnceIgnoresTheClockButWaitsForTheClient) {
   host.tickAtOnce();
   EXPECT_EQ(1, robot.answered);
   EXPECT_EQ(2, steps);
+}
+
+TEST_F(HostRules, OnlyAMotionWaitsForItsTurn) {
+  LockStepTurn of_another_process(directory.path(), "turn", 1);
+  ASSERT_TRUE(of_another_process.take(clock.now()));
+  CountingRobot idle(clock);
+  use(waiting(PaceMode::kLockStep));
+  host.add(idle);
+  robot.moving = robot.is_local = true;
+  EXPECT_NEAR(LockStepTurn::kMaxWait.count(), timeOf(1).count(), LockStepTurn::kMaxRetry.count());
+  EXPECT_NEAR(LockStepTurn::kMaxWait.count(), idle.message_ids,
+              0.1 * LockStepTurn::kMaxWait.count());
+  EXPECT_GT(idle.served, LockStepTurn::kMaxWait / LockStepTurn::kMaxRetry);
+  EXPECT_EQ(1U, robot.message_ids);
+  host.remove(idle);
 }
 
 TEST_F(HostRules, InLockStepAnAsynchronousMotionFollowsTheClock) {

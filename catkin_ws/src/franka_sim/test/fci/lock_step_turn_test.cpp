@@ -4,11 +4,13 @@
 
 #include <gtest/gtest.h>
 #include <poll.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
 #include <chrono>
 #include <optional>
 #include <string>
+
+#include "own_directory.h"
 
 namespace franka_sim::fci {
 
@@ -35,29 +37,40 @@ class LockStepTurnTest : public ::testing::Test {
     return now - begin;
   }
 
-  const std::string name{"test " + std::to_string(getpid()) + " " +
-                         ::testing::UnitTest::GetInstance()->current_test_info()->name()};
+  const OwnDirectory own;
+  const std::string& directory{own.path()};
+  const std::string name{"test"};
   LockStepTurn::Clock::time_point now{seconds(1000)};
-  LockStepTurn one{name, 1}, other{name, 1}, third{name, 1};
+  LockStepTurn one{directory, name, 1}, other{directory, name, 1}, third{directory, name, 1};
 };
 
 TEST_F(LockStepTurnTest, AsManyHaveATurnAsThereArePlaces) {
-  LockStepTurn a(name, 2), b(name, 2), c(name, 2);
+  LockStepTurn a(directory, name, 2), b(directory, name, 2), c(directory, name, 2);
   EXPECT_TRUE(a.take(now));
   EXPECT_TRUE(b.take(now));
   EXPECT_FALSE(c.take(now));
   b.give();
   EXPECT_TRUE(c.take(now));
   EXPECT_FALSE(b.take(now));
-  LockStepTurn of_other_processors(name + " 2", 1);
+  LockStepTurn of_other_processors(directory, name + "2", 1);
   EXPECT_TRUE(of_other_processors.take(now));
 }
 
 TEST_F(LockStepTurnTest, WithoutPlacesNobodyWaits) {
-  LockStepTurn a(name, 0), b(name, 0);
+  LockStepTurn a(directory, name, 0), b(directory, name, 0);
   EXPECT_TRUE(a.take(now));
   EXPECT_TRUE(b.take(now));
   EXPECT_FALSE(b.taken());
+}
+
+TEST_F(LockStepTurnTest, WhereOthersMayWriteNobodyWaits) {
+  EXPECT_TRUE(one.take(now));
+  ASSERT_EQ(0, chmod(directory.c_str(), 0777));
+  LockStepTurn a(directory, name, 1), b("/", name, 1), c(directory + "/none", name, 1);
+  for (LockStepTurn* turn : {&a, &b, &c}) {
+    EXPECT_TRUE(turn->take(now));
+    EXPECT_FALSE(turn->taken());
+  }
 }
 
 TEST_F(LockStepTurnTest, LastsAsLongAsNobodyWaits) {
@@ -96,7 +109,7 @@ TEST_F(LockStepTurnTest, WhoHasWaitedForLongLooksMoreOften) {
 }
 
 TEST_F(LockStepTurnTest, EndsWithItsProcess) {
-  std::optional<LockStepTurn> ended(std::in_place, name, 1);
+  std::optional<LockStepTurn> ended(std::in_place, directory, name, 1);
   EXPECT_TRUE(ended->take(now));
   EXPECT_FALSE(one.take(now));    // first in the queue
   EXPECT_FALSE(other.take(now));  // second

@@ -54,8 +54,11 @@ struct Pace {
   bool standsStill() const noexcept { return mode == PaceMode::kLockStep; }
 };
 
-/// How a host reads the time, waits for sockets and requests quick wake-ups. Tests have functions
-/// of their own.
+class HostedRobots;
+class LockStepTurn;
+
+/// How a host reads the time, waits for sockets, requests quick wake-ups and takes turns. Tests
+/// have functions of their own.
 struct HostClock {
   using Clock = std::chrono::steady_clock;
   /// Waits until one of the descriptors is ready, for `limit` at most. @returns whether one is.
@@ -63,10 +66,13 @@ struct HostClock {
   /// A function that requests quick wake-ups of sleeping threads from the kernel, or ends the
   /// request (serve/cpu_latency_request.h).
   static std::function<void(bool quick)> makeWakeUpRequest();
+  /// Turns with all processes of the user (decision 65).
+  static std::shared_ptr<LockStepTurn> makeTurn();
 
   std::function<Clock::time_point()> now{Clock::now};
   std::function<bool(std::vector<pollfd>& fds, Clock::duration limit)> wait{poll};
   std::function<void(bool quick)> request_wake_ups{makeWakeUpRequest()};
+  std::function<std::shared_ptr<LockStepTurn>()> make_turn{makeTurn};
 };
 
 /// One robot as the host drives it: a control unit on a plant, with its servers. Called by one
@@ -129,9 +135,6 @@ class Service {
   virtual void published() {}
   virtual void addDescriptors(std::vector<pollfd>& fds) const = 0;
 };
-
-class HostedRobots;
-class LockStepTurn;
 
 /// Runs a world and its robots tick by tick: the host sends state k, waits for the answer to it,
 /// and runs the physics from k to k + 1 with that answer (decision 20).
@@ -207,6 +210,7 @@ class Host {
   void waitInLockStep();
   bool exchanges() const;
   void takeTurn();
+  void waitForTurn();
   void endTurn();
   void requestQuickWakeUps(bool quick);
   void beginWait();
@@ -222,7 +226,7 @@ class Host {
   std::function<bool()> keep_waiting_;
   Pace pace_;
   std::unique_ptr<HostedRobots> robots_;
-  std::unique_ptr<LockStepTurn> turn_;
+  std::shared_ptr<LockStepTurn> turn_;
   std::vector<pollfd> turn_descriptor_;
   bool quick_wake_ups_{false};  ///< whether they are requested
   Clock::duration idle_interval_{};
