@@ -21,7 +21,7 @@ void RequestQueue::run(const std::function<void()>& work, std::chrono::milliseco
     throw std::runtime_error("The simulation is shutting down.");
   }
   jobs_.push_back(job);
-  pending_.store(true, std::memory_order_release);
+  has_jobs_.store(true, std::memory_order_release);
   work_arrived_.notify_one();
   work_done_.wait_for(lock, timeout, [&] { return job->phase != Phase::kWaiting; });
   if (job->phase == Phase::kWaiting) {
@@ -39,9 +39,10 @@ void RequestQueue::run(const std::function<void()>& work, std::chrono::milliseco
 void RequestQueue::adopt() { server_.store(std::this_thread::get_id()); }
 
 void RequestQueue::serve() {
-  if (!pending_.load(std::memory_order_acquire)) {
+  if (!has_jobs_.load(std::memory_order_acquire)) {
     return;
   }
+  const Clock::time_point end = now_() + kServingTime;
   std::unique_lock<std::mutex> lock(mutex_);
   while (!jobs_.empty()) {
     auto job = jobs_.front();
@@ -58,8 +59,16 @@ void RequestQueue::serve() {
     job->error = error;
     job->phase = Phase::kDone;
     work_done_.notify_all();
+    if (now_() >= end) {
+      break;
+    }
   }
-  pending_.store(false, std::memory_order_relaxed);
+  has_jobs_.store(!jobs_.empty(), std::memory_order_relaxed);
+}
+
+std::size_t RequestQueue::pending() {
+  const std::lock_guard<std::mutex> lock(mutex_);
+  return jobs_.size();
 }
 
 void RequestQueue::waitForWork(std::chrono::milliseconds timeout) {

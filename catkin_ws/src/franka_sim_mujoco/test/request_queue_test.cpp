@@ -7,13 +7,16 @@
 #include "request_queue.h"
 
 #include <gtest/gtest.h>
+#include <ros_test/eventually.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <vector>
 
 #include "sentences.h"
 #include "service_handlers.h"
@@ -65,6 +68,44 @@ TEST(RequestQueue, RunsWorkInTheServingThreadInOrder) {
   stop = true;
   serving.join();
   EXPECT_EQ(server, worker);
+}
+
+TEST(RequestQueue, ServesForABoundedTimeSoThatTicksGoOn) {
+  constexpr int kCallers = 6;
+  struct Case {
+    std::chrono::microseconds work;
+    int calls;  ///< of serve, for all work that is queued
+  };
+  for (const Case& expected :
+       {Case{milliseconds(1), kCallers}, Case{std::chrono::microseconds(0), 1},
+        Case{RequestQueue::kServingTime / 2, kCallers / 2}}) {
+    RequestQueue::Clock::time_point now;
+    RequestQueue queue([&] { return now; });
+    queue.adopt();
+    std::vector<int> served(kCallers, 0);
+    std::vector<std::thread> callers;
+    int calls = 0;
+    for (int i = 0; i < kCallers; ++i) {
+      callers.emplace_back([&, i] {
+        queue.run(
+            [&, i] {
+              now += expected.work;
+              served[i] = calls;
+            },
+            kDeadline);
+      });
+      ASSERT_TRUE(ros_test::eventually([&] { return queue.pending() == i + 1U; }));
+    }
+    while (queue.pending() > 0 && calls < 2 * kCallers) {
+      ++calls;
+      queue.serve();
+    }
+    for (std::thread& caller : callers) {
+      caller.join();
+    }
+    EXPECT_EQ(expected.calls, calls) << expected.work.count() << " us";
+    EXPECT_TRUE(std::is_sorted(served.begin(), served.end())) << "a later caller came first";
+  }
 }
 
 TEST(RequestQueue, TimesOutWithoutRunningTheWork) {
