@@ -21,6 +21,15 @@ namespace {
 constexpr std::uint32_t kTickNanoseconds = 1000000;
 constexpr std::chrono::milliseconds kServedIdleSleep{1};  ///< if clients wait
 constexpr std::chrono::milliseconds kIdleSleep{20};
+constexpr std::uint32_t kTicksBetweenChecks = 1000;  ///< of bare ticks, whether to go on
+
+/// @param what for example "A step"
+void requireAtMost(std::uint32_t most, std::uint32_t ticks, const std::string& what) {
+  if (ticks > most) {
+    throw std::runtime_error(what + " has at most " + std::to_string(most) + " ticks, not " +
+                             std::to_string(ticks) + ": make several.");
+  }
+}
 
 /// The time for reading a thread's clock, which is a tenth of a tick [us].
 double microsecondsOfAReading() noexcept {
@@ -131,15 +140,19 @@ void Simulation::requireRunningWorld() const {
 
 void Simulation::finishStepping() {
   if (world_.stopped()) {
-    steps_left_ = 0;
-    publishNow();
-    stepped_->set_exception(std::make_exception_ptr(std::runtime_error(world_.fault())));
-    stepped_.reset();
+    finishStepping(std::make_exception_ptr(std::runtime_error(world_.fault())));
   } else if (--steps_left_ == 0) {
     publishNow();
     stepped_->set_value(stateNow());
     stepped_.reset();
   }
+}
+
+void Simulation::finishStepping(std::exception_ptr error) {
+  steps_left_ = 0;
+  publishNow();
+  stepped_->set_exception(std::move(error));
+  stepped_.reset();
 }
 
 ros::Time Simulation::time() const {
@@ -152,9 +165,15 @@ SimulationState Simulation::stateNow() const {
 }
 
 void Simulation::setPaused(bool paused) {
+  ++cancels_;
   requests_.run([&] {
     if (!paused) {
       requireRunningWorld();
+    }
+    if (steps_left_ > 0) {
+      finishStepping(std::make_exception_ptr(std::runtime_error(
+          std::string("The simulation was ") + (paused ? "paused" : "unpaused") + " with " +
+          std::to_string(steps_left_) + " ticks of this step left.")));
     }
     if (paused && !paused_) {
       publishNow();
@@ -171,6 +190,7 @@ SimulationState Simulation::step(std::uint32_t ticks) {
   if (ticks == 0) {
     return state();
   }
+  requireAtMost(kMaxSteps, ticks, "A step");
   std::future<SimulationState> done;
   requests_.run([&] {
     if (!paused_) {
@@ -263,36 +283,68 @@ void Simulation::withWorld(const std::function<void(franka_sim::World&)>& work) 
   requests_.run([&] { work(world_); });
 }
 
+void Simulation::requireUncancelled() const {
+  if (stop_ || cancels_ != benchmark_cancels_) {
+    throw std::runtime_error(
+        "The benchmark was ended: the simulation is shutting down, or was paused or unpaused.");
+  }
+}
+
 double Simulation::timeTicks(std::uint32_t ticks) {
   const std::int64_t start = threadNanoseconds();
   for (std::uint32_t i = 0; i < ticks; ++i) {
+    requireUncancelled();
     host_.tickAtOnce();
   }
   return 1e-3 * static_cast<double>(threadNanoseconds() - start) / ticks;
+}
+
+double Simulation::timeBareTicks(std::uint32_t ticks) {
+  double sum = 0.0;
+  for (std::uint32_t done = 0; done < ticks; done += kTicksBetweenChecks) {
+    requireUncancelled();
+    const std::uint32_t part = std::min(kTicksBetweenChecks, ticks - done);
+    sum += part * franka_sim::bareTickMicroseconds(world_, part);
+  }
+  return sum / ticks;
 }
 
 Simulation::Benchmark Simulation::benchmark(std::uint32_t ticks) {
   if (ticks == 0) {
     throw std::runtime_error("A benchmark needs at least one tick.");
   }
+  requireAtMost(kMaxBenchmarkTicks, ticks, "A benchmark");
   Benchmark result;
   requests_.run([&] {
-    result.tick = timeTicks(ticks);
-    times_ = TickTimes();
-    timing_ = true;
-    timeTicks(ticks);
-    timing_ = false;
-    const double clock = microsecondsOfAReading() * static_cast<double>(robots_.size());
-    const auto part = [&](std::int64_t sum) {
-      return std::max(0.0, 1e-3 * static_cast<double>(sum) / ticks - clock);
-    };
-    result.read = part(times_.read);
-    result.update = part(times_.update);
-    result.write = part(times_.write);
-    result.physics = result.tick - result.read - result.update - result.write;
-    result.bare = franka_sim::bareTickMicroseconds(world_, ticks);
+    benchmark_cancels_ = cancels_;
+    try {
+      result = measure(ticks);
+    } catch (...) {
+      timing_ = false;
+      host_.restartClock();
+      throw;
+    }
     host_.restartClock();
   });
+  return result;
+}
+
+Simulation::Benchmark Simulation::measure(std::uint32_t ticks) {
+  Benchmark result;
+  result.tick = timeTicks(ticks);
+  times_ = TickTimes();
+  timing_ = true;
+  timeTicks(ticks);
+  timing_ = false;
+  const double clock = microsecondsOfAReading() * static_cast<double>(robots_.size());
+  const auto part = [&](std::int64_t sum) {
+    return std::max(0.0, 1e-3 * static_cast<double>(sum) / ticks - clock);
+  };
+  result.read = part(times_.read);
+  result.update = part(times_.update);
+  result.write = part(times_.write);
+  result.physics = result.tick - result.read - result.update - result.write;
+  result.bare = timeBareTicks(ticks);
   return result;
 }
 

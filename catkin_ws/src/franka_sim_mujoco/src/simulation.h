@@ -7,6 +7,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <exception>
 #include <functional>
 #include <future>
 #include <map>
@@ -66,8 +67,10 @@ class Simulation {
 
   void setPaused(bool paused);
   void setRealTimeFactor(double factor);
-  /// Advances a paused simulation without waiting for the pace and returns when done.
+  /// Advances a paused simulation without waiting for the pace and returns when done. setPaused()
+  /// and stop() end it before. @param ticks at most kMaxSteps
   SimulationState step(std::uint32_t ticks);
+  static constexpr std::uint32_t kMaxSteps = 3600000;  ///< an hour (chosen here)
   SimulationState state();
   /// Resets everything to its initial state; controllers are restarted. A world that has stopped
   /// (World::stopped) runs again.
@@ -89,17 +92,25 @@ class Simulation {
 
   /// Computing time of the stepping thread for a tick and for each of its parts [us]. Makes `ticks`
   /// ticks without waiting for the whole, and as many again for the parts. Physics includes the
-  /// publishing of /clock.
+  /// publishing of /clock. Requests wait meanwhile; setPaused() and stop() end it.
+  /// @param ticks at most kMaxBenchmarkTicks
   struct Benchmark {
     double tick{0}, physics{0}, read{0}, update{0}, write{0}, bare{0};
   };
   Benchmark benchmark(std::uint32_t ticks);
+  static constexpr std::uint32_t kMaxBenchmarkTicks = 1000000;  ///< minutes (chosen here)
 
  private:
   void loop();
   void advance();
+  Benchmark measure(std::uint32_t ticks);
   /// Makes ticks without waiting. @returns the mean computing time of one [us]
+  /// @throws std::runtime_error when the benchmark has to end
   double timeTicks(std::uint32_t ticks);
+  double timeBareTicks(std::uint32_t ticks);  ///< the same for bareTickMicroseconds()
+  /// @throws std::runtime_error if stop() or setPaused() was called since the benchmark began
+  void requireUncancelled() const;
+  void finishStepping(std::exception_ptr error);
   void standStill();
   void finishStepping();
   /// The state of the world is published with its present time.
@@ -127,6 +138,8 @@ class Simulation {
   bool paused_by_fault_{false};  ///< the world has stopped
   std::uint64_t tick_count_{0};
   std::uint32_t steps_left_{0};
+  std::atomic<std::uint64_t> cancels_{0};  ///< calls of setPaused
+  std::uint64_t benchmark_cancels_{0};     ///< the same at the begin of the benchmark
   std::optional<std::promise<SimulationState>> stepped_;
   std::atomic<bool> stop_{false}, failed_{false};
   std::thread thread_;
