@@ -203,9 +203,11 @@ franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
   const std::string& arm_id = arm.arm_id;
   franka_sim::ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(robot.urdf, arm_id)};
   parameters.protocol_version = franka_sim::protocolsOf(arm.type).newest;
-  parameters.has_hand = robot.world->hasHand(robot.name, arm_id);
+  robot.between_ticks([&] {
+    parameters.has_hand = robot.world->hasHand(robot.name, arm_id);
+    parameters.gravity = gravityInBase(*robot.world, arm_id + "_link0");
+  });
   franka_sim::applyPhysics(arm.physics, parameters);
-  parameters.gravity = gravityInBase(*robot.world, arm_id + "_link0");
   readArray(node, "gravity_vector", parameters.gravity);
 
   // With all three set, a hand without inertial in the URDF is not an error.

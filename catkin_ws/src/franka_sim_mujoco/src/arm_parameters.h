@@ -17,7 +17,8 @@ namespace franka_sim_mujoco {
 /// the original franka_gazebo. Defaults come from the robot's URDF: the end effector is everything
 /// behind the flange (decision 7), F_T_NE that of the hand if there is one. Gravity is the world's
 /// unless the parameter gravity_vector is set.
-/// @param robot stands in the world @param model of its description @param arm one of its arms
+/// @param robot is in the world between ticks @param model of its description @param arm one of its
+/// arms
 /// @throws std::invalid_argument with a sentence for the first error
 franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
                                                     const RobotHandle& robot,

@@ -15,7 +15,7 @@ bool DefaultRobotHWSim::initSim(
     const urdf::Model* urdf_model,
     std::vector<transmission_interface::TransmissionInfo> transmissions) {
   try {
-    joints_ = std::make_unique<DeviceJoints>(model_nh, *robot.world, robot.name);
+    joints_ = std::make_unique<DeviceJoints>(model_nh, robot);
     for (const auto& transmission : transmissions) {
       if (transmission.type_ == "transmission_interface/SimpleTransmission") {
         joints_->add(transmission, *urdf_model);
@@ -26,11 +26,11 @@ bool DefaultRobotHWSim::initSim(
                        robot.name.c_str(), transmission.name_.c_str(), transmission.type_.c_str());
       }
     }
+    joints_->registerHandles(states_, efforts_, positions_, velocities_);
   } catch (...) {
     failure_ = exceptionText();
     return false;
   }
-  joints_->registerHandles(states_, efforts_, positions_, velocities_);
   registerInterface(&states_);
   registerInterface(&efforts_);
   registerInterface(&positions_);

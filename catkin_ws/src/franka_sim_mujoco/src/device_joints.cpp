@@ -36,8 +36,8 @@ bool claims(const std::list<hardware_interface::ControllerInfo>& controllers,
 
 }  // namespace
 
-DeviceJoints::DeviceJoints(const ros::NodeHandle& node, franka_sim::World& world, std::string robot)
-    : node_(node), world_(world), robot_(std::move(robot)) {}
+DeviceJoints::DeviceJoints(const ros::NodeHandle& node, RobotHandle robot)
+    : node_(node), robot_(std::move(robot)) {}
 
 std::set<std::string> DeviceJoints::names() const {
   std::set<std::string> names;
@@ -76,7 +76,6 @@ void DeviceJoints::add(const TransmissionInfo& transmission, const urdf::Model& 
   Joint& joint = joints_.back();
   joint.name = info.name_;
   joint.described = described;
-  joint.drive = &world_.drive(robot_, joint.name);
   readInterfaces(info, &joint);
   if (described->mimic) {
     ROS_WARN_NAMED(kDeviceLog,
@@ -149,7 +148,15 @@ void DeviceJoints::registerHandles(hardware_interface::JointStateInterface& stat
       offer(&velocities, &joint.commands.velocity, Method::kVelocity);
     }
   }
-  worldWasReset();
+  if (joints_.empty()) {
+    return;
+  }
+  robot_.between_ticks([this] {
+    for (Joint& joint : joints_) {
+      joint.drive = &robot_.world->drive(robot_.name, joint.name);
+    }
+    worldWasReset();
+  });
 }
 
 void DeviceJoints::registerLimits(Joint& joint, const hardware_interface::JointStateHandle& state,

@@ -159,8 +159,9 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
                         const urdf::Model& model,
                         const std::vector<TransmissionInfo>& transmissions) {
   franka_sim::World& world = *robot.world;
-  const bool has_hand =
-      world.hasHand(robot.name, arm_id_) && fingersTakeEfforts(arm_id_, transmissions);
+  bool has_hand = false;
+  robot.between_ticks([&] { has_hand = world.hasHand(robot.name, arm_id_); });
+  has_hand = has_hand && fingersTakeEfforts(arm_id_, transmissions);
   nameJoints(model, has_hand);
   franka_sim::ControlUnitParameters parameters =
       readArmParameters(node, robot, model, robot.arms.front());
@@ -169,14 +170,18 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
                          : franka_sim::InterfaceRules::kRosControl;
   SimArmOptions options = readOptions(node, hasReflexes(parameters.rules));
   options.control_ticks = robot.control_ticks;
-  arm_ = std::make_unique<SimArm>(parameters, world.arm(robot.name, arm_id_), options);
+  franka_sim::ArmPlant* plant = nullptr;
+  robot.between_ticks([&] {
+    plant = &world.arm(robot.name, arm_id_);
+    hand_ = has_hand ? &world.hand(robot.name, arm_id_) : nullptr;
+  });
+  arm_ = std::make_unique<SimArm>(parameters, *plant, options);
   arm_->unit().request(franka_core::fci::SetJointImpedanceRequest{
       readJointStiffness(node, arm_id_, parameters.joint_stiffness)});
   warnOfGains(node, arm_id_);
-  hand_ = has_hand ? &world.hand(robot.name, arm_id_) : nullptr;
 
   singularity_threshold_ = readNumber(node, "singularity_warning_threshold").value_or(-1.0);
-  devices_ = std::make_unique<DeviceJoints>(node, world, robot.name);
+  devices_ = std::make_unique<DeviceJoints>(node, robot);
   for (const TransmissionInfo& transmission : transmissions) {
     addTransmission(transmission, model);
   }

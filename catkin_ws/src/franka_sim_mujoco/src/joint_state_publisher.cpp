@@ -39,12 +39,14 @@ std::vector<std::string> movingJoints(const urdf::Model& urdf) {
 
 JointStatePublisher::JointStatePublisher(const ros::NodeHandle& node, double rate,
                                          const urdf::Model& urdf, RobotHWSim& hardware,
-                                         const franka_sim::World& world)
+                                         const franka_sim::World& world,
+                                         const BetweenTicks& between_ticks)
     : world_(world), rate_(rate), publisher_(node, "joint_states", kQueueSize) {
   auto* const handles = hardware.get<hardware_interface::JointStateInterface>();
   const std::vector<std::string> measured =
       handles != nullptr ? handles->getNames() : std::vector<std::string>();
-  const std::vector<std::string> in_world = world.joints();
+  std::vector<std::string> in_world;
+  between_ticks([&] { in_world = world.joints(); });
   const auto contains = [](const std::vector<std::string>& names, const std::string& name) {
     return std::find(names.begin(), names.end(), name) != names.end();
   };

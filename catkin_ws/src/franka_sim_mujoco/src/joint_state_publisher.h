@@ -4,6 +4,7 @@
 
 #include <franka_hw/trigger_rate.h>
 #include <franka_sim/robot/plant.h>
+#include <franka_sim_mujoco/robot_hw_sim.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <realtime_tools/realtime_publisher.h>
 #include <ros/node_handle.h>
@@ -15,13 +16,7 @@
 #include <string>
 #include <vector>
 
-namespace franka_sim {
-class World;
-}
-
 namespace franka_sim_mujoco {
-
-class RobotHWSim;
 
 /// Publishes `joint_states`: all moving joints of a robot, arm, hand and other joints of its URDF,
 /// in one message, with or without controllers. Replaces Debian's joint_state_publisher, which
@@ -32,8 +27,10 @@ class JointStatePublisher {
   /// @param rate [Hz] of simulated time, above 0 and at most 1000
   /// @param hardware its measurements are published; for joints without a handle there the world's
   /// state is used. Must outlive this object, like the world.
+  /// @param between_ticks of a RobotHandle
   JointStatePublisher(const ros::NodeHandle& node, double rate, const urdf::Model& urdf,
-                      RobotHWSim& hardware, const franka_sim::World& world);
+                      RobotHWSim& hardware, const franka_sim::World& world,
+                      const BetweenTicks& between_ticks);
 
   /// Call after the hardware was read, with that tick's time. A message that is due is skipped only
   /// if the last one was not sent meanwhile (realtime_tools::publishPending). Real-time safe.

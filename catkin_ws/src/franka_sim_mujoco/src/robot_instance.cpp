@@ -57,8 +57,8 @@ class Stopwatch {
 }  // namespace
 
 RobotInstance::RobotInstance(const RobotPlan& plan, franka_sim::World& world,
-                             franka_sim::WorldChange& added, HardwareLoader& loader,
-                             BetweenTicks between_ticks, const OperatorAccess& access)
+                             HardwareLoader& loader, BetweenTicks between_ticks,
+                             const OperatorAccess& access)
     : name_(plan.description.name), control_ticks_(plan.control_ticks) {
   for (const SimulatedArm& arm : plan.arms) {
     if (!arm.type.empty()) {
@@ -68,17 +68,7 @@ RobotInstance::RobotInstance(const RobotPlan& plan, franka_sim::World& world,
   for (const auto& joint : plan.urdf.joints_) {
     joints_.insert(joint.first);
   }
-  world.apply(added);
-  try {
-    start(plan, world, loader, std::move(between_ticks), access);
-  } catch (...) {
-    transforms_.reset();
-    joint_states_.reset();
-    manager_.reset();
-    hardware_.reset();
-    world.apply(added);  // takes it back
-    throw;
-  }
+  start(plan, world, loader, std::move(between_ticks), access);
 }
 
 RobotInstance::~RobotInstance() = default;
@@ -142,8 +132,8 @@ void RobotInstance::startHardware(const RobotPlan& plan, const RobotHandle& robo
   }
   manager_ = std::make_unique<controller_manager::ControllerManager>(hardware_.get(), node);
   if (plan.joint_state_rate) {
-    joint_states_ = std::make_unique<JointStatePublisher>(node, *plan.joint_state_rate, plan.urdf,
-                                                          *hardware_, *robot.world);
+    joint_states_ = std::make_unique<JointStatePublisher>(
+        node, *plan.joint_state_rate, plan.urdf, *hardware_, *robot.world, robot.between_ticks);
     max_transform_lag_ = ros::Duration(kMaxWaitingTransforms / *plan.joint_state_rate);
   }
   if (plan.publish_transforms) {

@@ -71,14 +71,15 @@ struct TickTimes {
 };
 
 /// A robot in the world with its hardware plugin and controller manager, or served over the FCI, or
-/// without both. Created, run and removed by the stepping thread; destroyed later by any thread.
+/// without both. Created and destroyed by the threads of requests, because it talks to the ROS
+/// master; in between used by the stepping thread.
 class RobotInstance {
  public:
-  /// Adds the robot to the world and starts its hardware; the world is unchanged if it throws.
-  /// @param added adds plan.description; compiled
+  /// Starts the hardware.
+  /// @param between_ticks the robot is in the world within that work
   /// @throws std::runtime_error with a sentence
-  RobotInstance(const RobotPlan& plan, franka_sim::World& world, franka_sim::WorldChange& added,
-                HardwareLoader& loader, BetweenTicks between_ticks, const OperatorAccess& access);
+  RobotInstance(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
+                BetweenTicks between_ticks, const OperatorAccess& access);
   ~RobotInstance();
   RobotInstance(const RobotInstance&) = delete;
   RobotInstance& operator=(const RobotInstance&) = delete;

@@ -7,7 +7,8 @@
 #include <ros/console.h>
 
 #include <algorithm>
-#include <future>
+#include <exception>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <utility>
@@ -21,9 +22,45 @@ namespace {
 
 /// Compiling a world with several robots takes seconds on a slow machine.
 constexpr std::chrono::milliseconds kSpawnTimeout{60000};
-/// While time waits for the compiler, clients see so often that the robots are there (chosen here:
-/// they give up after a second, and what an idle one receives in lock-step hardly depends on it).
-constexpr std::chrono::milliseconds kStandStillPeriod{300};
+
+/// A robot that is still being prepared: it is in the world for the time of each piece of work on
+/// it only, so that the world goes on without it. Used by the stepping thread, after `stage`.
+class StagedRobot {
+ public:
+  explicit StagedRobot(franka_sim::World& world) : world_(world) {}
+
+  /// @param change adds the robot; compiled
+  void stage(const franka_sim::WorldChange& change) { change_ = change; }
+  void run(const std::function<void()>& work) {
+    if (!change_ || is_visiting_) {
+      work();
+      return;
+    }
+    world_.apply(*change_);
+    is_visiting_ = true;
+    std::exception_ptr error;
+    try {
+      work();
+    } catch (...) {
+      error = std::current_exception();
+    }
+    is_visiting_ = false;
+    world_.apply(*change_);  // takes it back
+    if (error) {
+      std::rethrow_exception(error);
+    }
+  }
+  /// From now on it is in the world.
+  void enter() {
+    world_.apply(*change_);
+    change_.reset();
+  }
+
+ private:
+  franka_sim::World& world_;
+  std::optional<franka_sim::WorldChange> change_;
+  bool is_visiting_{false};
+};
 
 }  // namespace
 
@@ -134,6 +171,11 @@ std::string RobotSet::spawn(const SpawnOrder& order) {
     return notes;
   }
   const RobotPlan plan = planRobot(order);
+  const auto staged = std::make_shared<StagedRobot>(world_);
+  const BetweenTicks between_ticks = [this, staged](const std::function<void()>& work) {
+    requests_.run([&] { staged->run(work); });
+  };
+  std::unique_ptr<RobotInstance> robot;
   std::string notes;
   change(
       [&] {
@@ -143,12 +185,8 @@ std::string RobotSet::spawn(const SpawnOrder& order) {
         }
         return world_.beginAddRobot(plan.description);
       },
-      [&](franka_sim::WorldChange& added) {
-        const BetweenTicks between_ticks = [this](const std::function<void()>& work) {
-          requests_.run(work);
-        };
-        auto robot = std::make_unique<RobotInstance>(plan, world_, added, loader_, between_ticks,
-                                                     operatorAccess());
+      [&](franka_sim::WorldChange& /*added*/) {
+        staged->enter();
         if (robot->served() != nullptr) {
           robot->served()->addTo(host_);
         }
@@ -160,37 +198,43 @@ std::string RobotSet::spawn(const SpawnOrder& order) {
           ROS_WARN_NAMED(kLog, "%s Give it another place (x, y, z) or other joint positions.",
                          overlaps.c_str());
         }
+      },
+      [&](franka_sim::WorldChange& added) {
+        staged->stage(added);
+        robot =
+            std::make_unique<RobotInstance>(plan, world_, loader_, between_ticks, operatorAccess());
       });
   return notes;
 }
 
 void RobotSet::change(const std::function<franka_sim::WorldChange()>& begin,
-                      const std::function<void(franka_sim::WorldChange&)>& finish) {
+                      const std::function<void(franka_sim::WorldChange&)>& finish,
+                      const std::function<void(franka_sim::WorldChange&)>& prepare) {
   const std::lock_guard<std::mutex> one_at_a_time(change_mutex_);
   std::optional<franka_sim::WorldChange> change;
-  bool finished = false;
-  const auto finish_it = [&] {
-    finish(*change);
-    host_.restartClock();
-    finished = true;
-  };
   requests_.run(
       [&] {
         change.emplace(begin());
-        if (follows_clock_()) {
-          return;
-        }
-        auto compiled = std::async(std::launch::async, [&] { change->compile(); });
-        while (compiled.wait_for(kStandStillPeriod) != std::future_status::ready) {
-          host_.standStill();
-        }
-        compiled.get();
-        finish_it();
+        holds_time_ = !follows_clock_();
       },
       kSpawnTimeout);
-  if (!finished) {
+  const auto end = [this] {
+    holds_time_ = false;
+    host_.restartClock();
+  };
+  try {
     change->compile();
-    requests_.run(finish_it, kSpawnTimeout);
+    prepare(*change);
+    requests_.run(
+        [&] {
+          finish(*change);
+          end();
+        },
+        kSpawnTimeout);
+  } catch (...) {
+    const std::exception_ptr error = std::current_exception();
+    requests_.run(end, kSpawnTimeout);
+    std::rethrow_exception(error);
   }
 }
 

@@ -52,6 +52,8 @@ class RobotSet {
   /// Publishes joint states and transforms of a world that stands still.
   void publishNow(const ros::Time& time);
   std::size_t size() const noexcept { return robots_.size(); }
+  /// Whether time must stand still until a robot or object has come or gone.
+  bool holdsTime() const noexcept { return holds_time_; }
   /// Whether a robot waits for the controllers that its launch file starts (RobotPlan).
   bool isStarting() const;
   /// One line per robot for the user: its mode and errors.
@@ -66,12 +68,15 @@ class RobotSet {
   void leaveHost() noexcept;
 
  private:
-  /// Changes the set of robots and objects. Ticks go on while the new model is compiled, unless
-  /// they do not follow the clock (factor 0, step()): then time stands still. Not in the stepping
-  /// thread.
+  /// Changes the set of robots and objects. Ticks go on while the new model is compiled and its
+  /// robot prepared, unless they do not follow the clock (factor 0, step()): then time stands
+  /// still. Not in the stepping thread.
   /// @param begin, finish are called in the stepping thread: first step of the change, and last
-  void change(const std::function<franka_sim::WorldChange()>& begin,
-              const std::function<void(franka_sim::WorldChange&)>& finish);
+  /// @param prepare is called in between, in the calling thread
+  void change(
+      const std::function<franka_sim::WorldChange()>& begin,
+      const std::function<void(franka_sim::WorldChange&)>& finish,
+      const std::function<void(franka_sim::WorldChange&)>& prepare = [](auto& /*change*/) {});
   /// Of an object that a URDF describes.
   void placeJoints(const SpawnOrder& order);
   RobotInstance* find(const std::string& name);
@@ -84,6 +89,7 @@ class RobotSet {
   std::function<void()> reset_;
   std::function<bool()> follows_clock_;
   std::mutex change_mutex_;  ///< held during a change: there is one at a time
+  bool holds_time_{false};
   HardwareLoader loader_;
   franka_sim::SceneText scene_;
   std::vector<std::unique_ptr<RobotInstance>> robots_;

@@ -39,14 +39,17 @@ franka_sim::fci::SimRobot makeRobot(const RobotPlan& plan, const RobotHandle& ro
   }
   const franka_sim::ControlUnitParameters unit =
       readArmParameters(ros::NodeHandle(plan.robot_namespace), robot, plan.urdf, arm);
+  franka_sim::ArmPlant* plant = nullptr;
   std::optional<franka_sim::fci::SimRobot::Hand> hand;
-  if (unit.has_hand) {
-    hand =
-        franka_sim::fci::makeHand(robot.world->hand(robot.name, arm.arm_id), arm.physics.gripper);
-  }
-  return franka_sim::fci::makeSimRobot(plan.fci_ip, franka_sim::protocolsOf(arm.type), unit,
-                                       robot.world->arm(robot.name, arm.arm_id), hand, {},
-                                       arm.physics.command_delay);
+  robot.between_ticks([&] {
+    plant = &robot.world->arm(robot.name, arm.arm_id);
+    if (unit.has_hand) {
+      hand =
+          franka_sim::fci::makeHand(robot.world->hand(robot.name, arm.arm_id), arm.physics.gripper);
+    }
+  });
+  return franka_sim::fci::makeSimRobot(plan.fci_ip, franka_sim::protocolsOf(arm.type), unit, *plant,
+                                       hand, {}, arm.physics.command_delay);
 }
 
 void fill(franka_sim::fci::SimRobot& robot, GetServedRobot::Response& response) {

@@ -30,11 +30,11 @@ struct OperatorAccess {
 /// instead of being commanded by controllers in the simulation's process. Its control interface and
 /// services under `franka_sim` in its namespace replace the operator (docs/franka_sim.md).
 ///
-/// Created by the stepping thread between ticks, which also runs `robot`; removed from the host by
-/// that thread, then destroyed by any thread.
+/// Created and destroyed by any thread; in between the stepping thread runs `robot`, and adds it to
+/// the host and removes it.
 class ServedRobot {
  public:
-  /// @param plan of a robot that is in the world
+  /// @param plan of a robot that is in the world between ticks
   /// @throws std::runtime_error, std::invalid_argument with a message for the user
   ServedRobot(const RobotPlan& plan, const RobotHandle& robot, const OperatorAccess& access);
 

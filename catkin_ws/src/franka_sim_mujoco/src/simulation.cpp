@@ -21,6 +21,10 @@ namespace {
 constexpr std::uint32_t kTickNanoseconds = 1000000;
 constexpr std::chrono::milliseconds kServedIdleSleep{1};  ///< if clients wait
 constexpr std::chrono::milliseconds kIdleSleep{20};
+/// While time waits for a robot that comes or goes, clients see so often that the others are there
+/// (chosen here: they give up after a second, and what an idle one receives in lock-step hardly
+/// depends on it).
+constexpr std::chrono::milliseconds kHeldSleep{300};
 constexpr std::uint32_t kTicksBetweenChecks = 1000;  ///< of bare ticks, whether to go on
 
 /// @param what for example "A step"
@@ -78,6 +82,11 @@ void Simulation::loop() {
       requests_.serve();
       pace_.review(robots_.isStarting());
       short_sleeps_.sleepIfDue();
+      if (robots_.holdsTime()) {
+        holdTime();
+        continue;
+      }
+      shown_at_.reset();
       if (paused_ && steps_left_ == 0) {
         standStill();
         continue;
@@ -107,6 +116,17 @@ void Simulation::standStill() {
   clock_.standStill(time());
   requests_.waitForWork(host_.empty() ? kIdleSleep : kServedIdleSleep);
   host_.standStill();
+}
+
+void Simulation::holdTime() {
+  clock_.standStill(time());
+  shown_at_ = shown_at_.value_or(Clock::now());
+  const auto rest = std::max(Clock::duration::zero(), *shown_at_ + kHeldSleep - Clock::now());
+  requests_.waitForWork(std::chrono::ceil<std::chrono::milliseconds>(rest));
+  if (Clock::now() >= *shown_at_ + kHeldSleep) {
+    host_.standStill();
+    shown_at_ = Clock::now();
+  }
 }
 
 void Simulation::advance() {

@@ -6,6 +6,7 @@
 #include <franka_sim/serve/host.h>
 
 #include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <exception>
 #include <functional>
@@ -101,6 +102,8 @@ class Simulation {
   static constexpr std::uint32_t kMaxBenchmarkTicks = 1000000;  ///< minutes (chosen here)
 
  private:
+  using Clock = std::chrono::steady_clock;
+
   void loop();
   void advance();
   Benchmark measure(std::uint32_t ticks);
@@ -112,6 +115,8 @@ class Simulation {
   void requireUncancelled() const;
   void finishStepping(std::exception_ptr error);
   void standStill();
+  /// While a robot or object comes or goes.
+  void holdTime();
   void finishStepping();
   /// The state of the world is published with its present time.
   void publishNow();
@@ -138,8 +143,9 @@ class Simulation {
   bool paused_by_fault_{false};  ///< the world has stopped
   std::uint64_t tick_count_{0};
   std::uint32_t steps_left_{0};
-  std::atomic<std::uint64_t> cancels_{0};  ///< calls of setPaused
-  std::uint64_t benchmark_cancels_{0};     ///< the same at the begin of the benchmark
+  std::optional<Clock::time_point> shown_at_;  ///< to clients, while time is held
+  std::atomic<std::uint64_t> cancels_{0};      ///< calls of setPaused
+  std::uint64_t benchmark_cancels_{0};         ///< the same at the begin of the benchmark
   std::optional<std::promise<SimulationState>> stepped_;
   std::atomic<bool> stop_{false}, failed_{false};
   std::thread thread_;

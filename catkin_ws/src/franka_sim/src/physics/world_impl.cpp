@@ -75,7 +75,7 @@ void World::Impl::exchange(WorldChange::Content& change) {
   data.swap(change.data);
   data->ncon = 0;  // those of a model that was taken back
   generation = change.generation = physics::uniqueModelNumber();
-  index();
+  index(change);
   for (const auto& [joint, torque] : torques) {
     const int id = mj_name2id(model.get(), mjOBJ_JOINT, joint.c_str());
     if (id >= 0) {
@@ -101,7 +101,7 @@ void World::Impl::orderFrames() {
   }
 }
 
-void World::Impl::index() {
+void World::Impl::index(WorldChange::Content& change) {
   visual_mjcf.clear();
   warned = {};
   view = {model.get(), data.get(), &motor_side, preparation_thread.get()};
@@ -158,7 +158,7 @@ void World::Impl::index() {
       frictions.add(*model, joint, law);
     }
   }
-  bindPlants();
+  bindPlants(change);
   const auto gone = [this](const Push& push) {
     return push.joint.empty() ? frames.count(push.body_name) == 0 : !has(push.joint);
   };
@@ -169,12 +169,13 @@ void World::Impl::index() {
   }
 }
 
-void World::Impl::bindPlants() {
-  const auto bind = [this](auto* plants) {
+void World::Impl::bindPlants(WorldChange::Content& change) {
+  const auto bind = [this](auto* plants, auto* taken) {
+    plants->merge(*taken);
     for (auto it = plants->begin(); it != plants->end();) {
       auto& plant = *it->second;
       if (!has(plant.joints()[0])) {
-        it = plants->erase(it);
+        taken->insert(plants->extract(it++));
         continue;
       }
       typename std::decay_t<decltype(plant)>::Slots slots;
@@ -185,9 +186,9 @@ void World::Impl::bindPlants() {
       ++it;
     }
   };
-  bind(&arms);
-  bind(&hands);
-  bind(&drives);
+  bind(&arms, &change.arms);
+  bind(&hands, &change.hands);
+  bind(&drives, &change.drives);
   for (auto& [key, arm] : arms) {
     arm->restoreBrakes();
   }

@@ -80,6 +80,10 @@ struct WorldChange::Content {
   physics::ModelPtr model;
   physics::DataPtr data;  ///< in its initial state
   physics::ModelIdentity identity;
+  /// Plants of robots that the change has taken from the world: they come back with their robots.
+  std::map<std::string, std::unique_ptr<physics::MujocoArm>> arms{};
+  std::map<std::string, std::unique_ptr<physics::MujocoHand>> hands{};
+  std::map<std::string, std::unique_ptr<physics::MujocoDrive>> drives{};
 
   void compile();
 };
@@ -175,9 +179,9 @@ struct World::Impl {
   const physics::RobotModel& robot(const std::string& name) const;  ///< throws
 
  private:
-  void index();
+  void index(WorldChange::Content& change);
   void orderFrames();
-  void bindPlants();
+  void bindPlants(WorldChange::Content& change);
   void stop(const physics::StepFault& why) noexcept;
   void stop(const physics::EngineError& error) noexcept;
   void advance();

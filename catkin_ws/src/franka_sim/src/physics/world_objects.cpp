@@ -171,8 +171,9 @@ void World::apply(WorldChange& change) {
         "applied meanwhile.");
   }
   impl_->exchange(content);
-  if (!content.added.empty()) {
-    impl_->news.insert(unsupported(content.added));
+  const std::string added = std::exchange(content.added, {});  // reported once
+  if (!added.empty()) {
+    impl_->news.insert(unsupported(added));
   }
 }
 

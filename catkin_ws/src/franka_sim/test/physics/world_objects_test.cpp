@@ -316,6 +316,35 @@ TEST(WorldChanges, AreTakenBack) {
   EXPECT_NO_THROW(changed.addRobot(robot("panda")));
 }
 
+/// A robot that was in the world for a moment before is the same to the last bit.
+TEST(WorldChanges, ThatWereTakenBackAreMadeAgainWithTheSamePlants) {
+  World visited, at_once;
+  for (World* world : {&visited, &at_once}) {
+    world->addObject("ball", kBall, at(1, 0, 0.5));
+    run(*world, 100);
+  }
+  WorldChange change = visited.beginAddRobot(robot("panda"));
+  change.compile();
+  visited.apply(change);
+  ArmPlant& arm = visited.arm("panda", "panda");
+  HandPlant& hand = visited.hand("panda", "panda");
+  const std::array<double, 7> q = arm.measure().q;
+  arm.setBrakes(true);
+  visited.apply(change);
+  run(visited, 100);
+  visited.apply(change);
+  EXPECT_EQ(&arm, &visited.arm("panda", "panda"));
+  EXPECT_EQ(&hand, &visited.hand("panda", "panda"));
+  EXPECT_EQ(q, arm.measure().q);
+  run(at_once, 100);
+  at_once.addRobot(robot("panda"));
+  at_once.arm("panda", "panda").setBrakes(true);
+  EXPECT_EQ(at_once.stateHash(), visited.stateHash());
+  run(visited, 200);
+  run(at_once, 200);
+  EXPECT_EQ(at_once.stateHash(), visited.stateHash());
+}
+
 TEST(WorldObjects, TwistsReferToTheBodysOrigin) {
   World world;
   setGravity(world, {0, 0, 0});

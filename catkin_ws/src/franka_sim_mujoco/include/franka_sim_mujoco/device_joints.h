@@ -27,13 +27,13 @@ namespace franka_sim_mujoco {
 /// set; its output is limited to the URDF's effort. Without a controller, joints with position or
 /// velocity commands hold their position, and joints with only effort commands move freely.
 ///
-/// Created by the stepping thread while it stands still; read, write and doSwitch are called by
-/// that thread and do not throw. Real-time safe. Exceptions: the constructor and `add`; PIDs also
+/// Set up by any thread; read, write and doSwitch are called by the stepping thread and do not
+/// throw. Real-time safe. Exceptions: the constructor, `add` and `registerHandles`; PIDs also
 /// publish their state if configured.
 class DeviceJoints {
  public:
   /// @param node of the robot's namespace, where gains are looked up
-  DeviceJoints(const ros::NodeHandle& node, franka_sim::World& world, std::string robot);
+  DeviceJoints(const ros::NodeHandle& node, RobotHandle robot);
 
   /// Adds the joint of a SimpleTransmission; a mimic joint only has a state.
   /// @throws std::invalid_argument with a sentence: unknown joint, or bad gains
@@ -41,7 +41,8 @@ class DeviceJoints {
   bool empty() const noexcept { return joints_.empty(); }
   std::set<std::string> names() const;
 
-  /// Call after the last `add`: registers the handles.
+  /// Call after the last `add`: registers the handles. @throws std::runtime_error with a sentence
+  /// if a joint does not move
   void registerHandles(hardware_interface::JointStateInterface& states,
                        hardware_interface::EffortJointInterface& efforts,
                        hardware_interface::PositionJointInterface& positions,
@@ -83,8 +84,7 @@ class DeviceJoints {
   static double limited(const Joint& joint, double effort) noexcept;
 
   ros::NodeHandle node_;
-  franka_sim::World& world_;
-  std::string robot_;
+  RobotHandle robot_;
   std::list<Joint> joints_;  ///< with stable addresses
   joint_limits_interface::EffortJointSaturationInterface effort_limits_;
   joint_limits_interface::PositionJointSaturationInterface position_limits_;

@@ -132,7 +132,8 @@ class World {
   WorldChange beginRemoveObject(const std::string& name) const;
   /// @}
   /// Last step: what is added begins in its initial state; all else keeps the state that it has
-  /// now. A second call takes the change back. Takes less than a tick. Not real-time safe.
+  /// now. A second call takes the change back, to the bit, and a third one makes it again: plants
+  /// of its robots stay valid meanwhile, unused. Takes less than a tick. Not real-time safe.
   /// @throws std::logic_error before compile(), or if another change was applied since the first
   /// step
   void apply(WorldChange& change);
@@ -148,7 +149,8 @@ class World {
   /// A number that changes when a robot or an object comes or goes. No other world of this process
   /// has it.
   std::uint64_t generation() const noexcept;
-  /// Plants stay valid until their robot is removed, also when other robots are added.
+  /// Plants stay valid until their robot is removed and the change that did it no longer exists,
+  /// also when other robots are added.
   /// @throws std::runtime_error when the robot has no joints `<arm_id>_joint1..7` (arm) or no
   /// `<arm_id>_finger_joint1..2` (hand).
   ArmPlant& arm(const std::string& robot, const std::string& arm_id);
