@@ -38,6 +38,7 @@ REPORT = {
     "operating_mode": "execution",
     "fci": False,
     "inputs": {"x31": False, "x32": False, "x33": False, "x4": False, "guiding": False},
+    "user_stop": [],
     "buttons": {name: False for name in ("circle", "cross", "check", "up", "down", "left", "right")},
     "guiding": {"active": False, "mode": "free", "axes": [True] * 7},
     "navigation": "desk",

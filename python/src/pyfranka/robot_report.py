@@ -31,8 +31,8 @@ Flags = tuple[bool, ...]
 
 @dataclass(frozen=True)
 class Inputs:
-    """Safety inputs; True: pressed. x31, x32, x33: stops; x4: the activation or enabling device; guiding: the
-    enable button at the hand."""
+    """Safety inputs as they act; True: pressed. x31, x32, x33: stops; x4: the activation or enabling device;
+    guiding: the enable button at the hand. The operator's stop presses x31 of an FR3 and x4 of a Panda."""
 
     x31: bool
     x32: bool
@@ -140,6 +140,7 @@ class Report:
     operating_mode: str  #: execution or programming
     fci: bool  #: clients may connect
     inputs: Inputs  #: safety inputs
+    user_stop: tuple[str, ...]  #: what presses it: user_stop, x31, x32, x33, x4, conflicting_inputs
     buttons: Buttons  #: of the Pilot
     guiding: Guiding  #: hand guiding
     navigation: str  #: target of the Pilot's arrows: desk or robot

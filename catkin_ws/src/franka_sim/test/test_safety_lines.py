@@ -256,6 +256,26 @@ def test_errors_are_acknowledged(robot):
     make_ready(robot)
 
 
+@both
+def test_a_stop_is_released_by_its_own_line_only(robot):
+    make_ready(robot)
+    source = {"panda": "x4", "fr3": "x33"}[robot.kind]
+    lines = {"user_stop": "user_stop", source: f"input {source}"}
+    for first, second in (lines, reversed(lines)):
+        robot.remote.send(f"{lines[first]} on")
+        robot.remote.send(f"{lines[second]} on")
+        assert robot.remote.report().user_stop == ("user_stop", source)
+        robot.remote.send(f"{lines[first]} off")
+        report = robot.remote.report()
+        assert report.user_stop == (second,)
+        assert report.mode != "Idle"
+        robot.remote.send(f"{lines[second]} off")
+        robot.remote.wait()
+        assert robot.remote.report().user_stop == ()
+        robot.remote.send("joints unlock")  # the stop X3.1 of an FR3 has closed the brakes
+        assert robot.remote.report().mode == "Idle"
+
+
 WRONG = [
     "input x5 on", "button circle", "operating_mode walk", "guiding_mode user on", "timing brakes -1",
      "timing lunch 3", "inject jointLimitViolation 8 on", "inject nothing on", "acknowledge nothing",

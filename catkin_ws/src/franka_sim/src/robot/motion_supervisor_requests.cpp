@@ -207,6 +207,7 @@ void MotionSupervisor::limitsChange() noexcept {
 UnitStatus MotionSupervisor::status() const noexcept {
   UnitStatus status;
   status.brakes_closed = brakesClosed();
+  status.close_brakes = operator_.close_brakes;
   status.user_stop_pressed = operator_.user_stop;
   status.fci_active = operator_.fci_active;
   status.measured = estimator_->started();

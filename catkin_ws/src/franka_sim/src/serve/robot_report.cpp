@@ -172,6 +172,28 @@ void writeGuiding(const SafetyState& safety, bool active, JsonWriter& json) {
   json.member("navigation", safety.arrows_guide_desk ? "desk" : "robot");
 }
 
+// The inputs as they act, and what presses the user stop and has to be released.
+void writeInputs(const SafetyController& controller, JsonWriter& json) {
+  const SafetyState& safety = controller.state();
+  std::array<bool, kSafetyInputCount> pressed{};
+  std::vector<std::string_view> sources;
+  if (safety.user_stop) {
+    sources.emplace_back("user_stop");
+  }
+  for (std::size_t i = 0; i < pressed.size(); i++) {
+    const auto input = static_cast<SafetyInput>(i);
+    pressed[i] = controller.pressed(input);
+    if (safety.inputs[i] && controller.isStop(input)) {
+      sources.push_back(kSafetyInputNames[i]);
+    }
+  }
+  if (safety.conflicting_inputs && !controller.isFr3()) {
+    sources.emplace_back("conflicting_inputs");
+  }
+  writeFlags(json, "inputs", pressed, kSafetyInputNames);
+  json.member("user_stop", sources);
+}
+
 void writeSafety(const SafetyController& controller, JsonWriter& json) {
   const SafetyState& safety = controller.state();
   const Light light = controller.light();
@@ -180,7 +202,7 @@ void writeSafety(const SafetyController& controller, JsonWriter& json) {
   json.member("operating_mode",
               safety.mode == OperatingMode::kExecution ? "execution" : "programming");
   json.member("fci", controller.fciActive());
-  writeFlags(json, "inputs", safety.inputs, kSafetyInputNames);
+  writeInputs(controller, json);
   writeFlags(json, "buttons", safety.buttons, kButtonNames);
   json.key("self_test").beginObject().member("running", safety.self_test);
   json.member("left", safety.self_test_left).member("due", safety.self_test_due).endObject();

@@ -160,10 +160,22 @@ std::string remedy(const RobotState& state, const UnitStatus& unit, bool recover
   }
 }
 
-bool canBeGuided(franka_core::RobotMode mode) noexcept {
-  using franka_core::RobotMode;
-  return mode == RobotMode::kIdle || mode == RobotMode::kMove || mode == RobotMode::kReflex ||
-         mode == RobotMode::kGuiding;
+// Operators' requests go to the safety controller, as those of the other interfaces do; nothing for
+// other requests.
+std::optional<Refusal> operate(SafetyController& safety, const UnitRequest& request) noexcept {
+  if (const auto* const stop = std::get_if<UserStop>(&request)) {
+    safety.pressUserStop(stop->pressed);
+    return Refusal::kNone;
+  }
+  if (const auto* const guiding = std::get_if<Guiding>(&request)) {
+    return safety.guide(guiding->active);
+  }
+  const auto* const brakes = std::get_if<Brakes>(&request);
+  if (brakes != nullptr && brakes->closed) {
+    safety.lock();
+    return Refusal::kNone;
+  }
+  return brakes != nullptr ? std::optional(safety.unlock()) : std::nullopt;
 }
 
 constexpr double kShareOfLimit = 0.999;  // chosen here: rounding must not exceed the limit
@@ -261,9 +273,15 @@ CartesianLaw& SimulatedRobot::cartesianLaw() { return law<CartesianLaw>(); }
 void SimulatedRobot::finish() noexcept { finishing_ = moving(); }
 
 void SimulatedRobot::request(const UnitRequest& request, const std::string& what) {
-  const auto* const guiding = std::get_if<Guiding>(&request);
-  if (guiding != nullptr && guiding->active && !canBeGuided(state_.robot_mode)) {
-    refuse(what);  // the button of a real one has no effect, without an answer
+  if (const std::optional<Refusal> refusal = operate(robot_.safety(), request)) {
+    if (refusal == Refusal::kSelfTestRunning || refusal == Refusal::kNotReady) {
+      throw RequestRefused(what + " was refused. " + std::string(sentenceOf(*refusal)));
+    }
+    if (refusal != Refusal::kNone) {
+      refuse(what);
+    }
+    refresh();
+    return;
   }
   const std::optional<Status> status = robot_.unit().request(request);
   if (status == Status::kInvalidArgumentRejected) {

@@ -10,6 +10,7 @@
 #include <array>
 #include <cmath>
 #include <optional>
+#include <vector>
 
 #include "fci_fixture.h"
 
@@ -60,6 +61,8 @@ class SafetyTest : public test::FciTest, public ::testing::WithParamInterface<bo
     const auto& closed = safety.state().brakes_closed;
     return std::count(closed.begin(), closed.end(), true);
   }
+
+  bool brakesAreLocked() const { return unit.status().close_brakes; }
 
   std::optional<Status> motionEnd() { return unit.takeAnswer(PendingAnswer::kMotion); }
 
@@ -197,6 +200,140 @@ TEST_P(SafetyTest, GuidingOnlyWhereItIsAllowed) {
   safety.press(SafetyInput::kX4, false);
   settle();
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+}
+
+// Sources of the user stop: the operator's own stop, and the inputs that stop this robot.
+TEST_P(SafetyTest, IsStoppedWhileAnySourceIsPressed) {
+  using Source = std::optional<SafetyInput>;  // nothing: the operator's own stop
+  std::vector<Source> sources{std::nullopt};
+  for (const SafetyInput input :
+       {SafetyInput::kX31, SafetyInput::kX32, SafetyInput::kX33, SafetyInput::kX4}) {
+    if (safety.isStop(input)) {
+      sources.emplace_back(input);
+    }
+  }
+  ASSERT_EQ(fr3 ? 4U : 2U, sources.size());
+  const auto press = [this](const Source& source, bool pressed) {
+    source ? safety.press(*source, pressed) : safety.pressUserStop(pressed);
+    settle();
+    tick(3);
+  };
+  const auto isStopped = [this] {
+    const RobotMode mode = unit.state().robot_mode;
+    return safety.stopPressed() && unit.status().user_stop_pressed && mode != RobotMode::kIdle;
+  };
+  for (const SafetyRules rules : {SafetyRules::kOpen, SafetyRules::kDesk}) {
+    for (const Source& one : sources) {
+      for (const Source& other : sources) {
+        safety.start(rules);
+        ASSERT_EQ(Refusal::kNone, safety.unlock());
+        settle();
+        press(one, true);
+        ASSERT_TRUE(isStopped());
+        if (one == other) {
+          continue;
+        }
+        press(other, false);
+        EXPECT_TRUE(isStopped()) << "the other one was not pressed";
+        press(other, true);
+        press(one, false);
+        EXPECT_TRUE(isStopped()) << "the other one is pressed";
+        press(other, false);
+        EXPECT_FALSE(safety.stopPressed());
+        EXPECT_FALSE(unit.status().user_stop_pressed);
+        EXPECT_EQ(brakesAreLocked() ? RobotMode::kOther : RobotMode::kIdle,
+                  unit.state().robot_mode);
+      }
+      press(one, false);
+    }
+  }
+}
+
+TEST_P(SafetyTest, TheStopOutlastsGuidingAndPower) {
+  const SafetyInput stop = fr3 ? SafetyInput::kX33 : SafetyInput::kX4;
+  safety.start(SafetyRules::kOpen);
+  tick(5);
+  ASSERT_EQ(Refusal::kNone, safety.guide(true));
+  safety.press(stop, true);
+  safety.guide(false);
+  settle();
+  EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
+  EXPECT_EQ(Refusal::kEmergencyStopPressed, safety.guide(true));
+  EXPECT_FALSE(safety.pressed(SafetyInput::kGuidingButton)) << "a refused request has no effect";
+  safety.switchOff();
+  safety.start(SafetyRules::kOpen);
+  settle();
+  EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
+  safety.press(stop, false);
+  settle();
+  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+}
+
+// A Panda behind Desk is guided while its stop is pressed; guiding may end by other ways.
+TEST_P(SafetyTest, APressedActivationDeviceStopsAfterGuiding) {
+  if (fr3) {
+    return;
+  }
+  makeReady();
+  safety.press(SafetyInput::kX4, true);
+  settle();
+  ASSERT_EQ(Refusal::kNone, safety.guide(true));
+  safety.lock();
+  settle();
+  ASSERT_EQ(Refusal::kNone, safety.unlock());
+  settle();
+  tick(5);
+  EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
+}
+
+TEST_P(SafetyTest, SelfTestWithOpenRulesRestoresWhatItFound) {
+  for (const bool closed : {false, true}) {
+    for (const bool active : {false, true}) {
+      safety.start(SafetyRules::kOpen);
+      closed ? safety.lock() : static_cast<void>(safety.unlock());
+      active ? static_cast<void>(safety.activateFci()) : safety.deactivateFci();
+      settle();
+      const RobotMode mode = unit.state().robot_mode;
+      safety.pressUserStop(true);
+      settle();
+      ASSERT_EQ(Refusal::kNone, safety.startSelfTest());
+      settle();
+      safety.pressUserStop(false);
+      settle();
+      tick(3);
+      EXPECT_EQ(mode, unit.state().robot_mode);
+      EXPECT_EQ(closed ? 7 : 0, closedBrakes());
+      EXPECT_EQ(active, safety.fciActive());
+    }
+  }
+}
+
+TEST_P(SafetyTest, NothingDisturbsTheSelfTest) {
+  for (const SafetyRules rules : {SafetyRules::kOpen, SafetyRules::kDesk}) {
+    safety.start(rules);
+    ASSERT_EQ(Refusal::kNone, safety.unlock());
+    settle();
+    ASSERT_EQ(Refusal::kNone, safety.startSelfTest());
+    tick(2);
+    EXPECT_EQ(Refusal::kSelfTestRunning, safety.unlock());
+    EXPECT_EQ(Refusal::kSelfTestRunning, safety.activateFci());
+    EXPECT_EQ(Refusal::kSelfTestRunning, safety.guide(true));
+    EXPECT_EQ(Refusal::kSelfTestRunning, safety.startSelfTest());
+    EXPECT_EQ(Refusal::kSelfTestRunning, safety.allowsOperatorMotion());
+    EXPECT_EQ(Refusal::kSelfTestRunning, safety.setOperatingMode(OperatingMode::kProgramming));
+    tick(2);
+    EXPECT_TRUE(safety.state().self_test);
+    EXPECT_EQ(RobotMode::kOther, unit.state().robot_mode);
+    EXPECT_FALSE(safety.fciActive());
+    // What is never refused has its effect at the end.
+    safety.lock();
+    safety.deactivateFci();
+    settle();
+    tick(3);
+    EXPECT_EQ(RobotMode::kOther, unit.state().robot_mode);
+    EXPECT_FALSE(safety.fciActive());
+    safety.guide(false);
+  }
 }
 
 TEST_P(SafetyTest, SelfTestClosesBrakesAndRestartsItsClock) {

@@ -125,6 +125,26 @@ TEST_P(SimulationTest, JointLawReachesItsTargetSmoothly) {
   EXPECT_NEAR(fastest, 0.2 * 1.875, 0.03) << "of a polynomial of fifth order";
 }
 
+TEST_P(SimulationTest, SharesUserStopAndSelfTestWithTheControlInterface) {
+  const auto simulation = simulationOf("ideal");
+  SimulatedRobot& robot = arm(*simulation);
+  SafetyController& safety = robot.units().safety();
+  const SafetyInput stop = safety.isFr3() ? SafetyInput::kX33 : SafetyInput::kX4;
+  safety.press(stop, true);
+  robot.request(UserStop{true}, "The user stop");
+  robot.request(UserStop{false}, "The user stop");
+  simulation->step(100);
+  EXPECT_EQ(RobotMode::kUserStopped, robot.state().robot_mode);
+  safety.press(stop, false);
+  simulation->step(1);
+  EXPECT_EQ(RobotMode::kIdle, robot.state().robot_mode);
+  ASSERT_EQ(Refusal::kNone, safety.startSelfTest());
+  EXPECT_THROW(robot.request(Brakes{false}, "The brakes"), RequestRefused);
+  EXPECT_THROW(robot.request(Guiding{true}, "Guiding"), RequestRefused);
+  simulation->step(1);
+  EXPECT_EQ(RobotMode::kOther, robot.state().robot_mode);
+}
+
 TEST_P(SimulationTest, CartesianLawReachesItsTargetAndYieldsAsASpring) {
   const auto simulation = simulationOf("ideal");
   SimulatedRobot& robot = arm(*simulation);

@@ -111,6 +111,7 @@ inline franka_core::fci::MoveRequest torqueControl() noexcept {
 /// Status of a control unit that is not part of franka_core::RobotState.
 struct UnitStatus {
   bool brakes_closed{false};  ///< the joints are locked (UserStopped, Other, once the arm rests)
+  bool close_brakes{false};   ///< the brakes' switch, whatever the mode
   bool user_stop_pressed{false};  ///< the button's state, whatever the mode
   bool fci_active{true};          ///< clients may control the arm
   bool measured{false};  ///< the arm was observed since the start or restart: motions can start

@@ -123,8 +123,9 @@ class SimulatedRobot {
   /// Whether a motion of this process runs.
   bool moving() const noexcept { return !std::holds_alternative<std::monostate>(input_); }
 
-  /// Makes a request of the unit. @param what for the message: "The load"
-  /// @throws RequestRefused also for guiding where the unit would ignore it (user stop, brakes)
+  /// Makes a request of the unit; user stop, guiding and brakes by the safety controller.
+  /// @param what for the message: "The load"
+  /// @throws RequestRefused with a sentence
   void request(const UnitRequest& request, const std::string& what);
   /// Starts the recovery from errors; it takes time. @throws RequestRefused
   void recover();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <utility>
 
 namespace franka_sim {
 
@@ -37,10 +38,16 @@ bool any(const std::array<bool, 7>& joints) noexcept {
 // --- start and power -----------------------------------------------------------------------------
 
 void SafetyController::start(SafetyRules rules) noexcept {
+  SafetyState started;
+  if (!state_.power) {
+    started.inputs = state_.inputs;
+    started.inputs[static_cast<std::size_t>(SafetyInput::kGuidingButton)] = false;
+    started.user_stop = state_.user_stop;
+  }
   rules_ = rules;
-  state_ = SafetyState{};
+  state_ = started;
   moveBrakes(BrakeMotion::kNone);
-  unit_->request(UserStop{false});
+  applyStops();
   unit_->request(FciActivation{!hasDeskRules()});
   unit_->request(Brakes{hasDeskRules()});
   state_.brakes_closed.fill(hasDeskRules());
@@ -62,11 +69,11 @@ Refusal SafetyController::refusalOfMotors() const noexcept {
   if (!state_.power) {
     return Refusal::kNotReady;
   }
-  if (!hasDeskRules()) {
-    return Refusal::kNone;
-  }
   if (state_.self_test) {
     return Refusal::kSelfTestRunning;
+  }
+  if (!hasDeskRules()) {
+    return Refusal::kNone;
   }
   if (anyRecoverable()) {
     return Refusal::kRecoverableErrorActive;
@@ -74,8 +81,7 @@ Refusal SafetyController::refusalOfMotors() const noexcept {
   if (any(state_.demanded[0]) || any(state_.demanded[1])) {
     return Refusal::kJointRecoveryRequired;
   }
-  return fr3_ && state_.pressed(SafetyInput::kX31) ? Refusal::kEmergencyStopPressed
-                                                   : Refusal::kNone;
+  return fr3_ && pressed(SafetyInput::kX31) ? Refusal::kEmergencyStopPressed : Refusal::kNone;
 }
 
 void SafetyController::moveBrakes(BrakeMotion motion) noexcept {
@@ -101,6 +107,7 @@ void SafetyController::lock() noexcept {
   if (hasDeskRules()) {
     deactivateFci();
   }
+  before_self_test_.brakes_closed = true;
   closeBrakes();
 }
 
@@ -159,7 +166,10 @@ Refusal SafetyController::activateFci() noexcept {
   return refusal;
 }
 
-void SafetyController::deactivateFci() noexcept { unit_->request(FciActivation{false}); }
+void SafetyController::deactivateFci() noexcept {
+  before_self_test_.fci_active = false;
+  unit_->request(FciActivation{false});
+}
 
 Refusal SafetyController::setOperatingMode(OperatingMode mode) noexcept {
   if (mode == state_.mode) {
@@ -205,8 +215,20 @@ void SafetyController::press(SafetyInput input, bool pressed) noexcept {
     return;
   }
   state_.inputs[static_cast<std::size_t>(input)] = pressed;
+  inputChanges(input, pressed);
+}
+
+void SafetyController::pressUserStop(bool pressed) noexcept {
+  state_.user_stop = pressed;
+  inputChanges(userStopInput(), pressed);
+}
+
+void SafetyController::inputChanges(SafetyInput input, bool pressed) noexcept {
   if (!fr3_ && input == SafetyInput::kX4 && pressed) {
     state_.conflicting_inputs = false;  // its next release activates the robot again
+  }
+  if (guidesWithStop() && !stopPressed()) {
+    guide(false);
   }
   applyStops();
   if (fr3_ && hasDeskRules() && input == SafetyInput::kX31 && pressed) {
@@ -214,47 +236,55 @@ void SafetyController::press(SafetyInput input, bool pressed) noexcept {
   }
 }
 
-void SafetyController::pressUserStop(bool pressed) noexcept {
-  if (hasDeskRules()) {
-    press(fr3_ ? SafetyInput::kX31 : SafetyInput::kX4, pressed);
-  } else {
-    unit_->request(UserStop{pressed});
-  }
+bool SafetyController::pressed(SafetyInput input) const noexcept {
+  return state_.inputs[static_cast<std::size_t>(input)] ||
+         (state_.user_stop && input == userStopInput());
 }
 
 bool SafetyController::stopPressed() const noexcept {
-  return fr3_ ? state_.pressed(SafetyInput::kX31) || state_.pressed(SafetyInput::kX32) ||
-                    state_.pressed(SafetyInput::kX33)
-              : state_.pressed(SafetyInput::kX4);
+  for (std::size_t i = 0; i < kSafetyInputCount; i++) {
+    const auto input = static_cast<SafetyInput>(i);
+    if (isStop(input) && pressed(input)) {
+      return true;
+    }
+  }
+  return false;
 }
 
-// A Panda may be guided while its activation device is pressed; the unit cannot guide while it is
-// stopped.
+bool SafetyController::isStop(SafetyInput input) const noexcept {
+  return fr3_ ? input == SafetyInput::kX31 || input == SafetyInput::kX32 ||
+                    input == SafetyInput::kX33
+              : input == SafetyInput::kX4;
+}
+
+// Behind Desk a Panda is guided while its activation device is pressed; the unit cannot guide while
+// it is stopped.
+bool SafetyController::guidesWithStop() const noexcept {
+  return !fr3_ && hasDeskRules() && unit_->state().robot_mode == RobotMode::kGuiding;
+}
+
+// The unit's user stop follows its sources; in each tick, too, because guiding also ends without
+// the operator.
 void SafetyController::applyStops() noexcept {
-  const bool guided = !fr3_ && unit_->state().robot_mode == RobotMode::kGuiding;
-  const bool stop = (stopPressed() && !guided) || (!fr3_ && state_.conflicting_inputs);
+  const bool stop = (stopPressed() && !guidesWithStop()) || (!fr3_ && state_.conflicting_inputs);
   if (stop != unit_->status().user_stop_pressed) {
     unit_->request(UserStop{stop});
-  }
-  if (guided && !stopPressed()) {
-    guide(false);
   }
 }
 
 Refusal SafetyController::guide(bool active) noexcept {
-  state_.inputs[static_cast<std::size_t>(SafetyInput::kGuidingButton)] = active;
+  bool& button = state_.inputs[static_cast<std::size_t>(SafetyInput::kGuidingButton)];
+  const bool was_pressed = std::exchange(button, active);
   if (!active) {
     state_.conflicting_inputs = state_.conflicting_inputs && !fr3_;
     unit_->request(Guiding{false});
-    if (hasDeskRules()) {
-      applyStops();
-    }
+    applyStops();
     return Refusal::kNone;
   }
   Refusal refusal = refusalOfMotors();
   if (hasDeskRules() && refusal == Refusal::kNone) {
     const bool allowed = fr3_ ? state_.mode == OperatingMode::kProgramming && !stopPressed()
-                              : state_.pressed(SafetyInput::kX4);
+                              : pressed(SafetyInput::kX4);
     if (brakesClosed()) {
       refusal = Refusal::kBrakesClosed;
     } else if (!allowed) {
@@ -266,10 +296,27 @@ Refusal SafetyController::guide(bool active) noexcept {
   }
   if (refusal == Refusal::kNone) {
     unit_->request(Guiding{true});
-  } else if (hasDeskRules()) {
-    applyStops();
+    refusal = refusalOfGuiding();
   }
+  if (!hasDeskRules() && refusal != Refusal::kNone) {
+    button = was_pressed;
+  }
+  applyStops();
   return refusal;
+}
+
+// Why the unit is not guided after the request.
+Refusal SafetyController::refusalOfGuiding() const noexcept {
+  switch (unit_->state().robot_mode) {
+    case RobotMode::kGuiding:
+      return Refusal::kNone;
+    case RobotMode::kUserStopped:  // behind Desk, an arm that still brakes for a stop
+      return hasDeskRules() ? Refusal::kMotionActive : Refusal::kEmergencyStopPressed;
+    case RobotMode::kOther:
+      return Refusal::kBrakesClosed;
+    default:
+      return Refusal::kMotionActive;
+  }
 }
 
 Refusal SafetyController::setGuidingMode(GuidingMode mode,
@@ -293,10 +340,13 @@ Refusal SafetyController::startSelfTest() noexcept {
   if (refusal != Refusal::kNone) {
     return refusal;
   }
+  const BeforeSelfTest before{unit_->status().close_brakes, fciActive()};
+  guide(false);
   deactivateFci();
   unit_->request(Brakes{true});
   moveBrakes(BrakeMotion::kNone);
   state_.brakes_closed.fill(true);
+  before_self_test_ = before;
   state_.self_test = true;
   state_.self_test_left = self_test_time_;
   return Refusal::kNone;
@@ -311,8 +361,8 @@ void SafetyController::advanceSelfTest() noexcept {
   state_.self_test_left = 0.0;
   state_.self_test_due = kSelfTestPeriod;
   if (!hasDeskRules()) {
-    unit_->request(Brakes{false});
-    unit_->request(FciActivation{true});
+    unit_->request(Brakes{before_self_test_.brakes_closed});
+    unit_->request(FciActivation{before_self_test_.fci_active});
   }
 }
 
@@ -342,7 +392,7 @@ Refusal SafetyController::acknowledge(DemandedRecovery recovery) noexcept {
   if (!any(joints)) {
     return Refusal::kNoAckRequired;
   }
-  if (!state_.pressed(SafetyInput::kX4)) {
+  if (!pressed(SafetyInput::kX4)) {
     return Refusal::kJointRecoveryRequired;
   }
   joints.fill(false);
@@ -380,6 +430,7 @@ void SafetyController::step() noexcept {
     advanceClock();
     advanceBrakes();
   }
+  applyStops();
   if (!hasDeskRules()) {
     state_.brakes_closed.fill(unit_->status().brakes_closed);
   }
