@@ -43,6 +43,9 @@ struct RobotPlan {
   std::string hardware_type;  ///< plugin of type RobotHWSim; empty for a robot without hardware
   std::string fci_ip;         ///< address if it is served by a ServedRobot instead; else empty
   std::uint16_t control_port{1340};  ///< of its control interface if it is served; 0: none
+  /// Whether Desk guards it, so that its control interface serves this process' user only:
+  /// parameter `desk`.
+  bool has_desk{false};
   /// Whether it starts with Desk's rules, brakes closed and FCI off: parameter `fci_start` is
   /// `locked`.
   bool locked{false};

@@ -104,6 +104,7 @@ void readServing(const ros::NodeHandle& node, RobotPlan* plan) {
                              "65535 without the robot's own ports 1337 to 1339.");
   }
   plan->control_port = static_cast<std::uint16_t>(*port);
+  plan->has_desk = readBool(node, "desk").value_or(false);
   const std::string start = readString(node, "fci_start").value_or("ready");
   if (start != "ready" && start != "locked") {
     throw std::runtime_error("The parameter " + node.resolveName("fci_start") + " is '" + start +

@@ -96,6 +96,9 @@ void ServedRobot::openControlInterface(const RobotPlan& plan, franka_sim::World&
   franka_sim::addOperatorCommands(
       *lines_, {robot_, plan.arms.front().arm_id, access.host, world, access.reset, access.quit});
   franka_sim::addSceneCommands(*lines_, world, access.scene);
+  if (plan.has_desk) {
+    lines_->serveOwnUserOnly();
+  }
 }
 
 void ServedRobot::addTo(franka_sim::fci::Host& host) {

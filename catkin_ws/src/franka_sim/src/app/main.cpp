@@ -380,6 +380,9 @@ void serve(Options& options) {
                           {arm->robot, arm->options.arm_id, host, world,
                            [&] { resetWorld(world, robots, host); }, [&ended] { ended = true; }});
       addSceneCommands(lines.back(), world, scene);
+      if (options.desk.served) {
+        lines.back().serveOwnUserOnly();
+      }
       host.add(lines.back());
     }
   }

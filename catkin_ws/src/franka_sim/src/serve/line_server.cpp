@@ -3,6 +3,7 @@
 #include <franka_core/numbers.h>
 #include <franka_sim/serve/line_server.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -12,8 +13,10 @@
 #include <optional>
 #include <sstream>
 #include <stdexcept>
+#include <string_view>
 #include <utility>
 
+#include "fci/peer_user.h"
 #include "fci/sockets.h"
 
 namespace franka_sim::fci {
@@ -184,6 +187,13 @@ std::string nameIn(const std::string& line) {
   return words.empty() ? "" : words.front();
 }
 
+// Its last word is the protocol (RFC 9112, section 3).
+bool isHttpRequest(const std::string& line) {
+  constexpr std::string_view kProtocol = "HTTP/";
+  const std::vector<std::string> words = split(line);
+  return words.size() > 1 && words.back().compare(0, kProtocol.size(), kProtocol) == 0;
+}
+
 Reply error(const std::string& sentence) {
   return Reply([sentence]() -> std::optional<std::string> { throw std::runtime_error(sentence); });
 }
@@ -196,6 +206,7 @@ class LineServer::Impl {
       : listener_(address, port), first_line_(first_line) {}
 
   std::uint16_t port() const noexcept { return listener_.port(); }
+  void serveOwnUserOnly(UserOf user_of) { user_of_ = std::move(user_of); }
   void add(const std::string& usage, Handler handler, Ready ready);
   void serve();
   bool idle() const;
@@ -219,6 +230,7 @@ class LineServer::Impl {
   /// @returns whether a client is new.
   bool accept();
   void freeSlot();
+  bool serves(int connection) const;
   void executeLines();
   Reply execute(const std::string& line) const;
   bool isReady(const std::string& line) const;
@@ -230,7 +242,8 @@ class LineServer::Impl {
   Clock::duration first_line_;
   std::list<LineClient> clients_;
   std::uint64_t arrivals_{0};  ///< lines until now
-  Clock::duration busy_{};     ///< with lines, since states were sent
+  Clock::duration busy_{};     ///< with lines and new clients, since states were sent
+  UserOf user_of_;             ///< empty: everyone is served
   std::vector<Refused> refused_;
   std::map<std::string, Entry> entries_;
 };
@@ -289,9 +302,14 @@ bool LineServer::Impl::idle() const {
 
 void LineServer::Impl::receiveAll() {
   for (LineClient& client : clients_) {
-    arrivals_ += client.receive(arrivals_ + 1) ? 1 : 0;
+    const bool has_line = client.receive(arrivals_ + 1);
+    arrivals_ += has_line ? 1 : 0;
     if (client.lineIsTooLong()) {
       dismiss(client.releaseConnection(), "error: A line is longer than 4000 characters.");
+    } else if (has_line && isHttpRequest(*client.line())) {
+      dismiss(client.releaseConnection(),
+              "error: This is a robot's control interface, not a web server; Desk's address is "
+              "another one.");
     }
   }
   clients_.remove_if([](const LineClient& client) { return client.isGone(); });
@@ -299,7 +317,8 @@ void LineServer::Impl::receiveAll() {
 
 bool LineServer::Impl::accept() {
   bool any = false;
-  for (int accepted = 0; accepted < kAcceptedAtOnce; ++accepted) {
+  for (int accepted = 0; accepted < kAcceptedAtOnce && busy_ <= kMaxBusyTime; ++accepted) {
+    const Clock::time_point begin = Clock::now();
     sockaddr_in peer{};
     Descriptor socket = listener_.accept(peer);
     if (!socket) {
@@ -307,6 +326,14 @@ bool LineServer::Impl::accept() {
     }
     auto connection = std::make_unique<Connection>(std::move(socket));
     connection->watchPeer();
+    const bool served = serves(connection->descriptor());
+    busy_ += Clock::now() - begin;
+    if (!served) {
+      dismiss(std::move(connection),
+              "error: Behind Desk, the control interface serves programs on this machine of the "
+              "user who runs the robot: use Desk, or that user's account.");
+      continue;
+    }
     freeSlot();
     if (clients_.size() < kMaxClients) {
       clients_.emplace_back(std::move(connection));
@@ -319,6 +346,11 @@ bool LineServer::Impl::accept() {
     }
   }
   return any;
+}
+
+bool LineServer::Impl::serves(int connection) const {
+  const std::optional<uid_t> user = user_of_ ? user_of_(connection) : ::geteuid();
+  return user == ::geteuid() || user == uid_t{0};
 }
 
 // Closes a connection for the newest one, if there are too many: first clients that have just left,
@@ -409,6 +441,10 @@ LineServer::~LineServer() {
 }
 
 std::uint16_t LineServer::port() const noexcept { return impl_->port(); }
+
+void LineServer::serveOwnUserOnly(UserOf user_of) {
+  impl_->serveOwnUserOnly(user_of ? std::move(user_of) : UserOf(peerUser));
+}
 
 void LineServer::add(const std::string& usage, Handler handler, Ready ready) {
   impl_->add(usage, std::move(handler), std::move(ready));

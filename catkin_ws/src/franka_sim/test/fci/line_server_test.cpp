@@ -4,6 +4,7 @@
 #include <franka_sim/serve/line_server.h>
 #include <gtest/gtest.h>
 #include <sys/socket.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <memory>
@@ -319,6 +320,55 @@ TEST_F(LineServerTest, AnswersAllLinesOfAHalfClosedConnection) {
   tick();
   EXPECT_EQ("ok 1\nok 2\n", user.sees());
   EXPECT_EQ("(end)", user.sees());
+}
+
+// Such as a page in a browser sends without asking the server; its body may hold lines.
+TEST_F(LineServerTest, ClosesAConnectionThatSendsAnHttpRequest) {
+  for (const std::string request :
+       {"POST / HTTP/1.1\r\nHost: 127.0.0.1:1340\r\n\r\ncount\n", "GET /count HTTP/1.0\n",
+        "count http://127.0.0.1 HTTP/2\ncount\n"}) {
+    Operator page(server);
+    page.type(request);
+    tick();
+    const std::string reply = page.sees();
+    EXPECT_EQ(0u, reply.find("error: ")) << reply;
+    EXPECT_EQ(std::string::npos, reply.find("ok")) << reply;
+    EXPECT_EQ("(end)", page.sees());
+    page.type("count\n");
+    tick();
+    EXPECT_EQ(0, count);
+  }
+  Operator user(server);
+  user.type("count\n");
+  tick();
+  EXPECT_EQ("ok 1\n", user.sees());
+}
+
+TEST_F(LineServerTest, ServesItsOwnUserOnly) {
+  server.serveOwnUserOnly();
+  Operator user(server);
+  user.type("count\n");
+  tick();
+  EXPECT_EQ("ok 1\n", user.sees());
+  Operator vanished(server);
+  vanished.type("count\n");
+  vanished.leave();
+  tick();
+  EXPECT_EQ(1, count) << "whose it was is not known any more";
+  for (const std::optional<uid_t> other :
+       {std::optional<uid_t>(::geteuid() + 1), std::optional<uid_t>()}) {
+    server.serveOwnUserOnly([other](int /*connection*/) { return other; });
+    Operator stranger(server);
+    stranger.type("count\n");
+    tick();
+    const std::string reply = stranger.sees();
+    EXPECT_EQ(0u, reply.find("error: Behind Desk")) << reply;
+    EXPECT_EQ("(end)", stranger.sees());
+  }
+  EXPECT_EQ(1, count);
+  user.type("count\n");
+  tick();
+  EXPECT_EQ("ok 2\n", user.sees()) << "connections stay";
 }
 
 TEST_F(LineServerTest, RefusesALineThatIsTooLong) {

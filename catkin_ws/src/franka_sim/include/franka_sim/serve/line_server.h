@@ -4,6 +4,7 @@
 
 #include <franka_sim/serve/host.h>
 #include <poll.h>
+#include <sys/types.h>
 
 #include <chrono>
 #include <cstdint>
@@ -49,6 +50,9 @@ class Reply {
 /// A client beyond kMaxClients is refused with a sentence, unless one of the others has not sent a
 /// line for 5 s since it came; then that one is closed with a sentence. Below that number of
 /// clients there is no time limit.
+///
+/// It has no login. A connection that sends the first line of an HTTP request is closed with a
+/// sentence before anything is executed, because any page in a browser can send one (decision 67).
 class LineServer final : public Service {
  public:
   static constexpr std::size_t kMaxClients = 8;
@@ -74,6 +78,8 @@ class LineServer final : public Service {
   using Handler = std::function<Reply(const Words&)>;
   /// Whether a command can be executed now.
   using Ready = std::function<bool()>;
+  /// The user whose program has the other end of a connection; nothing if that is not known.
+  using UserOf = std::function<std::optional<uid_t>(int connection)>;
 
   /// @param first_line a client that has sent no line for this time may be replaced by a new one
   /// @throws std::runtime_error with a sentence when the port cannot be opened.
@@ -86,6 +92,10 @@ class LineServer final : public Service {
   LineServer& operator=(const LineServer&) = delete;
 
   std::uint16_t port() const noexcept;
+  /// From now on, connections of other users than this process' own and root are closed with a
+  /// sentence, as those of other machines are, whose users nobody knows (decision 67).
+  /// @param user_of another source of users, for tests
+  void serveOwnUserOnly(UserOf user_of = {});
   /// @param usage the command as the user types it, for example "user_stop on|off"; its first word
   /// is the name.
   /// @param ready lines wait until it returns true
