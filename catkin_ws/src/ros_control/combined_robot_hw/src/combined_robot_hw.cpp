@@ -140,7 +140,8 @@ bool CombinedRobotHW::prepareSwitch(const std::list<ControllerInfo>& start_list,
                                     const std::list<ControllerInfo>& stop_list) {
   Plan plan = makePlan(start_list, stop_list);
   for (std::size_t i = 0; i < robot_hw_list_.size(); ++i) {
-    if (!agrees(*robot_hw_list_[i], plan.shares[i].start, plan.shares[i].stop)) {
+    const Share& share = plan.shares[i];
+    if (!share.empty() && !agrees(*robot_hw_list_[i], share.start, share.stop)) {
       takeBack(plan, i);
       return false;
     }
@@ -152,7 +153,8 @@ bool CombinedRobotHW::prepareSwitch(const std::list<ControllerInfo>& start_list,
 void CombinedRobotHW::takeBack(const Plan& plan, std::size_t members) {
   while (members > 0) {
     --members;
-    if (!agrees(*robot_hw_list_[members], plan.shares[members].stop, plan.shares[members].start)) {
+    const Share& share = plan.shares[members];
+    if (!share.empty() && !agrees(*robot_hw_list_[members], share.stop, share.start)) {
       ROS_ERROR(
           "Robot number %zu of a combined robot had prepared a switch that another one refused, "
           "and now refuses the way back. Stop the controllers of this robot before you switch "
@@ -169,14 +171,19 @@ void CombinedRobotHW::doSwitch(const std::list<ControllerInfo>& start_list,
     plan_ = makePlan(start_list, stop_list);
   }
   for (std::size_t i = 0; i < robot_hw_list_.size(); ++i) {
-    robot_hw_list_[i]->doSwitch(plan_.shares[i].start, plan_.shares[i].stop);
+    const Share& share = plan_.shares[i];
+    if (!share.empty()) {
+      robot_hw_list_[i]->doSwitch(share.start, share.stop);
+    }
   }
 }
 
 RobotHW::SwitchState CombinedRobotHW::switchResult() const {
   SwitchState state = SwitchState::DONE;
-  for (const RobotHWSharedPtr& robot : robot_hw_list_) {
-    state = worse(state, robot->switchResult());
+  for (std::size_t i = 0; i < plan_.shares.size() && i < robot_hw_list_.size(); ++i) {
+    if (!plan_.shares[i].empty()) {
+      state = worse(state, robot_hw_list_[i]->switchResult());
+    }
   }
   return state;
 }

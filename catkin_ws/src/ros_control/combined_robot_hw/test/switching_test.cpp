@@ -95,11 +95,26 @@ TEST_F(Switching, PrepareAndDoReachEveryMember) {
   EXPECT_EQ("both(e: r1;)", text(*right_.last_start));
   EXPECT_EQ("old(e: r2;)", text(*right_.last_stop));
 
-  ASSERT_TRUE(combined_.prepareSwitch(none_, none_));
-  combined_.doSwitch(none_, none_);
-  EXPECT_EQ("|", text(left_.prepared[1]));
-  EXPECT_EQ(2, left_.switches) << "also when there is nothing to do";
-  EXPECT_EQ("", text(*right_.last_stop));
+}
+
+TEST_F(Switching, MembersWithoutAPartHearNothing) {
+  right_.result = State::ERROR;  // of an earlier switch
+  const Controllers left{effort("left", {"l1"})};
+  const std::vector<std::pair<Controllers, Controllers>> switches{
+      {left, none_}, {left, left}, {none_, left}, {none_, none_}};
+  for (const auto& [start, stop] : switches) {
+    SCOPED_TRACE(text({start, stop}));
+    ASSERT_TRUE(combined_.prepareSwitch(start, stop));
+    combined_.doSwitch(start, stop);
+    EXPECT_EQ(State::DONE, combined_.switchResult());
+  }
+  EXPECT_EQ(3, left_.switches);
+  EXPECT_EQ("left(e: l1;)|left(e: l1;)", text(left_.prepared[1])) << "a restart";
+  EXPECT_EQ(0, right_.switches);
+  EXPECT_THAT(right_.prepared, IsEmpty());
+  left_.agrees = false;
+  EXPECT_FALSE(combined_.prepareSwitch(left, none_));
+  EXPECT_THAT(right_.prepared, IsEmpty());
 }
 
 TEST_F(Switching, RefusalOfAMemberRevertsPreparations) {

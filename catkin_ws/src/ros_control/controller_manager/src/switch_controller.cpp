@@ -102,16 +102,12 @@ std::unique_ptr<SwitchRequest> makeRequest(const ControllerList& list, const Nam
   for (const std::string& name : stop) {
     const ControllerSpec& spec = *list.find(name);
     request->stops.push_back({spec.c, name});
-    if (!contains(start, name)) {
-      request->stop_list.push_back(spec.info);
-    }
+    request->stop_list.push_back(spec.info);
   }
   for (const std::string& name : start) {
     const ControllerSpec& spec = *list.find(name);
     request->starts.push_back({spec.c, spec.info, SwitchRequest::Outcome::kPending});
-    if (!contains(stop, name)) {
-      request->start_list.push_back(spec.info);
-    }
+    request->start_list.push_back(spec.info);
   }
   return request;
 }

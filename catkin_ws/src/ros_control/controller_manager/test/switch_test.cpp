@@ -130,8 +130,8 @@ TEST_F(SwitchTest, StopAndStartOfARunningControllerIsARestart) {
     EXPECT_TRUE(controller("a").isRunning());
     EXPECT_EQ(starts + 1, controller("a").starts_);
     EXPECT_EQ(stops + 1, controller("a").stops_);
-    EXPECT_EQ("", robot_.prepared_start_.back()) << "nothing changes for the robot";
-    EXPECT_EQ("", robot_.prepared_stop_.back());
+    EXPECT_EQ("a", robot_.prepared_start_.back()) << "the robot is told";
+    EXPECT_EQ("a", robot_.prepared_stop_.back());
   }
 }
 

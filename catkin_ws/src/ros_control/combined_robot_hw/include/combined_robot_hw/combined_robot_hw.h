@@ -13,7 +13,9 @@
 namespace combined_robot_hw {
 
 /// One robot made of several, each loaded as a plugin. Controllers see the interfaces of all of
-/// them; of a switch each member gets only the part for its own resources.
+/// them; of a switch each member gets only the part for its own resources. A member without a part
+/// is not called, so that a switch of one robot cannot disturb another one (the original calls it
+/// with empty lists).
 ///
 /// init, checkForConflict and prepareSwitch run outside the control loop. doSwitch, switchResult,
 /// read and write run in it and add neither allocations nor locks to those of the members; for
@@ -39,7 +41,8 @@ class CombinedRobotHW : public hardware_interface::RobotHW {
   void doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                 const std::list<hardware_interface::ControllerInfo>& stop_list) override;
 
-  /// The worst of the members' results: an error, else ongoing, else done.
+  /// The worst result of the members that took part in the last switch: an error, else ongoing,
+  /// else done.
   SwitchState switchResult() const override;
 
   /// The worst result of those members for which the last switch started this controller.
@@ -72,6 +75,7 @@ class CombinedRobotHW : public hardware_interface::RobotHW {
   struct Share {
     ControllerList start;
     ControllerList stop;
+    bool empty() const noexcept { return start.empty() && stop.empty(); }
   };
 
   /// A switch, split for each member of robot_hw_list_.

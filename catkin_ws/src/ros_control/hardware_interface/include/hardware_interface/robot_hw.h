@@ -58,7 +58,7 @@ class RobotHW : public InterfaceManager {
   }
 
   /// Called before a switch, outside the control loop, with the controllers that will be started
-  /// and stopped (not those restarted). For slow preparations. @returns false to refuse the switch.
+  /// and stopped (restarted: in both). For slow preparations. @returns false to refuse the switch.
   virtual bool prepareSwitch(const std::list<ControllerInfo>& /*start_list*/,
                              const std::list<ControllerInfo>& /*stop_list*/) {
     return true;
