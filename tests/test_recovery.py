@@ -140,6 +140,18 @@ def test_all_arms_recover_at_once(moving):
     check_goes_on(moving)
 
 
+def test_states_go_on_while_the_arms_recover_one_after_another(moving):
+    for arm in moving.arms:
+        arm.push()
+    moving.wait_for(lambda arm: arm.has_error, "The error of all arms")
+    for arm in moving.arms:
+        arm.wait_for_end_of_push()
+        assert arm.recover() == SUCCEEDED
+        counts = {arm: arm.states for arm in moving.arms}
+        moving.wait_for(lambda arm, counts=counts: arm.states > counts[arm] + 10, "More states of all arms")
+    check_goes_on(moving)
+
+
 def test_the_user_has_to_release_the_user_stop(moving):
     arm, *others = moving.arms
     arm.operator.set_user_stop(True)

@@ -152,9 +152,7 @@ int main(int argc, char** argv) {
     loop_health.cycleBegins();
     updateControllers(controllers, robots, thrown, now, period);
     loop_health.cycleEnds();
-    if (!robots.hasError()) {
-      robots.write(now, period);
-    }
+    robots.write(now, period);
   }
   return 0;
 }

@@ -64,6 +64,7 @@ void ArmConnection::connect() {
   if (connected()) {
     return;
   }
+  awaitDrop();
   std::unique_ptr<franka::Robot> robot = owner_.openRobot();
   {
     const auto robot_lock = mutex_.take();
@@ -81,9 +82,8 @@ bool ArmConnection::disconnect() {
   if (!state_.handle(ArmEvent::kGivenUp) && connected()) {
     return false;
   }
-  withdrawRobot();
-  const auto robot_lock = mutex_.take();
-  robot_.reset();
+  awaitDrop();
+  dropRobot();
   return true;
 }
 
@@ -98,13 +98,30 @@ void ArmConnection::lose(const std::string& what) {
     fail();
   }
   publishError();
+  // In another thread: it waits for a recovery under way, which waits for the robot, or for the
+  // loop that this thread may run.
+  awaitDrop();
+  dropping_ = true;
+  drop_thread_ = std::thread([this] {
+    dropRobot();
+    dropping_ = false;
+  });
+}
+
+void ArmConnection::dropRobot() {
   withdrawRobot();
   const auto robot_lock = mutex_.take();
   robot_.reset();
 }
 
+void ArmConnection::awaitDrop() {
+  if (drop_thread_.joinable()) {
+    drop_thread_.join();
+  }
+}
+
 void ArmConnection::reconnect() {
-  if (offer_ && isLost(state())) {
+  if (offer_ && isLost(state()) && !dropping_) {
     reconnection_.attempt(offer_->arm_id, [this] { owner_.connect(); });
   }
 }
@@ -136,6 +153,9 @@ void ArmConnection::abort(ArmEvent event, const std::string& what,
 }
 
 std::optional<franka::RobotState> ArmConnection::readAtRest() {
+  if (!connected()) {
+    return {};  // a recovery that has not ended yet may hold the mutex
+  }
   try {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (connected() && robot_) {
@@ -178,7 +198,7 @@ bool ArmConnection::needsRecovery() const noexcept {
 
 void ArmConnection::recover() {
   const std::string arm = offer_ ? "'" + offer_->arm_id + "'" : "the robot";
-  const auto lock = mutex_.takeWhile([this] { return needsRecovery(); });
+  auto lock = mutex_.takeWhile([this] { return needsRecovery(); });
   if (!lock) {
     // Nothing is sent to the robot: an early recovery must not clear a later error.
     ROS_WARN_STREAM("FrankaHW: a recovery of " << arm
@@ -186,7 +206,7 @@ void ArmConnection::recover() {
                                                   "recover.");
     return;
   }
-  if (!robot_) {
+  if (!connected() || !robot_) {
     throw franka::NetworkException("FrankaHW: " + arm +
                                    " is not connected, so it cannot recover. Call the service "
                                    "connect first.");
@@ -196,18 +216,22 @@ void ArmConnection::recover() {
   if (robot_->readOnce().robot_mode != franka::RobotMode::kIdle) {
     robot_->automaticErrorRecovery();
   }
+  if (before_recovery_) {
+    lock.unlock();  // the task may wait for the loop, which reads the robot
+    before_recovery_();
+  }
   if (hasOwnError()) {
     owner_.errorEnds();
   }
   state_.handle(ArmEvent::kRecovered);
+  if (isLost(state())) {
+    throw franka::NetworkException("FrankaHW: " + arm + " was lost during its recovery.");
+  }
   ROS_INFO_STREAM("FrankaHW: " << arm << " has recovered from the error.");
 }
 
 void ArmConnection::handleRecovery() {
   try {
-    if (needsRecovery() && before_recovery_) {
-      before_recovery_();
-    }
     recover();
     offer_->recovery->setSucceeded();
   } catch (const std::exception& error) {
@@ -263,9 +287,10 @@ void ArmConnection::close() noexcept {
   if (offer_) {
     offer_->connect.shutdown();
     offer_->disconnect.shutdown();
-    withdrawRobot();
-    offer_.reset();
   }
+  awaitDrop();
+  withdrawRobot();
+  offer_.reset();
 }
 
 void ArmConnection::offerRobot() {

@@ -158,16 +158,15 @@ const FrankaCombinableHW::Answer& FrankaCombinableHW::awaitAnswer() {
   return answers_.held();
 }
 
+bool FrankaCombinableHW::supports(ControlMode mode) const {
+  return mode == ControlMode::None || mode == ControlMode::JointTorque;
+}
+
 bool FrankaCombinableHW::setRunFunction(const ControlMode& requested_control_mode, bool limit_rate,
                                         double cutoff_frequency,
                                         franka::ControllerMode /*internal_controller*/) {
-  if (requested_control_mode == ControlMode::None) {
-    return true;
-  }
   if (requested_control_mode != ControlMode::JointTorque) {
-    ROS_ERROR_STREAM("FrankaCombinableHW: '" << arm_id_ << "' can be commanded torques only, not "
-                                             << requested_control_mode << ".");
-    return false;
+    return supports(requested_control_mode);
   }
   run_function_ = [=](franka::Robot& robot, Callback /*ros_callback*/) {
     robot.control([this](const franka::RobotState& state,
@@ -199,17 +198,27 @@ bool FrankaCombinableHW::checkForConflict(
   return partiallyClaimsArmJoints(claims, arm_id_);
 }
 
-bool FrankaCombinableHW::prepareSwitch(
+bool FrankaCombinableHW::acceptsSwitch(
     const std::list<hardware_interface::ControllerInfo>& start_list,
-    const std::list<hardware_interface::ControllerInfo>& stop_list) {
+    const std::list<hardware_interface::ControllerInfo>& stop_list) const {
+  if (!FrankaHW::acceptsSwitch(start_list, stop_list)) {
+    return false;
+  }
   ResourceWithClaimsMap resources = getResourceMap(start_list);
   ArmClaimedMap claims;
-  if (initialized_ && !connected() && getArmClaimedMap(resources, claims) &&
+  if (initialized_ && !connection_.connected() && !takesBack(start_list, stop_list) &&
+      getArmClaimedMap(resources, claims) &&
       getControlMode(arm_id_, claims) != ControlMode::None) {
     ROS_ERROR_STREAM("FrankaCombinableHW: no controller can command '"
                      << arm_id_ << "', which is not connected. Call its service connect first.");
     return false;
   }
+  return true;
+}
+
+bool FrankaCombinableHW::prepareSwitch(
+    const std::list<hardware_interface::ControllerInfo>& start_list,
+    const std::list<hardware_interface::ControllerInfo>& stop_list) {
   const bool was_active = controllerActive();
   const bool agrees = FrankaHW::prepareSwitch(start_list, stop_list);
   if (!was_active && controllerActive()) {
@@ -219,7 +228,8 @@ bool FrankaCombinableHW::prepareSwitch(
 }
 
 void FrankaCombinableHW::read(const ros::Time& /*time*/, const ros::Duration& /*period*/) {
-  controller_needs_reset_ = error_recovered_.load();
+  // In this order: a recovery sets the flag before it ends the error.
+  controller_needs_reset_ = !hasError() && error_recovered_.exchange(false);
   const ArrivedState& latest = states_.read();
   read_arrival_ = latest.arrival;
   FrankaHW::update(latest.state);
@@ -227,11 +237,6 @@ void FrankaCombinableHW::read(const ros::Time& /*time*/, const ros::Duration& /*
 }
 
 void FrankaCombinableHW::write(const ros::Time& /*time*/, const ros::Duration& period) {
-  // The controllers have been reset in this cycle, between read() and write().
-  if (controller_needs_reset_ && error_recovered_) {
-    controller_needs_reset_ = false;
-    error_recovered_ = false;
-  }
   enforceLimits(period);
   answers_.write({effort_joint_command_ros_, read_arrival_, ++cycles_});
 }

@@ -58,7 +58,6 @@ void FrankaCombinedHW::setupServices(ros::NodeHandle& robot_hw_nh) {
 }
 
 void FrankaCombinedHW::beforeRecovery(const std::function<void()>& task) {
-  before_recovery_ = task;
   for (FrankaCombinableHW* const arm : arms_) {
     arm->armConnection().beforeRecovery(task);
   }
@@ -71,10 +70,6 @@ void FrankaCombinedHW::recover() {
     recovery_server_->setSucceeded();
     return;
   }
-  if (before_recovery_) {
-    before_recovery_();
-  }
-  is_recovering_ = true;
   std::string failures;
   for (FrankaCombinableHW* const arm : arms_) {
     const ArmConnection& connection = arm->armConnection();
@@ -87,7 +82,6 @@ void FrankaCombinedHW::recover() {
       failures += (failures.empty() ? "" : " ") + arm->getArmID() + ": " + error.what();
     }
   }
-  is_recovering_ = false;
   if (failures.empty()) {
     recovery_server_->setSucceeded();
   } else {
@@ -97,24 +91,52 @@ void FrankaCombinedHW::recover() {
 }
 
 void FrankaCombinedHW::read(const ros::Time& time, const ros::Duration& period) {
+  stopOthers();
   CombinedRobotHW::read(time, period);
-  handleError();
+  for (const FrankaCombinableHW* const arm : arms_) {
+    reset_due_ = reset_due_ || arm->controllerNeedsReset();
+  }
+  // An arm may have been recovered since stopOthers(), but then the others wait in this cycle.
+  needs_reset_ = reset_due_ && !stopped_;
+  reset_due_ = reset_due_ && stopped_;
 }
 
-void FrankaCombinedHW::handleError() {
-  if (is_recovering_) {
-    return;
+void FrankaCombinedHW::write(const ros::Time& time, const ros::Duration& period) {
+  if (!stopped_ && !hasError()) {
+    CombinedRobotHW::write(time, period);
   }
-  // One controller may move all arms: if one arm stops, the others must stop until its recovery.
-  const bool any = anyOwnError();
+}
+
+/// One controller may move all arms: if one arm stops, the others must stop until its recovery. An
+/// arm that has been recovered waits for those that have not.
+void FrankaCombinedHW::stopOthers() {
+  const FrankaCombinableHW* in_error = nullptr;
+  int errors = 0;
+  for (const FrankaCombinableHW* const arm : arms_) {
+    if (arm->armConnection().hasOwnError()) {
+      in_error = arm;
+      errors++;
+    }
+  }
   for (FrankaCombinableHW* const arm : arms_) {
-    arm->waitForOthers(any && !arm->armConnection().hasOwnError());
+    arm->waitForOthers(errors > 1 || (errors == 1 && arm != in_error));
   }
+  stopped_ = errors > 0;
 }
 
-bool FrankaCombinedHW::anyOwnError() const {
-  return std::any_of(arms_.begin(), arms_.end(),
-                     [](const auto* arm) { return arm->armConnection().hasOwnError(); });
+bool FrankaCombinedHW::prepareSwitch(
+    const std::list<hardware_interface::ControllerInfo>& start_list,
+    const std::list<hardware_interface::ControllerInfo>& stop_list) {
+  for (const hardware_interface::RobotHWSharedPtr& robot : robot_hw_list_) {
+    const auto* const arm = dynamic_cast<const FrankaCombinableHW*>(robot.get());
+    std::list<hardware_interface::ControllerInfo> start, stop;
+    filterControllerList(start_list, start, robot);
+    filterControllerList(stop_list, stop, robot);
+    if (arm != nullptr && !arm->acceptsSwitch(start, stop)) {
+      return false;
+    }
+  }
+  return CombinedRobotHW::prepareSwitch(start_list, stop_list);
 }
 
 void FrankaCombinedHW::triggerError() {
@@ -129,10 +151,7 @@ bool FrankaCombinedHW::hasError() {
   return std::any_of(arms_.begin(), arms_.end(), [](const auto* arm) { return arm->hasError(); });
 }
 
-bool FrankaCombinedHW::controllerNeedsReset() {
-  return std::any_of(arms_.begin(), arms_.end(),
-                     [](const auto* arm) { return arm->controllerNeedsReset(); });
-}
+bool FrankaCombinedHW::controllerNeedsReset() { return needs_reset_; }
 
 void FrankaCombinedHW::connect() {
   std::string failures, connected;

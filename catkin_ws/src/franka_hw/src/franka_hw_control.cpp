@@ -81,28 +81,46 @@ bool FrankaHW::checkForConflict(const std::list<hardware_interface::ControllerIn
          partiallyClaimsArmJoints(claims, arm_id_);
 }
 
-bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
-                             const std::list<hardware_interface::ControllerInfo>& stop_list) {
+bool FrankaHW::acceptsSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
+                             const std::list<hardware_interface::ControllerInfo>& stop_list) const {
   ControlMode start_mode = ControlMode::None;
   ControlMode stop_mode = ControlMode::None;
   if (!modeOf(arm_id_, start_list, start_mode) || !modeOf(arm_id_, stop_list, stop_mode)) {
     ROS_ERROR("FrankaHW: unknown interface claimed for starting or stopping!");
     return false;
   }
+  if (takesBack(start_list, stop_list)) {
+    return true;
+  }
   // Before init() no robot is known, so there is nothing to compare with the parameters.
-  const bool needs_permission = initialized_ && commands(start_list);
-  if (start_mode == ControlMode::None && stop_mode == ControlMode::None) {
-    // Controllers that only read do not change a motion.
-    return !needs_permission || command_permission_->allows(namesOf(start_list));
-  }
-  const bool unused = preparation_pending_.exchange(false);
-  if (unused && namesOf(start_list) == preparation_.stop &&
-      namesOf(stop_list) == preparation_.start) {
-    return takePreparationBack();
-  }
-  if (needs_permission && !command_permission_->allows(namesOf(start_list))) {
+  if (initialized_ && commands(start_list) && !command_permission_->allows(namesOf(start_list))) {
     return false;
   }
+  const ControlMode mode = (current_control_mode_ & ~stop_mode) | start_mode;
+  if (!supports(mode)) {
+    ROS_WARN_STREAM("FrankaHW: no such control mode for '" << arm_id_ << "': " << mode);
+    return false;
+  }
+  return true;
+}
+
+bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
+                             const std::list<hardware_interface::ControllerInfo>& stop_list) {
+  if (!acceptsSwitch(start_list, stop_list)) {
+    return false;
+  }
+  ControlMode start_mode = ControlMode::None;
+  ControlMode stop_mode = ControlMode::None;
+  modeOf(arm_id_, start_list, start_mode);
+  modeOf(arm_id_, stop_list, stop_mode);
+  if (start_mode == ControlMode::None && stop_mode == ControlMode::None) {
+    return true;  // controllers that only read do not change a motion
+  }
+  if (takesBack(start_list, stop_list)) {
+    takePreparationBack();
+    return true;
+  }
+  preparation_pending_ = false;
   const ControlMode mode = (current_control_mode_ & ~stop_mode) | start_mode;
   const RunSettings settings{mode, get_limit_rate_(), get_cutoff_frequency_(),
                              get_internal_controller_()};
@@ -120,7 +138,6 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
   }
   if (!setRunFunction(mode, settings.limit_rate, settings.cutoff_frequency,
                       settings.internal_controller)) {
-    ROS_WARN_STREAM("FrankaHW: no such control mode for '" << arm_id_ << "': " << mode);
     resumePrevious(was_active);
     return false;
   }
@@ -141,13 +158,19 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
   return true;
 }
 
-bool FrankaHW::takePreparationBack() {
+bool FrankaHW::takesBack(const std::list<hardware_interface::ControllerInfo>& start_list,
+                         const std::list<hardware_interface::ControllerInfo>& stop_list) const {
+  return preparation_pending_ && namesOf(start_list) == preparation_.stop &&
+         namesOf(stop_list) == preparation_.start;
+}
+
+void FrankaHW::takePreparationBack() {
+  preparation_pending_ = false;
   run_settings_ = preparation_.settings_before;
   current_control_mode_ = run_settings_.mode;
   setRunFunction(run_settings_.mode, run_settings_.limit_rate, run_settings_.cutoff_frequency,
                  run_settings_.internal_controller);
   resumePrevious(preparation_.was_active);
-  return true;
 }
 
 void FrankaHW::resumePrevious(bool was_active) {
@@ -170,8 +193,9 @@ bool FrankaHW::endMotion() {
 
 void FrankaHW::doSwitch(const std::list<hardware_interface::ControllerInfo>& /*start_list*/,
                         const std::list<hardware_interface::ControllerInfo>& /*stop_list*/) {
-  preparation_pending_ = false;
-  if (current_control_mode_ != ControlMode::None) {
+  // A switch that changes nothing for this robot, or only passes torques on, prepared nothing.
+  const bool prepared = preparation_pending_.exchange(false);
+  if (prepared && current_control_mode_ != ControlMode::None) {
     reset();
     controller_active_ = true;
   }
@@ -269,6 +293,19 @@ bool FrankaHW::setRunFunction(const ControlMode& requested_control_mode, bool li
       return useGenerator(pose_cartesian_command_libfranka_);
     case ControlMode::CartesianVelocity:
       return useGenerator(velocity_cartesian_command_libfranka_);
+    default:
+      return false;
+  }
+}
+
+bool FrankaHW::supports(ControlMode mode) const {
+  switch (mode & ~ControlMode::JointTorque) {
+    case ControlMode::None:
+    case ControlMode::JointPosition:
+    case ControlMode::JointVelocity:
+    case ControlMode::CartesianPose:
+    case ControlMode::CartesianVelocity:
+      return true;
     default:  // two motion generators at the same time
       return false;
   }

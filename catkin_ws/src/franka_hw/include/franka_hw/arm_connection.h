@@ -17,6 +17,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -47,7 +48,7 @@ class ArmConnection {
     virtual franka::RobotMode robotMode() const = 0;
     /// Whether a loss of the robot now requires a recovery.
     virtual bool lossIsError() const = 0;
-    /// Called before a recovery ends an error. The robot is then Idle, and its mutex is locked.
+    /// Called before a recovery ends an error. The robot is then Idle.
     virtual void errorEnds() = 0;
   };
 
@@ -87,17 +88,18 @@ class ArmConnection {
   bool hasOwnError() const noexcept { return isInError(state()); }
   /// As hasOwnError(), or this arm waits for another one. Real-time safe. Thread-safe.
   bool hasError() const noexcept { return hasOwnError() || waits_for_others_; }
-  /// Sets whether this arm must not move because another one has an error. @returns whether that
-  /// has changed. Real-time safe. Thread-safe.
+  /// Sets whether this arm must not move because another one has an error, whatever its own state.
+  /// @returns whether that has changed. Real-time safe. Thread-safe.
   bool waitForOthers(bool waits) noexcept { return waits_for_others_.exchange(waits) != waits; }
   /// Whether there is an own error, or the robot stopped while no controller moved it.
   /// Real-time safe. Thread-safe.
   bool needsRecovery() const noexcept;
   /// Clears the robot's error and ends the own one. A robot that is Idle has no error. If there is
   /// nothing to recover, only a warning is logged. Thread-safe. Not real-time safe.
-  /// @throws franka::Exception if the robot refuses or is not connected
+  /// @throws franka::Exception if the robot refuses or is not connected; nothing has changed then
   void recover();
-  /// Sets what error_recovery does before it recovers. Call it before the first recovery.
+  /// Sets what a recovery does between the end of the robot's error and that of the own one, while
+  /// no motion can begin. Not called if the robot refuses. Call it before the first recovery.
   void beforeRecovery(std::function<void()> task) { before_recovery_ = std::move(task); }
   /// @}
 
@@ -158,6 +160,8 @@ class ArmConnection {
   void lose(const std::string& what);
   void offerRobot();
   void withdrawRobot() noexcept;
+  void dropRobot();
+  void awaitDrop();
   void handleRecovery();
 
   Owner& owner_;
@@ -166,6 +170,8 @@ class ArmConnection {
   std::unique_ptr<franka::Robot> robot_;
   std::atomic_bool waits_for_others_{false};
   std::mutex connection_mutex_;  // held to connect, disconnect or lose; locked before mutex_
+  std::thread drop_thread_;      // drops a lost robot; guarded by connection_mutex_
+  std::atomic_bool dropping_{false};
   std::unique_ptr<Offer> offer_;
   std::function<void()> before_recovery_;
   Reconnection reconnection_;

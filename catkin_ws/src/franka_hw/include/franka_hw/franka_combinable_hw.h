@@ -40,10 +40,13 @@ class FrankaCombinableHW : public FrankaHW {
                    [](const ros::Time&, const ros::Duration&) { return true; }) override;
 
   bool checkForConflict(const std::list<hardware_interface::ControllerInfo>& info) const override;
-  /// As FrankaHW. After init(), refuses to start controllers that command an arm without a
-  /// connection. The original accepts them, and its arm's thread then ends the process.
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                      const std::list<hardware_interface::ControllerInfo>& stop_list) override;
+  /// As FrankaHW. After init(), refuses to start controllers that command an arm without a
+  /// connection. The original accepts them, and its arm's thread then ends the process.
+  bool acceptsSwitch(
+      const std::list<hardware_interface::ControllerInfo>& start_list,
+      const std::list<hardware_interface::ControllerInfo>& stop_list) const override;
 
   void read(const ros::Time& time, const ros::Duration& period) override;
   void write(const ros::Time& time, const ros::Duration& period) override;
@@ -59,11 +62,13 @@ class FrankaCombinableHW : public FrankaHW {
   void waitForOthers(bool waits);
   /// As ArmConnection::recover().
   void resetError();
-  /// Whether the controllers have to be reset, because an error was cleared.
+  /// Whether the controllers have to be reset, because an error was cleared: true for one cycle,
+  /// from the first read() without an error to the next one.
   bool controllerNeedsReset() const noexcept;
 
  protected:
   void initRobot() override;
+  bool supports(ControlMode mode) const override;
   bool setRunFunction(const ControlMode& requested_control_mode, bool limit_rate,
                       double cutoff_frequency, franka::ControllerMode internal_controller) override;
 

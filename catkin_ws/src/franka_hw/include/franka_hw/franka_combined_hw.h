@@ -8,14 +8,20 @@
 #include <franka_msgs/ErrorRecoveryAction.h>
 #include <ros/service_server.h>
 
+#include <functional>
+#include <list>
 #include <memory>
 #include <vector>
 
 namespace franka_hw {
 
-/// Several FrankaCombinableHW as one robot. An error of one arm stops all of them. The action
-/// error_recovery in the namespace of this robot recovers all arms; each arm's own action recovers
-/// that arm.
+/// Several FrankaCombinableHW as one robot. An error of one arm stops all of them, until no arm has
+/// an error. The action error_recovery in the namespace of this robot recovers all arms; each arm's
+/// own action recovers that arm.
+///
+/// read() decides once per cycle whether the arms may move and whether the controllers have to be
+/// reset, so that the two agree for the whole cycle: the first commands after an error are those of
+/// controllers that have been reset. The states are read in every cycle.
 class FrankaCombinedHW : public combined_robot_hw::CombinedRobotHW {
  public:
   FrankaCombinedHW() = default;
@@ -26,15 +32,23 @@ class FrankaCombinedHW : public combined_robot_hw::CombinedRobotHW {
 
   /// Reads all arms, and stops the others if one has an error.
   void read(const ros::Time& time, const ros::Duration& period) override;
+  /// Passes the commands to all arms; does nothing in a cycle that begins with an error of an arm.
+  void write(const ros::Time& time, const ros::Duration& period) override;
 
-  /// Whether the controllers have to be reset, because an error of an arm was cleared.
+  /// As CombinedRobotHW. Asks all arms before it prepares one of them, because a preparation may
+  /// end a motion: a refused switch leaves the motions of all arms as they are.
+  bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
+                     const std::list<hardware_interface::ControllerInfo>& stop_list) override;
+
+  /// Whether the controllers have to be reset in this cycle: the first one without an error of any
+  /// arm after one was cleared.
   bool controllerNeedsReset();
-  /// Whether an arm has an error.
+  /// Whether an arm has an error now.
   bool hasError();
   /// Ends the motions of all arms as if each had an error. Used for errors of controllers.
   void triggerError();
-  /// Sets what the actions error_recovery, of one arm or of all, do before they clear an error.
-  /// Call it before the first recovery.
+  /// Sets what a recovery, of one arm or of all, does before it clears an error
+  /// (ArmConnection::beforeRecovery). Call it before the first recovery.
   void beforeRecovery(const std::function<void()>& task);
 
   /// Connects the arms that are not connected, even if one of them fails.
@@ -52,15 +66,16 @@ class FrankaCombinedHW : public combined_robot_hw::CombinedRobotHW {
 
   void setupServices(ros::NodeHandle& robot_hw_nh);
   void recover();
-  void handleError();
-  bool anyOwnError() const;
+  void stopOthers();
 
   std::vector<FrankaCombinableHW*> arms_;  // owned by robot_hw_list_
   std::unique_ptr<RecoveryServer> recovery_server_;
-  std::function<void()> before_recovery_;
   ros::ServiceServer connect_server_;
   ros::ServiceServer disconnect_server_;
-  std::atomic_bool is_recovering_{false};
+  // Of the controllers' loop: in this cycle.
+  bool stopped_{false};      // it began with an error of an arm
+  bool reset_due_{false};    // an error was cleared, but the controllers were not reset since
+  bool needs_reset_{false};  // the controllers have to be reset
 };
 
 }  // namespace franka_hw

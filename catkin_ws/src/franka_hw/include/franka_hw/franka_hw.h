@@ -123,14 +123,19 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   bool checkForConflict(const std::list<hardware_interface::ControllerInfo>& info) const override;
   void doSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                 const std::list<hardware_interface::ControllerInfo>& stop_list) override;
-  /// Sets the control mode after the switch. A motion that has to change is ended here: waits for
-  /// its end, and refuses the switch after two seconds. A call with the lists exchanged, before
-  /// doSwitch(), cancels the preparation: the motion continues, and its controllers are restarted.
-  /// Controllers are refused, after logging the reason, if they cannot move the robot (no real-time
-  /// priority, which realtime_config enforces) or must not (the robot is not the one in its
-  /// parameters).
+  /// Sets the control mode after the switch. A switch that acceptsSwitch() refuses changes nothing.
+  /// A motion that has to change is ended here: waits for its end, and refuses the switch after two
+  /// seconds. A call with the lists exchanged, before doSwitch(), cancels the preparation: the
+  /// motion continues, and its controllers are restarted.
   bool prepareSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
                      const std::list<hardware_interface::ControllerInfo>& stop_list) override;
+  /// Whether the robot can carry out a switch; changes nothing. Controllers are refused, after
+  /// logging the reason, if they claim what the robot lacks or modes that exclude each other, if
+  /// they cannot move the robot (no real-time priority, which realtime_config enforces) or must not
+  /// (the robot is not the one in its parameters). Not real-time safe.
+  virtual bool acceptsSwitch(
+      const std::list<hardware_interface::ControllerInfo>& start_list,
+      const std::list<hardware_interface::ControllerInfo>& stop_list) const;
 
   /// The controllers' last positions [rad].
   virtual std::array<double, 7> getJointPositionCommand() const noexcept;
@@ -271,6 +276,9 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
       franka::CartesianVelocities& velocity_cartesian_command);
   virtual void setupFrankaModelInterface(franka::RobotState& robot_state);
 
+  /// Whether the robot can run this mode.
+  virtual bool supports(ControlMode mode) const;
+
   /// Selects what control() runs. @returns false for modes that this robot cannot run
   virtual bool setRunFunction(const ControlMode& requested_control_mode, bool limit_rate,
                               double cutoff_frequency, franka::ControllerMode internal_controller);
@@ -286,6 +294,10 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   bool lossIsError() const override { return controllerActive(); }
   void errorEnds() override {}
   /// @}
+
+  /// Whether these lists cancel the preparation under way.
+  bool takesBack(const std::list<hardware_interface::ControllerInfo>& start_list,
+                 const std::list<hardware_interface::ControllerInfo>& stop_list) const;
 
   /// Ends the motion under way and waits for its end. @returns false if it does not end in time
   bool endMotion();
@@ -378,7 +390,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   bool readLimits(size_t joint, joint_limits_interface::JointLimits& limits,
                   joint_limits_interface::SoftJointLimits& soft_limits) const;
   void connectInTime();
-  bool takePreparationBack();
+  void takePreparationBack();
   /// Continues a motion that was ended for a switch.
   void resumePrevious(bool was_active);
 

@@ -43,7 +43,7 @@ class Combined : public testing::Test {
   void cycle() {
     const ros::Time now = ros::Time::now();
     robot_.read(now, ros::Duration(0.001));
-    needed_reset_ = needed_reset_ || robot_.controllerNeedsReset();
+    resets_ += robot_.controllerNeedsReset() ? 1 : 0;
     command("left", 1.5);
     command("right", -2.5);
     robot_.write(now, ros::Duration(0.001));
@@ -59,16 +59,26 @@ class Combined : public testing::Test {
       robot_.get<EffortJointInterface>()->getHandle(joint).setCommand(torque);
     }
   }
-  void start() {
-    const std::list<ControllerInfo> both{claiming("left"), claiming("right")};
-    ASSERT_FALSE(robot_.checkForConflict(both));
-    ASSERT_TRUE(robot_.prepareSwitch(both, {}));
-    robot_.doSwitch(both, {});
+  void start(const std::list<ControllerInfo>& list = {claiming("left"), claiming("right")}) {
+    ASSERT_FALSE(robot_.checkForConflict(list));
+    ASSERT_TRUE(robot_.prepareSwitch(list, {}));
+    robot_.doSwitch(list, {});
   }
-  void stop() {
-    const std::list<ControllerInfo> both{claiming("left"), claiming("right")};
-    ASSERT_TRUE(robot_.prepareSwitch({}, both));
-    robot_.doSwitch({}, both);
+  void stop(const std::list<ControllerInfo>& list = {claiming("left"), claiming("right")}) {
+    ASSERT_TRUE(robot_.prepareSwitch({}, list));
+    robot_.doSwitch({}, list);
+  }
+  /// Runs until both robots have sent so many states more, each of which the handles show in turn.
+  bool statesGoOn(std::uint64_t states = 20) {
+    bool all = true;
+    for (const char* arm : {"left_robot", "right_robot"}) {
+      const franka_hw::FrankaStateHandle handle =
+          robot_.get<franka_hw::FrankaStateInterface>()->getHandle(arm);
+      const franka::RobotState& state = handle.getRobotState();
+      const std::uint64_t end = state.time.toMSec() + states;
+      all = cycleUntil([&] { return state.time.toMSec() >= end; }) && all;
+    }
+    return all;
   }
   static double torqueOf(const FakeArm& arm) { return arm.robot.state().tau_J_d[3]; }
   bool bothMove() {
@@ -92,7 +102,7 @@ class Combined : public testing::Test {
 
   ros::NodeHandle nh_{FakeArm::freshNamespace()};
   FakeArm left_{"left", nh_}, right_{"right", nh_};
-  bool needed_reset_{false};
+  int resets_{0};
   franka_hw::FrankaCombinedHW robot_;
 };
 
@@ -161,19 +171,74 @@ TEST_F(Combined, AnErrorOfOneStopsAllUntilAllAreRecovered) {
   recover();
   EXPECT_TRUE(bothMove());
   EXPECT_FALSE(robot_.hasError());
-  EXPECT_TRUE(needed_reset_) << "the controllers must be reset";
-  EXPECT_FALSE(robot_.controllerNeedsReset()) << "once";
+  EXPECT_EQ(1, resets_);
   EXPECT_EQ(moves + 1, right_.robot.count(Command::kMove));
 }
 
-TEST_F(Combined, RecoveryFromErrorsOfAllArmsResetsTheControllers) {
+TEST_F(Combined, ErrorsOfAllArmsResetTheControllersOnce) {
   start();
   ASSERT_TRUE(bothMove());
-  ASSERT_FALSE(needed_reset_);
-  robot_.triggerError();  // no arm waits for another one
+  ASSERT_EQ(0, resets_);
+  robot_.triggerError();
   recover();
   EXPECT_TRUE(bothMove());
-  EXPECT_TRUE(needed_reset_);
+  EXPECT_EQ(1, resets_);
+}
+
+TEST_F(Combined, ArmsThatRecoverOneAfterAnotherResetTheControllersOnce) {
+  start();
+  int recoveries = 0;
+  for (const std::size_t first : {0, 1}) {
+    SCOPED_TRACE(first);
+    ASSERT_TRUE(bothMove());
+    franka_hw::FrankaCombinableHW* const arm = robot_.arms()[first];
+    franka_hw::FrankaCombinableHW* const other = robot_.arms()[1 - first];
+    const int moves = left_.robot.count(Command::kMove) + right_.robot.count(Command::kMove);
+    arm->triggerError();
+    ASSERT_TRUE(statesGoOn());
+    other->triggerError();  // while it waits for the first one
+    ASSERT_TRUE(statesGoOn());
+    EXPECT_EQ(recoveries, resets_) << "nothing is recovered yet";
+    arm->resetError();
+    ASSERT_TRUE(statesGoOn());
+    EXPECT_TRUE(arm->hasError()) << "it waits for the other one";
+    EXPECT_EQ(recoveries, resets_);
+    EXPECT_EQ(moves, left_.robot.count(Command::kMove) + right_.robot.count(Command::kMove));
+    other->resetError();
+    ASSERT_TRUE(bothMove());
+    ASSERT_TRUE(statesGoOn());
+    EXPECT_EQ(++recoveries, resets_);
+  }
+}
+
+TEST_F(Combined, SwitchesOfOneArmLeaveTheMotionOfTheOther) {
+  const std::list<ControllerInfo> left{claiming("left")}, right{claiming("right")};
+  start(left);
+  ASSERT_TRUE(cycleUntil([&] { return torqueOf(left_) == 1.5; }));
+  const auto expectUndisturbed = [&](const char* what) {
+    SCOPED_TRACE(what);
+    EXPECT_TRUE(statesGoOn());
+    EXPECT_TRUE(robot_.arms()[0]->controllerActive());
+    EXPECT_EQ(1, left_.robot.count(Command::kMove));
+    EXPECT_EQ(1.5, torqueOf(left_));
+    EXPECT_EQ(0, resets_);
+  };
+  start(right);
+  expectUndisturbed("started");
+  ASSERT_TRUE(robot_.prepareSwitch(right, right));
+  robot_.doSwitch(right, right);
+  expectUndisturbed("restarted");
+  stop(right);
+  expectUndisturbed("stopped");
+
+  ASSERT_TRUE(call("right/disconnect").success);
+  EXPECT_FALSE(robot_.prepareSwitch(right, left)) << "there is no right arm";
+  EXPECT_TRUE(robot_.arms()[0]->controllerActive());
+  EXPECT_TRUE(cycleUntil([&, end = left_.robot.state().message_id + 20] {
+    return left_.robot.state().message_id > end;
+  }));
+  EXPECT_EQ(1, left_.robot.count(Command::kMove));
+  EXPECT_EQ(0, resets_);
 }
 
 TEST_F(Combined, TorquesOfTheLastMotionAreNotSentInTheNext) {
@@ -310,7 +375,7 @@ TEST_F(Losing, ConnectReportsEachArm) {
   EXPECT_TRUE(robot_.hasError()) << "it moves again only after a recovery";
   recover();
   EXPECT_TRUE(bothMove());
-  EXPECT_TRUE(needed_reset_);
+  EXPECT_EQ(1, resets_);
 }
 
 TEST_F(Losing, TheOtherGoesOnAloneWhenOneIsGivenUp) {

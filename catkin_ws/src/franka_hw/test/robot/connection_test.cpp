@@ -1,16 +1,22 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The connection, and the services of a robot that rests or moves.
+#include <franka/exception.h>
 #include <franka/extensions.h>
 #include <franka_hw/services.h>
+#include <franka_msgs/ErrorRecoveryActionGoal.h>
 #include <franka_msgs/SetJointImpedance.h>
 #include <franka_msgs/SetLoad.h>
 #include <gtest/gtest.h>
+
+#include <future>
 
 #include "support.h"
 
 namespace franka_hw_test {
 namespace {
+
+constexpr std::chrono::seconds kDeadline{30};
 
 class Connection : public testing::Test {
  protected:
@@ -90,6 +96,52 @@ TEST(ReadPatiently, GivesUpARestingRobotAfterThreeAttemptsOrSeconds) {
   EXPECT_EQ(3, attempts);
   EXPECT_FALSE(isRead(1, std::chrono::milliseconds(5000)));
   EXPECT_EQ(1, attempts);
+}
+
+TEST_F(Connection, ARefusedRecoveryStopsNoController) {
+  franka_hw::ArmConnection& connection = robot_.armConnection();
+  int tasks = 0;
+  connection.beforeRecovery([&] { tasks++; });
+  arm_.robot.change([](auto& state) { state.robot_mode = franka_core::RobotMode::kUserStopped; });
+  arm_.robot.script([](auto& script) {
+    script.replies[Command::kAutomaticErrorRecovery] =
+        franka_core::fci::Status::kCommandNotPossibleRejected;
+  });
+  connection.fail();
+  EXPECT_THROW(connection.recover(), franka::CommandException);
+  EXPECT_EQ(0, tasks);
+  EXPECT_TRUE(connection.hasOwnError());
+  arm_.robot.script([](auto& script) { script.replies.clear(); });
+  EXPECT_NO_THROW(connection.recover());
+  EXPECT_EQ(1, tasks);
+  EXPECT_FALSE(connection.hasOwnError());
+}
+
+TEST_F(Connection, LossDoesNotWaitForARecoveryUnderWay) {
+  franka_hw::ArmConnection& connection = robot_.armConnection();
+  std::promise<void> begins, ends;
+  connection.beforeRecovery([&, end = ends.get_future().share()] {
+    begins.set_value();
+    end.wait();  // for the loop, as for a switch of controllers
+  });
+  connection.offer(arm_.robot_nh, arm_.arm_id);
+  connection.fail();
+  ros::Publisher goal = arm_.robot_nh.advertise<franka_msgs::ErrorRecoveryActionGoal>(
+      "error_recovery/goal", 1);
+  ASSERT_TRUE(eventually([&] { return goal.getNumSubscribers() > 0; }));
+  goal.publish(franka_msgs::ErrorRecoveryActionGoal());
+  ASSERT_EQ(std::future_status::ready, begins.get_future().wait_for(kDeadline));
+
+  arm_.robot.script([](auto& script) { script.fatal = {Command::kSetLoad}; });
+  EXPECT_THROW(robot_.robot().setLoad(0.0, {}, {}), franka::NetworkException);
+  auto loop = std::async(std::launch::async, [&] { return connection.readAtRest(); });
+  EXPECT_EQ(std::future_status::ready, loop.wait_for(kDeadline));
+  EXPECT_EQ(franka_hw::ArmState::kLostInError, connection.state());
+  ends.set_value();
+  EXPECT_FALSE(loop.get());
+  connection.connect();
+  EXPECT_TRUE(connection.connected());
+  EXPECT_TRUE(connection.hasOwnError()) << "the recovery was one of the lost robot";
 }
 
 TEST_F(Connection, RunsTheServicesOfARestingRobot) {

@@ -99,8 +99,10 @@ TEST_F(Switching, OneCallMayStopAndStartTheSameController) {
   ASSERT_TRUE(loop_->switchTo({"JP"}, {}));
   expectRuns("JP");
   const int starts = loop_->controller("JP").starts;
+  const int motions = arm_.robot.count(Command::kMove);
   ASSERT_TRUE(loop_->switchTo({"JP"}, {"JP"}));
   expectRuns("JP");
+  EXPECT_EQ(motions + 1, arm_.robot.count(Command::kMove)) << "it starts at rest";
   EXPECT_EQ(starts + 1, loop_->controller("JP").starts);
   EXPECT_EQ(1, loop_->controller("JP").stops);
 }
@@ -150,6 +152,18 @@ TEST_F(Switching, ASwitchThatNeverComesLeavesTheMotionAsItWas) {
   }
   ASSERT_TRUE(loop_->switchTo({"JV"}, {"JP"}));
   expectRuns("JV");
+}
+
+TEST_F(Switching, ARefusedSwitchLeavesTheMotionAsItIs) {
+  ASSERT_TRUE(loop_->switchTo({"JP"}, {}));
+  expectRuns("JP");
+  loop_->controller("JV");
+  // The manager would not ask: it finds the conflict first.
+  EXPECT_FALSE(robot_.prepareSwitch({loop_->info("JV")}, {}));
+  EXPECT_TRUE(robot_.controllerActive());
+  expectRuns("JP");
+  EXPECT_EQ(1, loop_->controller("JP").starts);
+  EXPECT_EQ(1, arm_.robot.count(Command::kMove));
 }
 
 TEST_F(Switching, WithdrawingTheFirstStartLeavesTheRobotAtRest) {
