@@ -60,7 +60,7 @@ class Group:
 
     def __init__(self, items):
         config = items[0].config
-        # Its plugin imports all of hypothesis at the end, which takes seconds; none of these tests uses it.
+        # Its plugin imports all of hypothesis at the end, which takes seconds; none of these tests needs it.
         command = [sys.executable, "-m", "pytest", "-q", "-p", "no:hypothesispytest"]
         command += [f"--rootdir={config.rootpath}"]
         command += [f"--capture={config.option.capture}", f"--timeout={config.getoption('timeout') or 0}"]

@@ -1,0 +1,523 @@
+# Copyright (c) 2026 the franka_ros for Debian authors
+# SPDX-License-Identifier: Apache-2.0
+"""Sequences of steps on cells of several arms: in the simulation's process, and on two arms of hardware.
+
+What a step does not name keeps its mode, motion and rate. A refused call changes nothing. No controller runs
+without effect, and the states never end. A stop is pressed while any of its sources is.
+"""
+
+import pytest
+import state_machines
+from cell import ARMS, GRIPPER, MOTIONS, MOVE, REFLEX, START, STATE, USER_STOPPED, controller, started_cell
+from control_nodes import SUCCEEDED, ControlNode, arms_and_launch
+from controller_manager_msgs.srv import LoadController, UnloadController
+from franka_msgs.srv import SetLoad
+from franka_sim_mujoco.srv import (
+    DeleteObject,
+    DeleteRobot,
+    PushBody,
+    RestoreSnapshot,
+    SetBodyPose,
+    SetJointStates,
+    SpawnObject,
+    SpawnRobot,
+    TakeSnapshot,
+)
+from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
+from hypothesis import strategies as st
+from hypothesis.stateful import initialize, invariant, precondition, rule
+from ros_client import call, launched
+from waiting import holds, wait_for
+
+PATIENCE_FOR_STATES = 10.0  # [s] of the robots' time
+BRAKING = 500  # [ticks] after which an arm rests, and its brakes have opened
+SOURCES = ("service", "user_stop", "input x31", "input x32", "input x33")  # of the served robot's stop
+HORIZON = 900  # [ticks] of the motions without any step
+# How far motions without steps may differ [rad, rad/s]: by the last bits of fingers' constraints, whose
+# solver couples all robots of a world; and more once a spawn has changed its scales.
+SAME, SAME_AFTER_SPAWN = 1e-7, 1e-4
+FORMATIONS = (
+    {"left": "position", "right": "velocity", "solo": "twist"},
+    {"left": "velocity", "right": "pose", "solo": "position"},
+    {"left": "torque", "right": "torque", "solo": "velocity"},
+    {"left": None, "right": "position", "solo": "torque"},
+)
+NAMES = st.sampled_from(list(ARMS))
+KINDS = st.sampled_from(list(MOTIONS))
+FAR = Pose(position=Point(x=0, y=9, z=1), orientation=Quaternion(w=1))
+BOX = (
+    "<mujoco><worldbody><body name='{}'><freejoint/><geom type='box' size='.1 .1 .1' mass='1'/></body>"
+    "</worldbody></mujoco>"
+)
+
+
+def load_of(mass: float) -> dict:
+    return {
+        "mass": mass,
+        "F_x_center_load": [0, 0, 0.05],
+        "load_inertia": [1e-3, 0, 0, 0, 1e-3, 0, 0, 0, 1e-3],
+    }
+
+
+def world(service: str, kind, **fields) -> bool:
+    return call(f"/gazebo/{service}", kind, **fields).success
+
+
+# Requests that are refused, whatever the arm does. Each says whether it succeeded.
+OF_ARM = {
+    "a place of an unknown joint": lambda c, a: a.place(["nobody"], [0.1]).success,
+    "a place beyond a limit": lambda c, a: a.place([a.joints[3]], [9.0]).success,
+    "a place with too many positions": lambda c, a: a.place([a.joints[3]], [-2.0, -2.1]).success,
+    "a place of nothing": lambda c, a: a.place([], []).success,
+    "a load that is too heavy": lambda c, a: a.set_load(**load_of(100.0)).success,
+    "a load of no number": lambda c, a: a.set_load(**load_of(float("nan"))).success,
+    "a frame that is none": lambda c, a: a.set_EE_frame([0.0] * 16).success,
+}
+OF_MANAGER = {
+    "an unknown controller": lambda c, a: c.switch(a.name, start=["nothing"]),
+    "two controllers of one kind of motion": lambda c, a: c.switch(a.name, start=["position", "velocity"]),
+    "a stop of an unknown controller": lambda c, a: c.switch(a.name, stop=["nothing"]),
+    "a start and an unknown stop": lambda c, a: c.switch(a.name, start=["torque"], stop=["nothing"]),
+    "a controller without parameters": lambda c, a: (
+        call(f"{a.namespace}/controller_manager/load_controller", LoadController, "nothing").ok
+    ),
+    "a second controller of a name": lambda c, a: (
+        call(
+            f"{a.namespace}/controller_manager/load_controller", LoadController, controller(a.name, STATE)
+        ).ok
+    ),
+    "an unload of a running controller": lambda c, a: (
+        call(
+            f"{a.namespace}/controller_manager/unload_controller", UnloadController, controller(a.name, STATE)
+        ).ok
+    ),
+}
+OF_WORLD = {
+    "a robot that is there": lambda c, a: world(
+        "spawn_robot", SpawnRobot, name="duo", urdf="<robot name='duo'/>"
+    ),
+    "a robot that is none": lambda c, a: world("spawn_robot", SpawnRobot, name="more", urdf="<robot"),
+    "an object that is none": lambda c, a: world("spawn_object", SpawnObject, name="more", xml="<mujoco>"),
+    "the end of an unknown robot": lambda c, a: world("delete_robot", DeleteRobot, name="nobody"),
+    "the end of an unknown object": lambda c, a: world("delete_object", DeleteObject, name="nothing"),
+    "a body's place that it cannot have": lambda c, a: world(
+        "set_body_pose", SetBodyPose, body=f"{a.name}_link3", pose=FAR
+    ),
+    "a push of nothing": lambda c, a: world("push_body", PushBody, body="nothing", ticks=5),
+    "joint states of nobody": lambda c, a: world(
+        "set_joint_states", SetJointStates, names=[a.joints[0], "nobody"], positions=[0.1, 0.1]
+    ),
+    "an unknown snapshot": lambda c, a: world("restore_snapshot", RestoreSnapshot, name="never taken"),
+}
+
+
+def some_of(requests: dict):
+    return st.lists(st.sampled_from(list(requests)), min_size=1, max_size=4)
+
+
+class CellMachine(state_machines.Machine):
+    """Steps on the cell. Arms that none has named are on their reference, which is a run without steps."""
+
+    cell = None
+    references: dict[int, dict] = {}
+    threads = 0
+
+    @initialize(formation=st.integers(0, len(FORMATIONS) - 1))
+    def start(self, formation):
+        self.kinds = FORMATIONS[formation]
+        self.sources = {}
+        for source in SOURCES:
+            self.press_served(source, False)
+        for name, arm in self.cell.arms.items():
+            self.bring_home(name, arm)
+        self.cell.reset()
+        self.cell.step(BRAKING)  # what the last sequence has left in filters and hands
+        if formation not in self.references:
+            self.cell.reset()
+            self.references[formation] = self.record()
+        self.reference = self.references[formation]
+        self.cell.reset()
+        self.running = {
+            name: {STATE, GRIPPER} | ({kind} if kind else set()) for name, kind in self.kinds.items()
+        }
+        self.tolerance = SAME
+        self.named, self.stopped, self.apart, self.unrecovered = set(), set(), set(), set()
+        self.check_threads()
+
+    def press_served(self, source: str, on: bool) -> None:
+        """Presses or releases a stop of the served robot, by its service or by a line."""
+        if source == "service":
+            assert self.cell.stop_served(on).success
+        else:
+            self.cell.operator.send(f"{source} {'on' if on else 'off'}")
+        self.sources[source.replace("service", "user_stop")] = on
+
+    def bring_home(self, name, arm) -> None:
+        """As after the launch, with the controllers of the formation."""
+        arm.set_user_stop(False)
+        arm.connect()
+        running = self.cell.running()[name]
+        assert self.cell.switch(name, stop=running & set(MOTIONS))
+        self.cell.step(BRAKING)
+        self.cell.reset()
+        assert self.cell.recover(name)
+        arm.set_load(**load_of(0.0))
+        kind = self.kinds[name]
+        missing = ({STATE, GRIPPER} | ({kind} if kind else set())) - (running - set(MOTIONS))
+        assert self.cell.switch(name, start=missing), (name, missing)
+
+    def record(self) -> dict:
+        """The positions of each tick without any step."""
+        positions = {}
+        for _ in range(HORIZON):
+            self.cell.step(1)
+            positions[self.cell.age] = self.cell.positions()
+        return positions
+
+    def check_threads(self) -> None:
+        """They may grow in the first sequences, when all that a process uses has been used once."""
+        threads = self.cell.threads
+        if self.sequences == 10:
+            type(self).threads = threads
+        assert self.sequences <= 10 or threads <= self.threads + 4, "threads grow"
+
+    def name(self, arm: str) -> None:
+        """The present step may change the motion of this arm."""
+        self.named.add(arm)
+
+    @precondition(lambda self: self.cell.age < HORIZON)
+    @rule(ticks=st.sampled_from([1, 5, 30, 100]))
+    def step(self, ticks):
+        self.begins_step()
+        self.cell.step(ticks)
+
+    def check_refused(self, table: dict, requests: list[str], arm: str) -> None:
+        """The next ticks of an arm on its reference show whether anything has changed."""
+        arm = arm if arm not in self.named else next((a for a in ARMS if a not in self.named), arm)
+        for request in requests:
+            assert not table[request](self.cell, self.cell.arms[arm]), f"{request} was accepted."
+        self.cell.step(3)
+
+    @rule(arm=NAMES, requests=some_of(OF_ARM))
+    def refused_by_the_arm(self, arm, requests):
+        self.begins_step()
+        self.check_refused(OF_ARM, requests, arm)
+
+    @rule(arm=NAMES, requests=some_of(OF_MANAGER))
+    def refused_by_the_controller_manager(self, arm, requests):
+        self.begins_step()
+        self.check_refused(OF_MANAGER, requests, arm)
+
+    @rule(arm=NAMES, requests=some_of(OF_WORLD))
+    def refused_by_the_world(self, arm, requests):
+        self.begins_step()
+        self.check_refused(OF_WORLD, requests, arm)
+
+    @rule(arm=NAMES, start=st.sets(KINDS, max_size=2), stop=st.booleans())
+    def switch(self, arm, start, stop):
+        """Controllers that run may be stopped with it."""
+        self.begins_step()
+        stopped = self.running[arm] & set(MOTIONS) if stop else set()
+        if self.cell.switch(arm, start, stopped):
+            self.running[arm] = (self.running[arm] - stopped) | start
+            if start or stopped:
+                self.name(arm)
+            if start and arm not in self.stopped:
+                self.unrecovered.discard(arm)
+
+    @rule(arm=NAMES)
+    def switch_gripper(self, arm):
+        self.begins_step()
+        on = GRIPPER not in self.running[arm]
+        assert self.cell.switch(arm, [GRIPPER] * on, [GRIPPER] * (not on))
+        self.running[arm] ^= {GRIPPER}
+        self.name(arm)
+
+    @rule(arm=NAMES, position=st.sampled_from([START[3], -2.0]))
+    def place(self, arm, position):
+        self.begins_step()
+        request = self.cell.arms[arm]
+        answer = self.cell.during_steps(lambda: request.place([request.joints[3]], [position]))
+        assert answer.success, answer.error
+        self.name(arm)
+
+    @rule(arm=NAMES, pressed=st.booleans())
+    def press_user_stop(self, arm, pressed):
+        self.begins_step()
+        if pressed != (arm in self.stopped):
+            self.name(arm)
+            self.unrecovered.add(arm)
+        assert self.cell.arms[arm].set_user_stop(pressed).success
+        (self.stopped.add if pressed else self.stopped.discard)(arm)
+
+    @rule(arm=NAMES)
+    def recover(self, arm):
+        self.begins_step()
+        recovered = self.cell.recover(arm)
+        assert not recovered or arm not in self.stopped
+        if recovered:
+            self.unrecovered.discard(arm)
+            self.name(arm)
+
+    @rule(arm=NAMES, connected=st.booleans())
+    def connect(self, arm, connected):
+        self.begins_step()
+        request = self.cell.arms[arm]
+        answer = (request.connect if connected else request.disconnect)()
+        possible = (arm in self.apart) if connected else arm not in self.apart and not self.commanded(arm)
+        assert answer.success == possible, answer.message
+        if answer.success:
+            (self.apart.discard if connected else self.apart.add)(arm)
+            self.name(arm)
+
+    def commanded(self, arm: str) -> set[str]:
+        return self.running[arm] & set(MOTIONS)
+
+    @rule(arm=NAMES, mass=st.sampled_from([0.0, 0.4]))
+    def set_load(self, arm, mass):
+        self.begins_step()
+        if self.cell.arms[arm].set_load(**load_of(mass)).success:
+            self.name(arm)
+
+    @rule(arm=NAMES, force=st.sampled_from([1.0, 300.0]))
+    def push(self, arm, force):
+        self.begins_step()
+        assert world("push_body", PushBody, body=f"{arm}_link6", force=Vector3(x=force), ticks=30)
+        self.name(arm)
+
+    @rule(presses=st.lists(st.tuples(st.sampled_from(SOURCES), st.booleans()), min_size=1, max_size=5))
+    def press_stops_of_the_served_robot(self, presses):
+        self.begins_step()
+        for source, on in presses:
+            self.press_served(source, on)
+            mode = self.cell.operator.state().mode
+            pressed = [name for name, is_on in self.sources.items() if is_on]
+            assert mode == "User stopped" or not pressed, f"{mode}, although these are pressed: {pressed}"
+
+    @rule()
+    def take_a_snapshot(self):
+        self.begins_step()
+        assert world("take_snapshot", TakeSnapshot, name="one")
+
+    @rule()
+    def spawn_and_delete_an_object(self):
+        self.begins_step()
+        self.tolerance = SAME_AFTER_SPAWN
+        answer = call("/gazebo/spawn_object", SpawnObject, name="box", xml=BOX.format("box"), pose=FAR)
+        assert answer.success, answer.error
+        self.cell.step(3)
+        assert world("delete_object", DeleteObject, name="box")
+
+    @rule()
+    def watch(self):
+        """What the states say of each arm."""
+        self.begins_step()
+        self.cell.fresh_states()
+        for name, arm in self.cell.arms.items():
+            mode = arm.state.robot_mode
+            if mode == REFLEX:
+                assert name in self.named, f"{name}: a reflex without a step"
+                self.unrecovered.add(name)
+            stands = f"{name} is in mode {mode}; {self.running[name]} run"
+            assert (mode == USER_STOPPED) == (name in self.stopped), stands
+            if not {name} & (self.stopped | self.apart | self.unrecovered):
+                assert (mode == MOVE) == bool(self.commanded(name)), stands
+
+    @invariant()
+    def all_that_was_not_named_is_as_before(self):
+        if not hasattr(self, "reference"):
+            return
+        assert self.cell.running() == self.running
+        expected = self.reference.get(self.cell.age)
+        if expected is None:
+            return
+        for name, positions in self.cell.positions().items():
+            if name not in self.named:
+                deviation = max(abs(a - b) for a, b in zip(positions, expected[name]))
+                assert deviation <= self.tolerance, (
+                    f"{name} deviates by {deviation} after {self.cell.age} ticks"
+                )
+
+
+@pytest.fixture(scope="module")
+def cell(tmp_path_factory):
+    with started_cell(tmp_path_factory.mktemp("cell")) as started:
+        CellMachine.cell = started
+        yield CellMachine
+
+
+@pytest.mark.own_process
+def test_steps_on_arms_in_the_simulation_change_what_they_name(cell):
+    state_machines.run(cell, sequences=30, steps=15, random=False)
+
+
+@pytest.mark.own_process
+@pytest.mark.long_form("other sequences each time")
+def test_random_steps_on_arms_in_the_simulation(cell):
+    state_machines.run(cell, sequences=1000, steps=40, random=True)
+
+
+CONTROLLER = "effort_joint_trajectory_controller"  # of all joints of both arms
+SIDES = st.integers(0, 1)
+
+
+class NodeMachine(state_machines.Machine):
+    """Steps on franka_combined_control_node, whose two simulated robots run by themselves.
+
+    Both arms wait while one has an error of its own, because one controller moves them.
+    """
+
+    node = None
+
+    @initialize()
+    def start(self):
+        arms = self.node.arms
+        for arm in arms:
+            for source in ("user_stop", "input x4"):
+                arm.operator.send(f"{source} off")
+            arm.operator.wait(lambda state: state.mode != "User stopped")
+        if CONTROLLER in self.node.controllers.running():
+            self.node.controllers.stop(CONTROLLER)
+        self.node.recover()
+        self.node.wait_until_all_are("idle")
+        arms[0].operator.reset()
+        self.node.controllers.start(CONTROLLER)
+        self.runs = True
+        self.pressed = {arm.name: set() for arm in arms}
+        self.failed, self.needy = set(), set()  # a motion was aborted; only the robot is in error
+        self.check()
+
+    def check(self) -> None:
+        """What holds after each step, as soon as it has been noticed."""
+        arms = self.node.arms
+        for arm in arms:
+            mode = arm.operator.state().mode
+            stopped = mode in ("User stopped", "Other")
+            assert stopped == bool(self.pressed[arm.name]), f"{arm.name}: {mode}, {self.pressed[arm.name]}"
+        self.check_that_states_go_on()
+        assert (CONTROLLER in self.node.controllers.running()) == self.runs
+        error = bool(self.failed)
+        if error or not self.needy:
+            wait_for(lambda: all(arm.has_error == error for arm in arms), f"The error of both arms: {error}")
+        if not error and not self.needy:
+            self.node.wait_until_all_are("moving" if self.runs else "idle")
+
+    def check_that_states_go_on(self) -> None:
+        """Measured in the time of the robots."""
+        arms = self.node.arms
+        before = [arm.states for arm in arms]
+        end = arms[0].operator.time + PATIENCE_FOR_STATES
+
+        def ended():
+            return all(arm.states > n + 1 for arm, n in zip(arms, before)) or arms[0].operator.time > end
+
+        assert holds(ended)
+        silent = [arm.name for arm, n in zip(arms, before) if arm.states <= n]
+        assert not silent, f"The states of {', '.join(silent)} have ended."
+
+    def stops(self, name: str) -> None:
+        """An arm stops, which is an error if it moves."""
+        moves = self.runs and not self.failed and not self.needy
+        if name not in self.failed:
+            (self.failed if moves else self.needy).add(name)
+
+    @rule(sides=st.sampled_from([(0,), (1,), (0, 1)]), recovered=st.none() | SIDES)
+    def push(self, sides, recovered):
+        """Arms that are not stopped have a reflex; then one arm may be recovered."""
+        self.begins_step()
+        for arm in (self.node.arms[side] for side in sides):
+            if not self.pressed[arm.name]:
+                arm.push()
+                arm.operator.wait(lambda state: state.mode == "Reflex")
+                arm.wait_for_end_of_push()
+                self.stops(arm.name)
+        self.check()
+        if recovered is not None:
+            self.recover(self.node.arms[recovered])
+
+    @rule(side=SIDES, source=st.sampled_from(["user_stop", "input x4"]), on=st.booleans())
+    def press(self, side, source, on):
+        self.begins_step()
+        arm, other = self.node.arms[side], self.node.arms[1 - side]
+        before = other.operator.report()
+        arm.operator.send(f"{source} {'on' if on else 'off'}")
+        if on:
+            self.stops(arm.name)
+        (self.pressed[arm.name].add if on else self.pressed[arm.name].discard)(source)
+        if not self.pressed[arm.name]:
+            arm.operator.wait(lambda state: state.mode != "User stopped")
+        after = other.operator.report()
+        assert (after.inputs, after.fci, after.brakes) == (before.inputs, before.fci, before.brakes)
+        self.check()
+
+    @rule(side=SIDES)
+    def lose_and_connect_again(self, side):
+        self.begins_step()
+        arm = self.node.arms[side]
+        if arm.name in self.failed | self.needy:
+            return  # whether it is in error after that depends on when it was lost
+        arm.operator.deactivate_fci()
+        self.check_that_states_go_on()
+        arm.operator.activate_fci()
+        wait_for(lambda: self.node.trigger("connect")[0], f"A connection with {arm.name}")
+        self.stops(arm.name)
+        self.check()
+
+    @rule(side=SIDES)
+    def recover_one(self, side):
+        self.begins_step()
+        self.recover(self.node.arms[side])
+
+    def recover(self, arm) -> None:
+        done = arm.recover() == SUCCEEDED
+        if self.pressed[arm.name]:
+            assert not done or arm.name not in self.failed, "recovered in spite of its stop"
+        else:
+            assert done, f"{arm.name} was not recovered."
+            self.failed.discard(arm.name)
+            self.needy.discard(arm.name)
+        self.check()
+
+    @rule()
+    def recover_all(self):
+        self.begins_step()
+        self.node.recover()
+        self.failed = {name for name in self.failed if self.pressed[name]}
+        self.needy = {name for name in self.needy if self.pressed[name]}
+        self.check()
+
+    @rule(start=st.booleans())
+    def switch(self, start):
+        self.begins_step()
+        names = [CONTROLLER]
+        if self.node.controllers.switches(**({"start": names} if start else {"stop": names})):
+            self.runs = start
+        self.check()
+
+    @rule(side=SIDES)
+    def refused(self, side):
+        self.begins_step()
+        assert not self.node.controllers.switches(start=["nothing"])
+        assert not call(self.node.arms[side].service("set_load"), SetLoad, **load_of(100.0)).success
+        self.check()
+
+
+@pytest.fixture(scope="module")
+def node(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("node")
+    arms, launch = arms_and_launch("panda", 2, 61, folder)
+    with launched(*launch, "sim:=true", "realism:=ideal", log=folder / "launch.log"):
+        NodeMachine.node = ControlNode(arms)
+        NodeMachine.node.controllers.load(CONTROLLER)
+        yield NodeMachine
+
+
+@pytest.mark.own_process
+def test_steps_on_two_arms_of_hardware_change_what_they_name(node):
+    state_machines.run(node, sequences=12, steps=12, random=False, shrink=False)
+
+
+@pytest.mark.own_process
+@pytest.mark.long_form("other sequences each time")
+def test_random_steps_on_two_arms_of_hardware(node):
+    state_machines.run(node, sequences=100, steps=20, random=True, shrink=False)
