@@ -207,8 +207,7 @@ bool FrankaCombinableHW::acceptsSwitch(
   ResourceWithClaimsMap resources = getResourceMap(start_list);
   ArmClaimedMap claims;
   if (initialized_ && !connection_.connected() && !takesBack(start_list, stop_list) &&
-      getArmClaimedMap(resources, claims) &&
-      getControlMode(arm_id_, claims) != ControlMode::None) {
+      getArmClaimedMap(resources, claims) && getControlMode(arm_id_, claims) != ControlMode::None) {
     ROS_ERROR_STREAM("FrankaCombinableHW: no controller can command '"
                      << arm_id_ << "', which is not connected. Call its service connect first.");
     return false;

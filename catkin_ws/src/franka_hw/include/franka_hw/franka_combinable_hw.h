@@ -44,9 +44,8 @@ class FrankaCombinableHW : public FrankaHW {
                      const std::list<hardware_interface::ControllerInfo>& stop_list) override;
   /// As FrankaHW. After init(), refuses to start controllers that command an arm without a
   /// connection. The original accepts them, and its arm's thread then ends the process.
-  bool acceptsSwitch(
-      const std::list<hardware_interface::ControllerInfo>& start_list,
-      const std::list<hardware_interface::ControllerInfo>& stop_list) const override;
+  bool acceptsSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
+                     const std::list<hardware_interface::ControllerInfo>& stop_list) const override;
 
   void read(const ros::Time& time, const ros::Duration& period) override;
   void write(const ros::Time& time, const ros::Duration& period) override;

@@ -133,9 +133,8 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   /// logging the reason, if they claim what the robot lacks or modes that exclude each other, if
   /// they cannot move the robot (no real-time priority, which realtime_config enforces) or must not
   /// (the robot is not the one in its parameters). Not real-time safe.
-  virtual bool acceptsSwitch(
-      const std::list<hardware_interface::ControllerInfo>& start_list,
-      const std::list<hardware_interface::ControllerInfo>& stop_list) const;
+  virtual bool acceptsSwitch(const std::list<hardware_interface::ControllerInfo>& start_list,
+                             const std::list<hardware_interface::ControllerInfo>& stop_list) const;
 
   /// The controllers' last positions [rad].
   virtual std::array<double, 7> getJointPositionCommand() const noexcept;

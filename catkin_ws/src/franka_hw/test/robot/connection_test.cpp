@@ -126,8 +126,8 @@ TEST_F(Connection, LossDoesNotWaitForARecoveryUnderWay) {
   });
   connection.offer(arm_.robot_nh, arm_.arm_id);
   connection.fail();
-  ros::Publisher goal = arm_.robot_nh.advertise<franka_msgs::ErrorRecoveryActionGoal>(
-      "error_recovery/goal", 1);
+  ros::Publisher goal =
+      arm_.robot_nh.advertise<franka_msgs::ErrorRecoveryActionGoal>("error_recovery/goal", 1);
   ASSERT_TRUE(eventually([&] { return goal.getNumSubscribers() > 0; }));
   goal.publish(franka_msgs::ErrorRecoveryActionGoal());
   ASSERT_EQ(std::future_status::ready, begins.get_future().wait_for(kDeadline));

@@ -94,7 +94,6 @@ TEST_F(Switching, PrepareAndDoReachEveryMember) {
   EXPECT_EQ("", text(*left_.last_stop));
   EXPECT_EQ("both(e: r1;)", text(*right_.last_start));
   EXPECT_EQ("old(e: r2;)", text(*right_.last_stop));
-
 }
 
 TEST_F(Switching, MembersWithoutAPartHearNothing) {
