@@ -109,7 +109,6 @@ void HostedRobots::reportPublished() {
 // that has not answered gets no new state; it must answer the last one.
 void HostedRobots::publishWhileWaiting(Clock::time_point now) {
   for (Entry& entry : entries_) {
-    HostedRobot& robot = *entry.robot;
     if (entry.isStarting()) {
       // Before its first command a client receives states without answering them.
       if (now - entry.shown_at >=
