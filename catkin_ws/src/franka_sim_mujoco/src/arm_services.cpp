@@ -235,6 +235,7 @@ void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request&
                              std::to_string(request.joint_positions.size()) + " positions.");
   }
   std::vector<std::string> complaints;
+  bool moved = false;
   between_ticks_([&] {
     std::vector<std::size_t> possible;
     for (std::size_t i = 0; i < names.size(); ++i) {
@@ -248,6 +249,7 @@ void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request&
     if (possible.empty()) {
       return;  // nothing changes: no motion may end
     }
+    moved = moves();
     for (const std::size_t i : possible) {
       place_joint_.place(names[i], request.joint_positions[i]);
     }
@@ -264,7 +266,8 @@ void ArmServices::placeJoints(const franka_msgs::SetJointConfiguration::Request&
   if (complaints.size() == names.size()) {
     throw std::runtime_error("No joint could be moved. " + complaints.front());
   }
-  if (restart_controllers_) {
+  // Controllers that a user stop or an error has disconnected wait for the recovery.
+  if (moved && restart_controllers_) {
     switchArmControllers(true);
   }
 }
