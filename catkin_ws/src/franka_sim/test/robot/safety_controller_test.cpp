@@ -89,6 +89,31 @@ TEST_P(SafetyTest, BrakesOpenOneAfterTheOther) {
   EXPECT_FALSE(safety.busy());
 }
 
+// Also before the first brake has moved.
+TEST_P(SafetyTest, TheLastOfLockAndUnlockCounts) {
+  for (const int ticks : {0, 1, 15, 69}) {
+    ASSERT_EQ(Refusal::kNone, safety.unlock());
+    tick(ticks);
+    safety.lock();
+    settle();
+    tick(3);
+    EXPECT_EQ(7, closedBrakes()) << ticks;
+    EXPECT_TRUE(brakesAreLocked()) << ticks;
+
+    ASSERT_EQ(Refusal::kNone, safety.unlock());
+    settle();
+    safety.lock();
+    tick(ticks);
+    EXPECT_EQ(Refusal::kNone, safety.unlock());
+    settle();
+    tick(3);
+    EXPECT_EQ(0, closedBrakes()) << ticks;
+    EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode) << ticks;
+    safety.lock();
+    settle();
+  }
+}
+
 TEST_P(SafetyTest, StartsLockedAndFciNeedsOpenBrakes) {
   EXPECT_EQ(7, closedBrakes());
   EXPECT_EQ(RobotMode::kOther, unit.state().robot_mode);

@@ -97,7 +97,8 @@ Refusal SafetyController::unlock() noexcept {
   }
   if (!hasDeskRules()) {
     unit_->request(Brakes{false});
-  } else if (brakesClosed() && brakes_ != BrakeMotion::kOpening) {
+  } else if (brakes_ == BrakeMotion::kClosing ||
+             (brakesClosed() && brakes_ == BrakeMotion::kNone)) {
     moveBrakes(BrakeMotion::kOpening);
   }
   return Refusal::kNone;
@@ -116,7 +117,8 @@ void SafetyController::closeBrakes() noexcept {
   unit_->request(Brakes{true});
   const bool all = std::all_of(state_.brakes_closed.begin(), state_.brakes_closed.end(),
                                [](bool closed) { return closed; });
-  if (hasDeskRules() && !all && brakes_ != BrakeMotion::kClosing) {
+  const bool wanted = brakes_ == BrakeMotion::kOpening || (!all && brakes_ == BrakeMotion::kNone);
+  if (hasDeskRules() && wanted) {
     moveBrakes(BrakeMotion::kClosing);
   }
 }
