@@ -57,8 +57,10 @@ const CollisionThresholds& MotionSupervisor::beginTick() noexcept {
 void MotionSupervisor::checkState(const std::array<double, 7>& motor_torques) noexcept {
   const Estimate& estimate = estimator_->estimate();
   if (estimate.first) {
-    // The stored poses of the present mode become the present pose.
+    // The stored poses of the present mode become the present pose. The arm rests: a stop since the
+    // restart is complete.
     holdPosition();
+    answers_.atRest();
     guideFromHere();
     if (isMoving()) {
       safety_.motionBegins();
@@ -164,11 +166,7 @@ void MotionSupervisor::advanceBrakes() noexcept {
     return;
   }
   brakes_.step(rests());
-  if (mode() == RobotMode::kUserStopped && !operator_.user_stop) {
-    leaveStop(ModeEvent::kUserStopReleased);
-  } else if (mode() == RobotMode::kOther && !operator_.close_brakes) {
-    leaveStop(ModeEvent::kBrakesOpened);
-  }
+  leaveReleasedStop();
 }
 
 bool MotionSupervisor::rests() const noexcept {

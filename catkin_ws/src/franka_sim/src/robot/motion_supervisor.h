@@ -195,6 +195,7 @@ class MotionSupervisor {
   void brake(RestSequence& rest) const noexcept;
   void stopAndClose() noexcept;
   void leaveStop(ModeEvent event) noexcept;
+  void leaveReleasedStop() noexcept;
   void holdPosition() noexcept;
   void guideFromHere() noexcept;
   void writeModes() noexcept;

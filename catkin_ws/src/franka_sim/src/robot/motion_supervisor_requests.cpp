@@ -242,6 +242,7 @@ void MotionSupervisor::restart() noexcept {
   clearMotionData();
   law_switch_ = LawSwitch::kNone;
   brakes_.restart(modes_.closesBrakes());
+  leaveReleasedStop();
 }
 
 // --- transitions ---------------------------------------------------------------------------------
@@ -353,6 +354,15 @@ void MotionSupervisor::leaveStop(ModeEvent event) noexcept {
   const bool braking = modes_.closesBrakes() && !brakesClosed();
   if (!braking && change(event)) {
     settle();
+  }
+}
+
+// What was released while the arm still braked.
+void MotionSupervisor::leaveReleasedStop() noexcept {
+  if (mode() == RobotMode::kUserStopped && !operator_.user_stop) {
+    leaveStop(ModeEvent::kUserStopReleased);
+  } else if (mode() == RobotMode::kOther && !operator_.close_brakes) {
+    leaveStop(ModeEvent::kBrakesOpened);
   }
 }
 

@@ -61,6 +61,33 @@ TEST_F(UnitRestart, EndsAMotionThatCannotContinueFromTheNewPose) {
   expectToStayElsewhere();
 }
 
+TEST_F(UnitRestart, AnswersAStopBeforeTheNextObservation) {
+  ASSERT_EQ(Status::kMotionStarted, unit.request(torqueControl()));
+  putElsewhere();
+  EXPECT_FALSE(unit.request(codec::StopMoveRequest{}));
+  run(1);
+  EXPECT_EQ(Status::kSuccess, unit.takeAnswer(PendingAnswer::kStop));
+  EXPECT_EQ(Status::kPreempted, unit.takeAnswer(PendingAnswer::kMotion));
+  expectToStayElsewhere();
+}
+
+TEST_F(UnitRestart, LeavesAStopThatWasReleasedWhileTheArmBraked) {
+  const std::vector<std::array<UnitRequest, 2>> stops{{UserStop{true}, UserStop{false}},
+                                                      {Brakes{true}, Brakes{false}}};
+  for (const auto& [press, release] : stops) {
+    swing();
+    unit.request(press);
+    run(5);
+    unit.request(release);
+    ASSERT_TRUE(unit.status().settling);
+    putElsewhere();
+    expectToStayElsewhere();
+    arm.put(kReady);
+    unit.restart();
+    run(5);
+  }
+}
+
 TEST_F(UnitRestart, LetsARecoveryFinish) {
   swing();
   arm.push = {{0, 200, 0, 0, 0, 0}};
