@@ -257,8 +257,9 @@ const std::array<double, 7>& ControlLaws::torques(const ControlTask& task,
   if (task.mode != RobotMode::kMove && state.ddq_d != std::array<double, 7>{}) {
     const std::array<double, 7> braking =
         accelerating(state.ddq_d, estimate.dynamics.mass, parameters.rotor_inertia);
-    motor_torques_ = saturate(sumOf(motor_torques_, braking), parameters.max_torque);
+    motor_torques_ = sumOf(motor_torques_, braking);
   }
+  motor_torques_ = saturate(motor_torques_, parameters.max_torque);
   // The configured payload may be heavier than a motor can hold.
   motor_torques_ =
       sumOf(motor_torques_, saturate(estimate.dynamics.gravity, parameters.max_torque));
