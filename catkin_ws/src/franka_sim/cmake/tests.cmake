@@ -57,6 +57,16 @@ sim_test(robot_unit_test
     test/robot/unit_restart_test.cpp
   LIBRARIES franka_sim_robot)
 
+find_package(rapidcheck REQUIRED)
+sim_test(robot_properties_test
+  SOURCES
+    test/robot/control_unit_properties_test.cpp
+    test/robot/properties/invariants.cpp
+    test/robot/properties/observation.cpp
+    test/robot/properties/stepped_robot.cpp
+  LIBRARIES franka_sim_robot rapidcheck_gtest)
+target_include_directories(franka_sim_robot_properties_test PRIVATE test/robot)
+
 sim_test(robot_motion_test
   SOURCES
     test/robot/motion/async_joint_generator_test.cpp
