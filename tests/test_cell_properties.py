@@ -348,7 +348,7 @@ def cell(tmp_path_factory):
 
 @pytest.mark.own_process
 def test_steps_on_arms_in_the_simulation_change_what_they_name(cell):
-    state_machines.run(cell, sequences=30, steps=15, random=False)
+    state_machines.run(cell, sequences=16, steps=15, random=False)
 
 
 @pytest.mark.own_process
@@ -514,7 +514,7 @@ def node(tmp_path_factory):
 
 @pytest.mark.own_process
 def test_steps_on_two_arms_of_hardware_change_what_they_name(node):
-    state_machines.run(node, sequences=12, steps=12, random=False, shrink=False)
+    state_machines.run(node, sequences=6, steps=12, random=False, shrink=False)
 
 
 @pytest.mark.own_process

@@ -122,12 +122,12 @@ void HostedRobots::publishWhileWaiting(Clock::time_point now) {
   }
 }
 
-// A client that starts a motion gets no more states than it would without the wait.
+// A client in a motion, or at its start, gets the states that it would get without the wait.
 bool HostedRobots::publishToOthers(Clock::time_point now) {
   bool exist = false;
   for (Entry& entry : entries_) {
-    exist = exist || !entry.robot->expectsCommand();
-    if (!entry.isStarting()) {
+    if (!entry.robot->expectsCommand()) {
+      exist = true;
       repeatIfDue(entry, now);
     }
   }

@@ -117,8 +117,9 @@ void SafetyController::closeBrakes() noexcept {
   unit_->request(Brakes{true});
   const bool all = std::all_of(state_.brakes_closed.begin(), state_.brakes_closed.end(),
                                [](bool closed) { return closed; });
-  const bool wanted = brakes_ == BrakeMotion::kOpening || (!all && brakes_ == BrakeMotion::kNone);
-  if (hasDeskRules() && wanted) {
+  const bool must_move =
+      brakes_ == BrakeMotion::kOpening || (!all && brakes_ == BrakeMotion::kNone);
+  if (hasDeskRules() && must_move) {
     moveBrakes(BrakeMotion::kClosing);
   }
 }
