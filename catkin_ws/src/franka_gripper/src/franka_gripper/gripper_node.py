@@ -112,7 +112,8 @@ class GoalServer(actionlib.SimpleActionServer):
         now = rospy.Time.now()
         for earlier in (self.current_goal, self.next_goal):
             if earlier.get_goal() and earlier.get_goal_id().stamp > now:
-                earlier.get_goal_id().stamp = now
+                # Not `now`: the clock may have gone on since the goal was sent.
+                earlier.get_goal_id().stamp = goal.get_goal_id().stamp
         super().internal_goal_callback(goal)
 
 
