@@ -3,35 +3,34 @@
 """Errors at the start of the hardware nodes, and their exit: with a message, whatever they wait for."""
 
 import os
-import signal
 import socket
 from contextlib import contextmanager
 from pathlib import Path
 
 import pytest
 import ros_nodes
+from fci_proxy import Proxy
 from fci_session import simulated
 from fci_wire import PORT
 from lock_step import stopped
 from ros_nodes import parameters
 from waiting import wait_for
 
-ADDRESS, OTHER, SILENT, NOBODY = (f"127.0.32.{i}" for i in range(1, 5))
+ADDRESS, OTHER, SILENT, NOBODY, BEHIND_PROXY = (f"127.0.32.{i}" for i in range(1, 6))
 CLEAN_END, SHORT_END = 40.0, 0.1  # [s] values of shutdown_timeout
 ENDED_BY_TIMEOUT = "ended without the robot's answer"
 ONE, ALL = "/franka_control", "/combined_panda"  # names of the nodes
 
-# The robot becomes silent, and shortly later a recovery is requested.
+# It has left before the program does.
 ASK_RECOVERY = f"""
-import actionlib, os, rospy, rospy_connections, signal, sys, threading
+import actionlib, rospy, rospy_connections, threading
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal
 rospy_connections.init_node("asks_for_recovery")
 client = actionlib.ActionClient("{ONE}/error_recovery", ErrorRecoveryAction)
 assert client.wait_for_server(rospy.Duration(30))
-os.kill(int(sys.argv[1]), signal.SIGSTOP)
 active, is_active = threading.Event(), lambda goal: goal.get_comm_state() == actionlib.CommState.ACTIVE
 goal = client.send_goal(ErrorRecoveryGoal(), lambda goal: is_active(goal) and active.set())
-assert active.wait(30), goal.get_goal_status()  # it has left before the program does
+assert active.wait(30), goal.get_goal_status()
 """
 
 
@@ -340,22 +339,22 @@ def test_a_motion_continues_without_the_master(tmp_path, urdf):
 
 def test_a_node_waiting_for_a_recovery_exits_on_interrupt(master):
     master.set(ONE + "/shutdown_timeout", SHORT_END)
-    with moving(master) as (node, robot):
+    master.set(ONE + "/robot_ip", BEHIND_PROXY)
+    set_controllers(master, "panda")
+    with (
+        simulated("panda", "lockstep", hand=False, address=OTHER) as robot,
+        Proxy(BEHIND_PROXY, OTHER, version=5) as proxy,
+        one(master) as node,
+    ):
+        node.must_print("is ready")
+        holds_the_arm(master, node)
         robot.remote.push("panda_link7", (0, 0, -220), ticks=60)
         node.must_print("reflex")
-        with woken_at_last(robot.server.process):
-            recovery = master.run("/usr/bin/python3", "-c", ASK_RECOVERY, str(robot.server.process.pid))
-            assert recovery.returncode == 0, recovery
-            node.must_print("recovering")
-            check_ends(node)
-
-
-@contextmanager
-def woken_at_last(process):
-    try:
-        yield
-    finally:
-        os.kill(process.pid, signal.SIGCONT)
+        proxy.hold_replies()
+        recovery = master.run("/usr/bin/python3", "-c", ASK_RECOVERY)
+        assert recovery.returncode == 0, recovery
+        wait_for(lambda: proxy.holds_a_reply, "The robot's reply to the recovery")
+        check_ends_by_timeout(node)
 
 
 @contextmanager
@@ -371,6 +370,10 @@ def moving(master, through=()):
     master.set(ONE + "/robot_ip", OTHER)
     set_controllers(master, "panda")
     with one_with_robot(master, "lockstep", through) as (node, robot):
-        answer = manager(master, "spawn", TRAJECTORY)
-        assert "Started" in answer, f"{answer}\n{node.output}"
+        holds_the_arm(master, node)
         yield node, robot
+
+
+def holds_the_arm(master, node):
+    answer = manager(master, "spawn", TRAJECTORY)
+    assert "Started" in answer, f"{answer}\n{node.output}"
