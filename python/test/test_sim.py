@@ -565,6 +565,17 @@ def test_a_description_of_ones_own_keeps_its_hand(name, tmp_path):
         assert sim[name].gripper.width == pytest.approx(0.04, abs=1e-3)
 
 
+def test_the_end_effector_follows_the_tool_that_a_description_mounts(name, tmp_path):
+    robots = Path(__file__).resolve().parents[2] / "catkin_ws" / "src" / "franka_sim" / "robots"
+    text = (robots / f"{name}.urdf").read_text()
+    assert text.count('xyz="0 0 0.1034"') == 1
+    own = tmp_path / "own.urdf"
+    own.write_text(text.replace('xyz="0 0 0.1034"', 'xyz="0.05 0 0.2"'))
+    with Simulation("", [KINDS[name](urdf=own)]) as sim:
+        tip, _ = sim.body_pose(f"{name}_hand_tcp")
+        assert sim[name].state.O_T_EE[:3, 3] == pytest.approx(tip, abs=1e-6)
+
+
 def test_a_rounded_inertia_of_a_description_is_repaired_with_a_warning(tmp_path):
     robots = Path(__file__).resolve().parents[2] / "catkin_ws" / "src" / "franka_sim" / "robots"
     disc = (

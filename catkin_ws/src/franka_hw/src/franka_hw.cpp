@@ -4,6 +4,7 @@
 #include <franka/exception.h>
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/model.h>
+#include <franka_hw/robot_mismatch.h>
 #include <ros/console.h>
 #include <ros/init.h>
 
@@ -105,8 +106,19 @@ std::unique_ptr<franka::Robot> FrankaHW::openRobot() {
       config.lower_torque_thresholds_nominal, config.upper_torque_thresholds_nominal,
       config.lower_force_thresholds_acceleration, config.upper_force_thresholds_acceleration,
       config.lower_force_thresholds_nominal, config.upper_force_thresholds_nominal);
-  robot_mode_ = robot->readOnce().robot_mode;
+  const franka::RobotState state = robot->readOnce();
+  robot_mode_ = state.robot_mode;
   command_permission_->robotConnected(robot->serverVersion());
+  // A robot of protocol 3 reports no F_T_NE.
+  const auto& frame = robot->serverVersion() < 4 ? state.F_T_EE : state.F_T_NE;
+  const std::string mismatch = endEffectorMismatch(described_F_T_NE_, frame, arm_id_);
+  // Once, not each time that a lost robot is connected again.
+  if (!mismatch.empty() && mismatch != reported_mismatch_) {
+    ROS_WARN_STREAM("FrankaHW: '" << arm_id_ << "' at " << robot_ip_ << ": " << mismatch
+                                  << " Set it as the end effector's transformation in Desk, or "
+                                     "describe the tool that is mounted.");
+  }
+  reported_mismatch_ = mismatch;
   return robot;
 }
 

@@ -3,11 +3,15 @@
 // FrankaHW: its parameters.
 #include <franka/control_tools.h>
 #include <franka/rate_limiting.h>
+#include <franka_core/arm_model.h>
 #include <franka_core/realtime_rule.h>
 #include <franka_hw/franka_hw.h>
 #include <ros/console.h>
 
+#include <array>
+#include <optional>
 #include <stdexcept>
+#include <string>
 
 #include "command_permission.h"
 
@@ -130,6 +134,20 @@ bool readCollisionConfig(const ros::NodeHandle& nh, FrankaHW::CollisionConfig& c
                         config.upper_force_thresholds_nominal);
 }
 
+/// F_T_NE of robot_description; empty if it has no hand, or no chain of this arm's links.
+std::optional<std::array<double, 16>> describedEndEffector(const ros::NodeHandle& root_nh,
+                                                           const std::string& arm_id) {
+  std::string name, description;
+  if (!root_nh.searchParam("robot_description", name) || !root_nh.getParam(name, description)) {
+    return std::nullopt;
+  }
+  try {
+    return franka_core::nominalEndEffectorFromUrdf(description, arm_id);
+  } catch (const std::invalid_argument&) {
+    return std::nullopt;  // robotMismatch() reports a description of another arm
+  }
+}
+
 }  // namespace
 
 bool FrankaHW::initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
@@ -149,6 +167,7 @@ bool FrankaHW::initParameters(ros::NodeHandle& root_nh, ros::NodeHandle& robot_h
                      << "'. The launch file must load the robot's description there.");
     return false;
   }
+  described_F_T_NE_ = describedEndEffector(root_nh, arm_id_);
   if (!require(robot_hw_nh, "robot_ip", "a string (the robot's address)", robot_ip_)) {
     return false;
   }

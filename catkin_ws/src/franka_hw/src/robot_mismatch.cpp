@@ -5,6 +5,9 @@
 #include <franka_hw/resource_helpers.h>
 #include <franka_hw/robot_mismatch.h>
 
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <optional>
 #include <set>
 
@@ -17,6 +20,9 @@ using franka_core::ArmLimits;
 // How far a description may exceed the robot's range. Chosen here: accepts ranges that were rounded
 // to degrees; the two robots differ by 0.46 rad at joint 6. [rad]
 constexpr double kTolerance = 0.1;
+
+// Distances of frames that count as rounding of their numbers (chosen here). [m], [rad]
+constexpr double kFrameTolerance = 1e-4, kAngleTolerance = 1e-3;
 
 /// The widest range of this kind of robot; older FR3s have narrower ones.
 const ArmLimits& limitsOf(bool is_fr3) {
@@ -54,6 +60,24 @@ std::string armsIn(const urdf::Model& description) {
     list += (list.empty() ? "" : ", ") + arm;
   }
   return list.empty() ? "no arm" : list;
+}
+
+double distanceOf(const std::array<double, 16>& a, const std::array<double, 16>& b) {
+  return std::hypot(a[12] - b[12], a[13] - b[13], a[14] - b[14]);
+}
+
+double angleBetween(const std::array<double, 16>& a, const std::array<double, 16>& b) {
+  std::array<std::array<double, 3>, 3> turn{};  // from a to b
+  for (std::size_t i = 0; i < 9; i++) {
+    const std::size_t row = i / 3, column = i % 3;
+    for (std::size_t k = 0; k < 3; k++) {
+      turn[row][column] += a[4 * row + k] * b[4 * column + k];
+    }
+  }
+  const double sine =
+      0.5 * std::hypot(turn[2][1] - turn[1][2], turn[0][2] - turn[2][0], turn[1][0] - turn[0][1]);
+  // Not by the cosine alone: numbers with four digits would give 4 mrad.
+  return std::atan2(sine, 0.5 * (turn[0][0] + turn[1][1] + turn[2][2] - 1.0));
 }
 
 std::string wrongNames(const urdf::Model& description, const std::string& arm_id,
@@ -100,6 +124,28 @@ std::string robotMismatch(const urdf::Model& description, const std::string& arm
          from_to(limits.q_min[*joint], limits.q_max[*joint]) +
          ". Load the description of this robot (launch files: robot:=" +
          (is_fr3 ? "fr3" : "panda") + ").";
+}
+
+std::string endEffectorMismatch(const std::optional<std::array<double, 16>>& described,
+                                const std::array<double, 16>& F_T_NE, const std::string& arm_id) {
+  if (!described) {
+    return "";
+  }
+  const double distance = distanceOf(*described, F_T_NE);
+  const double angle = angleBetween(*described, F_T_NE);
+  if (distance <= kFrameTolerance && angle <= kAngleTolerance) {
+    return "";
+  }
+  std::string numbers;
+  for (const double value : *described) {
+    numbers += (numbers.empty() ? "" : " ") + franka_core::numberText(value, 4);
+  }
+  return "its F_T_NE puts the end effector " +
+         franka_core::numberText(std::round(1e4 * distance) / 10.0, 3) + " mm and " +
+         franka_core::numberText(std::round(1e4 * angle) / 1e4, 3) + " rad away from '" + arm_id +
+         "_hand_tcp' of the robot's description, so O_T_EE and TF differ. F_T_NE of the "
+         "description is " +
+         numbers + " (column-major).";
 }
 
 }  // namespace franka_hw

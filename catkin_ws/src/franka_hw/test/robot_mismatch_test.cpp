@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 #include <source_file.h>
 
+#include <cmath>
+#include <optional>
+
 namespace {
 
 using franka_hw::robotMismatch;
@@ -96,6 +99,31 @@ TEST(RobotMismatch, ReportsJointsThatAreNamedAfterAnotherArm) {
   const urdf::Model description = describe("panda", "panda");
   expectWords(robotMismatch(description, "fr3", joints("panda"), kPanda),
               {"arm_id is 'fr3'", "joint_names holds 'panda_joint1'", "fr3_joint1 to fr3_joint7"});
+}
+
+TEST(EndEffectorMismatch, NamesTheDifferenceBeyondRounding) {
+  std::array<double, 16> frame{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1204, 1};
+  const auto described = frame;
+  EXPECT_EQ("", franka_hw::endEffectorMismatch(std::nullopt, frame, "left"));
+  frame[12] = 0.00009;
+  EXPECT_EQ("", franka_hw::endEffectorMismatch(described, frame, "left"));
+  frame[14] = 0.1034;
+  expectWords(franka_hw::endEffectorMismatch(described, frame, "left"),
+              {"17 mm", "left_hand_tcp", "0.1204 1"});
+  const std::array<double, 16> exact{M_SQRT1_2, -M_SQRT1_2, 0, 0, M_SQRT1_2, M_SQRT1_2, 0, 0,
+                                     0,         0,          1, 0, 0,         0,         0, 1};
+  auto rounded = exact;  // as the original's default and as typed in Desk
+  for (double& value : rounded) {
+    value = std::round(1e4 * value) / 1e4;
+  }
+  EXPECT_EQ("", franka_hw::endEffectorMismatch(exact, rounded, "left"));
+  frame = described;
+  frame[0] = frame[5] = std::cos(0.1);  // turned by 0.1 rad about z
+  frame[1] = std::sin(0.1);
+  frame[4] = -std::sin(0.1);
+  expectWords(franka_hw::endEffectorMismatch(described, frame, "left"), {"0 mm and 0.1 rad"});
+  frame = {-1, 0, 0, 0, 0, -1, 0, 0, 0, 0, 1, 0, 0, 0, 0.1204, 1};
+  expectWords(franka_hw::endEffectorMismatch(described, frame, "left"), {"and 3.14 rad"});
 }
 
 }  // namespace

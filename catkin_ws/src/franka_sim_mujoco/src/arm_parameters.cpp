@@ -4,6 +4,7 @@
 
 #include <franka_core/limits.h>
 #include <franka_core/numbers.h>
+#include <franka_hw/robot_mismatch.h>
 #include <franka_sim/physics/world_properties.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/serve/sim_robot.h>
@@ -198,7 +199,6 @@ std::string gainsWithoutEffect(const ros::NodeHandle& node, const std::string& a
 
 franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
                                                     const RobotHandle& robot,
-                                                    const urdf::Model& model,
                                                     const SimulatedArm& arm) {
   const std::string& arm_id = arm.arm_id;
   franka_sim::ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(robot.urdf, arm_id)};
@@ -219,10 +219,15 @@ franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
   readPayload(node, "m_ee", "F_x_Cee", "I_ee", parameters.end_effector);
   readPayload(node, "m_load", "F_x_Cload", "I_load", parameters.load);
 
-  if (model.getLink(arm_id + "_hand") != nullptr) {
-    parameters.F_T_NE = franka_sim::kHandF_T_NE;
-  }
+  const auto described = franka_core::nominalEndEffectorFromUrdf(robot.urdf, arm_id);
+  parameters.F_T_NE = described.value_or(franka_core::kIdentityTransform);
   readTransform(node, "F_T_NE", parameters.F_T_NE);
+  const std::string mismatch = franka_hw::endEffectorMismatch(described, parameters.F_T_NE, arm_id);
+  if (!mismatch.empty()) {
+    ROS_WARN_STREAM_NAMED("franka_hw_sim",
+                          "'" << arm_id << "': " << mismatch << " Delete the parameter "
+                              << node.resolveName("F_T_NE") << " to follow the description.");
+  }
   readTransform(node, "NE_T_EE", parameters.NE_T_EE);
   readTransform(node, "EE_T_K", parameters.EE_T_K);
 

@@ -15,14 +15,12 @@ namespace franka_sim_mujoco {
 
 /// The control unit's configuration from the parameters of a robot's namespace, with the names of
 /// the original franka_gazebo. Defaults come from the robot's URDF: the end effector is everything
-/// behind the flange (decision 7), F_T_NE that of the hand if there is one. Gravity is the world's
-/// unless the parameter gravity_vector is set.
-/// @param robot is in the world between ticks @param model of its description @param arm one of its
-/// arms
+/// behind the flange, F_T_NE the described one (decision 7). A parameter F_T_NE that differs is
+/// followed, with a warning. Gravity is the world's unless the parameter gravity_vector is set.
+/// @param robot is in the world between ticks @param arm one of its arms
 /// @throws std::invalid_argument with a sentence for the first error
 franka_sim::ControlUnitParameters readArmParameters(const ros::NodeHandle& node,
                                                     const RobotHandle& robot,
-                                                    const urdf::Model& model,
                                                     const SimulatedArm& arm);
 
 /// The physics of a robot as requested by the parameter `realism`, of this namespace or of one

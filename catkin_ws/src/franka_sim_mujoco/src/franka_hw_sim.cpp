@@ -163,8 +163,7 @@ void FrankaHWSim::start(const ros::NodeHandle& node, const RobotHandle& robot,
   robot.between_ticks([&] { has_hand = world.hasHand(robot.name, arm_id_); });
   has_hand = has_hand && fingersTakeEfforts(arm_id_, transmissions);
   nameJoints(model, has_hand);
-  franka_sim::ControlUnitParameters parameters =
-      readArmParameters(node, robot, model, robot.arms.front());
+  franka_sim::ControlUnitParameters parameters = readArmParameters(node, robot, robot.arms.front());
   parameters.rules = readBool(node, "reflexes").value_or(false)
                          ? franka_sim::InterfaceRules::kRosControlWithReflexes
                          : franka_sim::InterfaceRules::kRosControl;

@@ -38,7 +38,7 @@ franka_sim::fci::SimRobot makeRobot(const RobotPlan& plan, const RobotHandle& ro
                              "and a namespace of its own.");
   }
   const franka_sim::ControlUnitParameters unit =
-      readArmParameters(ros::NodeHandle(plan.robot_namespace), robot, plan.urdf, arm);
+      readArmParameters(ros::NodeHandle(plan.robot_namespace), robot, arm);
   franka_sim::ArmPlant* plant = nullptr;
   std::optional<franka_sim::fci::SimRobot::Hand> hand;
   robot.between_ticks([&] {

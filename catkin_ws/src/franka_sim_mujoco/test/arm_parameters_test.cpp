@@ -12,7 +12,6 @@
 #include <ros_test/log_catcher.h>
 #include <source_file.h>
 #include <transform_sweep.h>
-#include <urdf/model.h>
 
 #include <array>
 #include <string>
@@ -33,7 +32,6 @@ class ArmParameters : public testing::Test {
     description.urdf = urdf_;
     description.resolve = [](const std::string&) { return std::string(); };
     world_.addRobot(description);
-    EXPECT_TRUE(model_.initString(urdf_));
   }
 
   franka_sim::ControlUnitParameters read() const {
@@ -41,7 +39,7 @@ class ArmParameters : public testing::Test {
     robot.world = const_cast<franka_sim::World*>(&world_);
     robot.name = "panda";
     robot.urdf = urdf_;
-    return readArmParameters(node_, robot, model_, SimulatedArm{"panda", "panda", {}, ""});
+    return readArmParameters(node_, robot, SimulatedArm{"panda", "panda", {}, ""});
   }
 
   template <std::size_t N>
@@ -51,7 +49,6 @@ class ArmParameters : public testing::Test {
 
   std::string urdf_;
   franka_sim::World world_;
-  urdf::Model model_;
   ros::NodeHandle node_{"~/" +
                         std::string(testing::UnitTest::GetInstance()->current_test_info()->name())};
 };
@@ -72,6 +69,19 @@ TEST_F(ArmParameters, AgreeWithEveryOtherInputOnRoundedMatrices) {
     }
     node_.deleteParam(name);
   }
+}
+
+TEST_F(ArmParameters, FollowTheDescribedToolUnlessOneReplacesItWithAWarning) {
+  const std::string tcp = "xyz=\"0 0 0.1034\"";
+  urdf_.replace(urdf_.find(tcp), tcp.size(), "xyz=\"0 0 0.2\"");
+  const ros_test::LogCatcher log;
+  const std::array<double, 16> described = read().F_T_NE;
+  EXPECT_NEAR(0.2, described[14], 1e-15);
+  EXPECT_EQ("", log.text(ros::console::levels::Warn));
+  set("F_T_NE", franka_sim::kHandF_T_NE);
+  EXPECT_EQ(0.1034, read().F_T_NE[14]);
+  const std::string warning = log.text(ros::console::levels::Warn);
+  EXPECT_TRUE(contains(warning, "96.6 mm") && contains(warning, "F_T_NE")) << warning;
 }
 
 TEST_F(ArmParameters, LowerThresholdsAboveTheUpperOnesAreTakenWithAWarning) {

@@ -7,6 +7,8 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 #include <regex>
+#include <sstream>
+#include <utility>
 
 #include "random_state.h"
 
@@ -16,6 +18,7 @@ namespace {
 using franka_core::ArmFrame;
 using franka_core::ArmModel;
 using franka_core::endEffectorFromUrdf;
+using franka_core::nominalEndEffectorFromUrdf;
 using franka_core::Payload;
 
 std::string replaced(std::string text, const std::string& what, const std::string& with) {
@@ -191,6 +194,102 @@ TEST(EndEffectorFromUrdf, IsEmptyForABareArmAndRefusesAHandWithoutMass) {
       refusalOf([] { endEffectorFromUrdf(withoutInertial(panda(), "panda_rightfinger")); }),
       "link 'panda_rightfinger' has no inertial");
 }
+
+/// A mounted tool: the text of a URDF's fixed joints, and the pose that they have together.
+class Mounting {
+ public:
+  /// @param parent the link that carries the first part
+  Mounting(StateSource& source, std::string arm_id, std::string parent)
+      : source_(source), arm_id_(std::move(arm_id)), parent_(std::move(parent)) {}
+
+  /// Adds a joint from the last part to this one, with an origin of any size and direction.
+  void add(const std::string& part) {
+    const double x = source_.uniform(-0.3, 0.3), y = source_.uniform(-0.3, 0.3);
+    const double z = source_.uniform(-0.3, 0.3), roll = source_.uniform(-3.1, 3.1);
+    const double pitch = source_.uniform(-3.1, 3.1), yaw = source_.uniform(-3.1, 3.1);
+    std::ostringstream joint;
+    joint.precision(17);
+    joint << "<joint name=\"" << part << "_joint\" type=\"fixed\"><parent link=\"" << arm_id_ << "_"
+          << parent_ << "\"/><child link=\"" << arm_id_ << "_" << part << "\"/><origin xyz=\"" << x
+          << " " << y << " " << z << "\" rpy=\"" << roll << " " << pitch << " " << yaw
+          << "\"/></joint>";
+    text_ += joint.str();
+    pose_ = pose_ * Eigen::Translation3d(x, y, z) *
+            Eigen::AngleAxisd(yaw, Eigen::Vector3d::UnitZ()) *
+            Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitY()) *
+            Eigen::AngleAxisd(roll, Eigen::Vector3d::UnitX());
+    parent_ = part;
+  }
+
+  void addPlate(const std::string& part) {
+    text_ += "<link name=\"" + arm_id_ + "_" + part + "\"/>";
+    add(part);
+  }
+
+  const std::string& text() const { return text_; }
+  const Eigen::Isometry3d& pose() const { return pose_; }
+
+ private:
+  StateSource& source_;
+  std::string arm_id_, parent_, text_;
+  Eigen::Isometry3d pose_{Eigen::Isometry3d::Identity()};
+};
+
+std::string withoutJoint(const std::string& urdf, const std::string& joint) {
+  const std::size_t from = urdf.find("<joint name=\"" + joint + "\"");
+  const std::size_t to = urdf.find("</joint>", from) + std::string("</joint>").size();
+  return urdf.substr(0, from) + urdf.substr(to);
+}
+
+class NominalEndEffectorFromUrdf : public ::testing::TestWithParam<Arm> {
+ protected:
+  /// The description with another name of the arm.
+  std::string describe(const std::string& arm_id) const {
+    return std::regex_replace(readData(GetParam().file),
+                              std::regex(std::string(GetParam().arm_id) + "_"), arm_id + "_");
+  }
+};
+
+TEST_P(NominalEndEffectorFromUrdf, IsWhereTransformsHaveTheToolCenterPointOfAnyMounting) {
+  StateSource source(*GetParam().limits);
+  for (int i = 0; i < 60; i++) {
+    const std::string arm_id = i % 3 == 0 ? GetParam().arm_id : (i % 3 == 1 ? "left" : "arm-7_b");
+    const std::string parent = i % 5 == 4 ? "link7" : "link8";
+    Mounting mounting(source, arm_id, parent);
+    for (int plate = 0; plate < i % 4; plate++) {
+      mounting.addPlate("plate" + std::to_string(plate));
+    }
+    mounting.add("hand");
+    mounting.add("hand_tcp");
+    const std::string urdf =
+        replaced(withoutJoint(withoutJoint(describe(arm_id), arm_id + "_hand_joint"),
+                              arm_id + "_hand_tcp_joint"),
+                 "</robot>", mounting.text() + "</robot>");
+    const auto F_T_NE = nominalEndEffectorFromUrdf(urdf, arm_id);
+    ASSERT_TRUE(F_T_NE.has_value());
+    const ArmModel arm = ArmModel::fromUrdf(urdf, arm_id);
+    const auto q = source.next().q;
+    const auto carrier = arm.pose(parent == "link7" ? ArmFrame::kJoint7 : ArmFrame::kFlange, q);
+    const Eigen::Matrix4d transform = pose(carrier) * mounting.pose().matrix();
+    const auto O_T_EE = arm.pose(ArmFrame::kEndEffector, q, *F_T_NE);
+    EXPECT_LT((transform - pose(O_T_EE)).cwiseAbs().maxCoeff(), 1e-12) << urdf;
+  }
+}
+
+TEST_P(NominalEndEffectorFromUrdf, IsBetweenTheFingertipsOfAHandWithoutThisFrame) {
+  const std::string id = GetParam().arm_id;
+  const std::string urdf = describe(id);
+  const std::string old = std::regex_replace(urdf, std::regex(id + "_hand_tcp\""), id + "_tip\"");
+  const std::string tool =
+      std::regex_replace(old, std::regex(id + "_(left|right)finger\""), id + "_$1pin\"");
+  const auto with_frame = nominalEndEffectorFromUrdf(urdf, id);
+  EXPECT_NEAR(0.1034, with_frame.value()[14], 1e-15);
+  EXPECT_EQ(with_frame, nominalEndEffectorFromUrdf(old, id));
+  EXPECT_FALSE(nominalEndEffectorFromUrdf(tool, id)) << "another tool with the hand's name";
+}
+
+INSTANTIATE_TEST_SUITE_P(Robots, NominalEndEffectorFromUrdf, ::testing::Values(kPanda, kFr3),
+                         armName);
 
 }  // namespace
 }  // namespace franka_test

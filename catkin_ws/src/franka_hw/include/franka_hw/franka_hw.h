@@ -34,6 +34,7 @@
 #include <list>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -407,6 +408,8 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   std::atomic_bool in_control_{false};
   double connect_timeout_{0.0};  // [s] for a robot that is still starting
   std::atomic<franka::RobotMode> robot_mode_{franka::RobotMode::kOther};
+  std::optional<std::array<double, 16>> described_F_T_NE_;  // by robot_description
+  std::string reported_mismatch_;  // of F_T_NE; written by openRobot() only
 
   std::unique_ptr<CommandPermission> command_permission_;
   std::unique_ptr<JointLimitMonitor> joint_limit_monitor_;  // after init()

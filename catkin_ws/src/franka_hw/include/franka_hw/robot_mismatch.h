@@ -5,6 +5,7 @@
 #include <urdf/model.h>
 
 #include <array>
+#include <optional>
 #include <string>
 
 namespace franka_hw {
@@ -21,5 +22,13 @@ namespace franka_hw {
 /// contradiction
 std::string robotMismatch(const urdf::Model& description, const std::string& arm_id,
                           const std::array<std::string, 7>& joint_names, unsigned protocol);
+
+/// Compares the nominal end effector NE of an arm's control unit with the description's. If they
+/// differ, the pose O_T_EE is not where TF has the tool. Not real-time safe.
+/// @param described franka_core::nominalEndEffectorFromUrdf()
+/// @returns two sentences with the difference and the description's F_T_NE; empty if the frames
+/// agree within 0.1 mm and 1 mrad, or if the description has none
+std::string endEffectorMismatch(const std::optional<std::array<double, 16>>& described,
+                                const std::array<double, 16>& F_T_NE, const std::string& arm_id);
 
 }  // namespace franka_hw

@@ -40,6 +40,23 @@ TEST_F(Connection, CanBeClosedAndOpenedAgain) {
   EXPECT_NO_THROW(robot_.robot().readOnce());
 }
 
+TEST_F(Connection, WarnsOnceOfAnEndEffectorThatIsNotTheDescribedOne) {
+  const auto reconnect = [&] {
+    robot_.disconnect();
+    robot_.connect();
+  };
+  const LogCatcher log;
+  reconnect();
+  EXPECT_EQ(std::string::npos, log.text(ros::console::levels::Warn).find("F_T_NE"));
+  arm_.robot.change([](auto& state) { state.F_T_NE[14] += 0.017; });
+  reconnect();
+  reconnect();
+  const std::string text = log.text(ros::console::levels::Warn);
+  const std::size_t first = text.find("17 mm");
+  ASSERT_NE(std::string::npos, first) << text;
+  EXPECT_EQ(std::string::npos, text.find("17 mm", first + 1)) << text;
+}
+
 TEST_F(Connection, IsKeptWhileAControllerRuns) {
   Loop loop(robot_, arm_);
   ASSERT_TRUE(loop.switchTo({"JT"}, {}));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "support.h"
 
+#include <franka_core/arm_model.h>
 #include <gtest/gtest.h>
 #include <source_file.h>
 
@@ -65,6 +66,9 @@ FakeArm::FakeArm(const std::string& id, const ros::NodeHandle& namespace_nh)
     : arm_id(id), nh(namespace_nh), robot_nh(namespace_nh, id) {
   const std::string served = urdfOf("fr3");
   robot.script([&](auto& script) { script.urdf.assign(served.begin(), served.end()); });
+  robot.change([&](auto& state) {
+    state.F_T_NE = state.F_T_EE = franka_core::nominalEndEffectorFromUrdf(served, "fr3").value();
+  });
   std::string others;  // arms in the same namespace
   nh.setParam("robot_description",
               nh.getParam("robot_description", others) ? withArm(others, arm_id) : urdfOf(arm_id));

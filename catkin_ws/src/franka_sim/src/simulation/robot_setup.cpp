@@ -201,9 +201,8 @@ ControlUnitParameters unitParameters(const RobotSetup& setup, const std::string&
   ControlUnitParameters parameters{franka_core::ArmModel::fromUrdf(urdf, setup.arm_id)};
   applyPhysics(physics, parameters);
   parameters.end_effector = franka_core::endEffectorFromUrdf(urdf, setup.arm_id);
-  if (hand) {
-    parameters.F_T_NE = kHandF_T_NE;
-  }
+  parameters.F_T_NE = franka_core::nominalEndEffectorFromUrdf(urdf, setup.arm_id)
+                          .value_or(franka_core::kIdentityTransform);
   parameters.has_hand = hand;
   parameters.rules = InterfaceRules::kFci;
   parameters.protocol_version = protocolsOf(setup.robot).newest;

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 
 namespace franka_core {
@@ -129,5 +130,14 @@ Payload combine(const Payload& end_effector, const Payload& load) noexcept;
 /// @throws std::invalid_argument with a sentence if the URDF cannot be read, the chain is missing,
 /// or the hand or a moving link of it has no inertial.
 Payload endEffectorFromUrdf(const std::string& urdf, const std::string& arm_id = "");
+
+/// F_T_NE as described, column-major: the frame `<prefix>hand_tcp`, or the point between the
+/// fingertips of a hand without this frame (decision 7). It follows whatever is mounted between
+/// flange and hand; movable joints are at position 0. Empty if the URDF describes neither.
+/// @param arm_id as for ArmModel::fromUrdf.
+/// @throws std::invalid_argument with a sentence if the URDF cannot be read, the chain is missing,
+/// or an origin is not finite.
+std::optional<std::array<double, 16>> nominalEndEffectorFromUrdf(const std::string& urdf,
+                                                                 const std::string& arm_id = "");
 
 }  // namespace franka_core

@@ -4,6 +4,7 @@
 #include <urdf_parser/urdf_parser.h>
 
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -18,6 +19,9 @@ using spatial::Pose;
 
 // Deviation of a joint axis from +z that counts as rounding in the text.
 constexpr double kAxisTolerance = 1e-9;
+
+// From the frame of a Franka Hand to the point between its fingertips [m] (protocol 8.3).
+constexpr double kHandToTcp = 0.1034;
 
 [[noreturn]] void fail(const std::string& sentence) {
   throw std::invalid_argument("URDF of the arm: " + sentence);
@@ -104,6 +108,14 @@ Pose toPose(const urdf::Pose& pose) {
 
 Pose operator*(const Pose& a, const Pose& b) { return compose(a, toArray(b)); }
 
+Pose inverse(const Pose& pose) {
+  const spatial::Vector &x = pose.x, &y = pose.y, &z = pose.z;
+  return {{x.x, y.x, z.x},
+          {x.y, y.y, z.y},
+          {x.z, y.z, z.z},
+          {-dot(x, pose.p), -dot(y, pose.p), -dot(z, pose.p)}};
+}
+
 const Pose kIdentity = spatial::toPose(kIdentityTransform);
 
 void checkFinite(const Pose& pose, const std::string& owner) {
@@ -152,6 +164,39 @@ Pose transformBetween(const urdf::Link& ancestor, const urdf::LinkConstSharedPtr
     transform = origin * transform;
   }
   return transform;
+}
+
+// Pose of a link in the frame of a link above it, joints at position 0; empty if it is not above.
+std::optional<Pose> poseIn(const urdf::Link& ancestor, const urdf::LinkConstSharedPtr& link) {
+  Pose pose = kIdentity;
+  urdf::LinkConstSharedPtr at = link;
+  for (; at && at->name != ancestor.name; at = at->getParent()) {
+    if (!at->parent_joint) {
+      return std::nullopt;
+    }
+    const Pose origin = toPose(at->parent_joint->parent_to_joint_origin_transform);
+    checkFinite(origin, at->parent_joint->name);
+    pose = origin * pose;
+  }
+  return at ? std::optional<Pose>(pose) : std::nullopt;
+}
+
+// Pose of a link that the arm carries in the flange frame. Empty if there is no such link. Some
+// descriptions mount the hand on link 7 instead of the flange.
+std::optional<Pose> poseInFlange(const urdf::ModelInterface& model, const std::string& prefix,
+                                 const std::string& name) {
+  const urdf::LinkConstSharedPtr link = model.getLink(prefix + name);
+  if (!link) {
+    return std::nullopt;
+  }
+  const urdf::LinkConstSharedPtr flange = model.getLink(prefix + "link8");
+  if (const std::optional<Pose> pose = poseIn(*flange, link)) {
+    return pose;
+  }
+  const urdf::LinkConstSharedPtr last = model.getLink(prefix + "link7");
+  const std::optional<Pose> pose = poseIn(*last, link);
+  return pose ? std::optional<Pose>(inverse(transformBetween(*last, flange, false)) * *pose)
+              : std::nullopt;
 }
 
 // A link's own mass; `at` is the link's pose in the frame of the result.
@@ -251,6 +296,23 @@ Payload endEffectorFromUrdf(const std::string& urdf, const std::string& arm_id) 
   Payload sum;
   addSubtree(*model->getLink(prefix + "link8"), kIdentity, prefix + "hand", sum);
   return sum;
+}
+
+std::optional<std::array<double, 16>> nominalEndEffectorFromUrdf(const std::string& urdf,
+                                                                 const std::string& arm_id) {
+  const urdf::ModelInterfaceSharedPtr model = parse(urdf);
+  const std::string prefix = choosePrefix(*model, arm_id);
+  if (const std::optional<Pose> tcp = poseInFlange(*model, prefix, "hand_tcp")) {
+    return toArray(*tcp);
+  }
+  const std::optional<Pose> hand = poseInFlange(*model, prefix, "hand");
+  // Another tool may have the hand's name, but not its fingers.
+  if (!hand || !model->getLink(prefix + "leftfinger") || !model->getLink(prefix + "rightfinger")) {
+    return std::nullopt;
+  }
+  Pose tcp = kIdentity;
+  tcp.p.z = kHandToTcp;
+  return toArray(*hand * tcp);
 }
 
 }  // namespace franka_core
