@@ -12,6 +12,7 @@ import rosgraph
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from franka_gripper.msg import StopAction, StopGoal
+from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal
 from pyfranka.franka_sim import FrankaSim
 from pyfranka.sim import KINDS
 from ros_client import Action, launched
@@ -143,6 +144,11 @@ def streams_of(topics, clock) -> set[str]:
     return streams
 
 
+def check_actions(actions, when: str) -> None:
+    for action, goal in actions:
+        assert action.run(goal)[0] == GoalStatus.SUCCEEDED, f"{action} {when}"
+
+
 def test_streams_nodes_and_actions_continue_after_jumps(tmp_path):
     (tmp_path / "all.launch").write_text(LAUNCH)
     robots = [KINDS["fr3"](address=address, base=(0, 2 * i, 0)) for i, address in enumerate(ADDRESSES[3:])]
@@ -151,8 +157,11 @@ def test_streams_nodes_and_actions_continue_after_jumps(tmp_path):
         launched(str(tmp_path / "all.launch"), log=tmp_path / "log.txt") as session,
     ):
         clock, topics = SimulatedClock(), Topics()
-        stop = Action("/franka_gripper/stop", StopAction)
-        assert stop.run(StopGoal())[0] == GoalStatus.SUCCEEDED
+        actions = [(Action("/franka_gripper/stop", StopAction), StopGoal())] + [
+            (Action(name, ErrorRecoveryAction), ErrorRecoveryGoal())
+            for name in ("/franka_control/error_recovery", "/panda_dual/error_recovery")
+        ]
+        check_actions(actions, "before the jumps")
         streams, nodes = streams_of(topics, clock), topics.nodes()
         running = commands(session)
         assert {kind for kind in programs() if f"/{kind}" not in running} == set(OTHERS)
@@ -162,6 +171,6 @@ def test_streams_nodes_and_actions_continue_after_jumps(tmp_path):
             end = clock.passed + LIMIT
             holds(lambda end=end: streams <= topics.alive() or clock.passed > end, 2 * LIMIT)
             assert streams <= topics.alive(), f"silent after {jump} s: {sorted(streams - topics.alive())}"
-            assert stop.run(StopGoal())[0] == GoalStatus.SUCCEEDED, f"after {jump} s"
+            check_actions(actions, f"after {jump} s")
             assert nodes <= topics.nodes()
         clock.end()

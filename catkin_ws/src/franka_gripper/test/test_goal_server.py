@@ -42,6 +42,7 @@ def test_only_goals_that_were_overtaken_are_canceled(earlier, sent, arrives, can
     server.current_goal, server.next_goal = Goal(earlier), Goal()
     server.is_active = lambda: False
     server.goal_callback = None
+    server.refuse = lambda _handle: False
     goal = Goal(sent)
     server.internal_goal_callback(goal)
     assert goal.canceled == canceled

@@ -415,13 +415,27 @@ INVALID = [
 ]
 
 
-def test_invalid_goals_are_refused_and_move_nothing(hand):
+def check_invalid_goals_are_refused(hand):
     for row, (send, sentence) in enumerate(INVALID):
         state, success, text = send(hand).result()
         assert (state, success) == (ABORTED, False), row
         assert sentence in text, row
-        hand.fingers.next(3)
-        assert hand.fingers.width == pytest.approx(0.08, abs=2e-3), row
+
+
+def test_invalid_goals_are_refused_and_move_nothing(hand):
+    check_invalid_goals_are_refused(hand)
+    hand.fingers.next(3)
+    assert hand.fingers.width == pytest.approx(0.08, abs=2e-3)
+
+
+@pytest.mark.parametrize("kind", ["move", "grasp"])
+def test_invalid_goals_end_no_running_one(hand, kind):
+    running = getattr(hand, kind)(0.0, SLOW)
+    running.until_active()
+    check_invalid_goals_are_refused(hand)
+    assert not running.ended.is_set()
+    running.handle.cancel()
+    assert running.result()[0] == PREEMPTED
 
 
 def test_a_lost_hand_is_reported_and_reconnected(hand):

@@ -1,9 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <actionlib/server/simple_action_server.h>
 #include <franka/exception.h>
 #include <franka_hw/abort_reporter.h>
 #include <franka_hw/arm_connection.h>
+#include <franka_hw/goal_server.h>
 #include <franka_hw/services.h>
 #include <franka_msgs/ErrorRecoveryAction.h>
 #include <ros/console.h>
@@ -22,7 +22,7 @@ namespace {
 constexpr int kReadAttempts = 3;
 constexpr std::chrono::seconds kSilenceAtRest{3};
 
-using RecoveryServer = actionlib::SimpleActionServer<franka_msgs::ErrorRecoveryAction>;
+using RecoveryServer = GoalServer<franka_msgs::ErrorRecoveryAction>;
 typedef std_srvs::Trigger::Request TriggerRequest;
 typedef std_srvs::Trigger::Response TriggerResponse;
 
@@ -297,7 +297,7 @@ void ArmConnection::offerRobot() {
   offer_->setters = std::make_unique<ServiceContainer>();
   setupServices(*robot_, mutex_, offer_->nh, *offer_->setters);
   offer_->recovery = std::make_unique<RecoveryServer>(
-      offer_->nh, "error_recovery", [this](const auto& /*goal*/) { handleRecovery(); }, false);
+      offer_->nh, "error_recovery", [this](const auto& /*goal*/) { handleRecovery(); });
   offer_->recovery->start();
 }
 

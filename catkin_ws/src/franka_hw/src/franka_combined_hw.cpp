@@ -52,8 +52,8 @@ void FrankaCombinedHW::setupServices(ros::NodeHandle& robot_hw_nh) {
                                               "a controller is active. Stop it first.";
         return true;
       });
-  recovery_server_ = std::make_unique<RecoveryServer>(
-      robot_hw_nh, "error_recovery", [this](const auto& /*goal*/) { recover(); }, false);
+  recovery_server_ = std::make_unique<RecoveryServer>(robot_hw_nh, "error_recovery",
+                                                      [this](const auto& /*goal*/) { recover(); });
   recovery_server_->start();
 }
 

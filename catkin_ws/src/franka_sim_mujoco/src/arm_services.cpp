@@ -135,9 +135,7 @@ ArmServices::ArmServices(const ros::NodeHandle& node, const SimulatedArm& descri
       between_ticks_(std::move(between_ticks)),
       place_joint_(std::move(place_joint)),
       restart_controllers_(restart_controllers),
-      recovery_(
-          control_node_, "error_recovery",
-          [this](const franka_msgs::ErrorRecoveryGoalConstPtr& /*goal*/) { recover(); }, false) {
+      recovery_(control_node_, "error_recovery", [this](const auto& /*goal*/) { recover(); }) {
   offerSetters();
   offerUserStop();
   offerConnection("connect", true);

@@ -57,16 +57,19 @@ GripperActions::GripperActions(const ros::NodeHandle& node,
     : parameters_(parameters),
       mailbox_(mailbox),
       view_(view),
-      stop_server_(
-          node, "stop", [this](const auto& /*goal*/) { stop(); }, false),
-      homing_server_(
-          node, "homing", [this](const auto& /*goal*/) { homing(); }, false),
+      stop_server_(node, "stop", [this](const auto& /*goal*/) { stop(); }),
+      homing_server_(node, "homing", [this](const auto& /*goal*/) { homing(); }),
       move_server_(
-          node, "move", [this](const auto& goal) { move(*goal); }, false),
+          node, "move", [this](const auto& goal) { move(goal); },
+          [this](const auto& goal, auto& result) { return explained(moveFault(goal), result); }),
       grasp_server_(
-          node, "grasp", [this](const auto& goal) { grasp(*goal); }, false),
+          node, "grasp", [this](const auto& goal) { grasp(goal); },
+          [this](const auto& goal, auto& result) { return explained(graspFault(goal), result); }),
       command_server_(
-          node, "gripper_action", [this](const auto& goal) { gripperCommand(*goal); }, false) {
+          node, "gripper_action", [this](const auto& goal) { gripperCommand(goal); },
+          [this](const auto& goal, auto& result) {
+            return explained(commandFault(goal), result);
+          }) {
   stop_server_.start();
   homing_server_.start();
   move_server_.start();
@@ -129,6 +132,18 @@ bool GripperActions::carryOut(Server<Action>& server,
   return false;
 }
 
+template <typename Result>
+std::string GripperActions::explained(const std::string& fault, Result& result) const {
+  if (!fault.empty()) {
+    explain(result, fault, view_.width);
+  }
+  return fault;
+}
+
+std::string GripperActions::fingersFault(double width, double speed) const {
+  return std::isfinite(speed) && speed > 0.0 ? widthFault(width) : "Only positive speeds allowed";
+}
+
 std::string GripperActions::widthFault(double width) const {
   if (std::isfinite(width) && width >= 0.0 && width <= parameters_.max_width) {
     return "";
@@ -138,8 +153,32 @@ std::string GripperActions::widthFault(double width) const {
          franka_core::numberText(parameters_.max_width) + " m.";
 }
 
-std::string GripperActions::speedFault(double speed) {
-  return std::isfinite(speed) && speed > 0.0 ? "" : "Only positive speeds allowed";
+std::string GripperActions::moveFault(const franka_gripper::MoveGoal& goal) const {
+  return fingersFault(goal.width, goal.speed);
+}
+
+std::string GripperActions::graspFault(const franka_gripper::GraspGoal& goal) const {
+  const std::string fault = fingersFault(goal.width, goal.speed);
+  if (!fault.empty()) {
+    return fault;
+  }
+  if (!(std::isfinite(goal.force) && goal.force >= 0.0)) {
+    return "The force must be a finite number of newtons that is not negative.";
+  }
+  const bool possible = std::isfinite(goal.epsilon.inner) && std::isfinite(goal.epsilon.outer) &&
+                        goal.epsilon.inner >= 0.0 && goal.epsilon.outer >= 0.0;
+  return possible ? "" : "The epsilons must be finite and not negative.";
+}
+
+std::string GripperActions::commandFault(const control_msgs::GripperCommandGoal& goal) const {
+  const double position = goal.command.position, effort = goal.command.max_effort;
+  if (widthFault(2.0 * position).empty() && std::isfinite(effort)) {
+    return "";
+  }
+  return "The goal is not possible: the position of a finger must lie between 0 and " +
+         franka_core::numberText(parameters_.max_width / 2.0) + " m and is " +
+         franka_core::numberText(position) + " m; max_effort must be finite and is " +
+         franka_core::numberText(effort) + " N.";
 }
 
 void GripperActions::stop() {
@@ -170,12 +209,6 @@ void GripperActions::homing() {
 
 void GripperActions::move(const franka_gripper::MoveGoal& goal) {
   franka_gripper::MoveResult result;
-  std::string fault = speedFault(goal.speed);
-  fault = fault.empty() ? widthFault(goal.width) : fault;
-  if (!fault.empty()) {
-    abort(move_server_, result, fault, view_.width);
-    return;
-  }
   const auto command = makeCommand(GripperCommand::Kind::kMove);
   command->width = goal.width;
   command->speed = goal.speed;
@@ -192,19 +225,6 @@ void GripperActions::move(const franka_gripper::MoveGoal& goal) {
 
 void GripperActions::grasp(const franka_gripper::GraspGoal& goal) {
   franka_gripper::GraspResult result;
-  std::string fault = speedFault(goal.speed);
-  fault = fault.empty() ? widthFault(goal.width) : fault;
-  if (fault.empty() && !(std::isfinite(goal.force) && goal.force >= 0.0)) {
-    fault = "The force must be a finite number of newtons that is not negative.";
-  }
-  if (fault.empty() && !(std::isfinite(goal.epsilon.inner) && std::isfinite(goal.epsilon.outer) &&
-                         goal.epsilon.inner >= 0.0 && goal.epsilon.outer >= 0.0)) {
-    fault = "The epsilons must be finite and not negative.";
-  }
-  if (!fault.empty()) {
-    abort(grasp_server_, result, fault, view_.width);
-    return;
-  }
   const auto command = makeCommand(GripperCommand::Kind::kGrasp);
   command->width = goal.width;
   command->epsilon_inner = goal.epsilon.inner;
@@ -228,15 +248,6 @@ void GripperActions::gripperCommand(const control_msgs::GripperCommandGoal& goal
   control_msgs::GripperCommandResult result;
   const double width = 2.0 * goal.command.position;  // the message names one finger's position
   const double effort = goal.command.max_effort;
-  if (!widthFault(width).empty() || !std::isfinite(effort)) {
-    const std::string text =
-        "The goal is not possible: the position of a finger must lie between 0 and " +
-        franka_core::numberText(parameters_.max_width / 2.0) + " m and is " +
-        franka_core::numberText(goal.command.position) + " m; max_effort must be finite and is " +
-        franka_core::numberText(effort) + " N.";
-    abort(command_server_, result, text, view_.width);
-    return;
-  }
   const bool moves = std::abs(effort) < kNoEffort || width > view_.width;
   const auto command =
       makeCommand(moves ? GripperCommand::Kind::kMove : GripperCommand::Kind::kGrasp);

@@ -184,6 +184,8 @@ def test_a_new_goal_preempts_and_a_cancel_ends_a_motion():
     assert result(stopping)[0] == GoalStatus.SUCCEEDED
     moving = move.send(slow)
     wait_for(lambda: comes_to(moving, actionlib.CommState.ACTIVE), "The second motion")
+    assert move.run(MoveGoal(width=0.09, speed=0.1))[0] == GoalStatus.ABORTED  # is impossible
+    assert moving.get_comm_state() == actionlib.CommState.ACTIVE
     moving.cancel()
     assert result(moving)[0] == GoalStatus.PREEMPTED
     command = Action("/franka_gripper/gripper_action", GripperCommandAction)

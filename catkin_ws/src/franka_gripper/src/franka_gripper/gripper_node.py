@@ -37,6 +37,8 @@ if TYPE_CHECKING:
 
 # Carries out a goal: goal, its result, whether it was cancelled.
 CarryOut = Callable[[Any, Any, Callable[[], bool]], None]
+# Raises a Fault if a goal is impossible; may fill its result.
+Check = Callable[[Any, Any], None]
 
 NO_EFFORT = 1e-4  # [N] smaller efforts of gripper_action mean: move, do not grasp
 ARRIVED = 1e-4  # [m] closer targets of gripper_action count as reached
@@ -104,11 +106,18 @@ def check(condition: bool, text: str) -> None:
 
 
 class GoalServer(actionlib.SimpleActionServer):
-    """Accepts goals also after the clock has jumped back. The base class cancels each goal whose stamp is
+    """Aborts an impossible goal at its arrival, so that it ends no other one.
+
+    Accepts goals also after the clock has jumped back. The base class cancels each goal whose stamp is
     before that of an earlier goal, which would then be all of them until the clock is there again.
     """
 
+    # Aborts a goal that is impossible, and returns whether it was.
+    refuse: Callable[[Any], bool]
+
     def internal_goal_callback(self, goal: Any) -> None:
+        if self.refuse(goal):
+            return
         now = rospy.Time.now()
         for earlier in (self.current_goal, self.next_goal):
             if earlier.get_goal() and earlier.get_goal_id().stamp > now:
@@ -132,9 +141,15 @@ class GripperNode:
         self._servers = [
             self._serve("homing", HomingAction, HomingResult, self._homing),
             self._serve("stop", StopAction, StopResult, None),
-            self._serve("move", MoveAction, MoveResult, self._move),
-            self._serve("grasp", GraspAction, GraspResult, self._grasp),
-            self._serve("gripper_action", GripperCommandAction, GripperCommandResult, self._command),
+            self._serve("move", MoveAction, MoveResult, self._move, self._check_move),
+            self._serve("grasp", GraspAction, GraspResult, self._grasp, self._check_grasp),
+            self._serve(
+                "gripper_action",
+                GripperCommandAction,
+                GripperCommandResult,
+                self._command,
+                self._check_command,
+            ),
         ]
         for server in self._servers:
             server.start()
@@ -158,7 +173,14 @@ class GripperNode:
 
     # --- actions ------------------------------------------------------------------------------------
 
-    def _serve(self, name: str, action: Any, result_type: Any, carry_out: CarryOut | None) -> Any:
+    def _serve(
+        self,
+        name: str,
+        action: Any,
+        result_type: Any,
+        carry_out: CarryOut | None,
+        check_goal: Check | None = None,
+    ) -> Any:
         def execute(goal: Any) -> None:
             result = result_type()
             try:
@@ -179,7 +201,20 @@ class GripperNode:
             else:
                 server.set_succeeded(result)
 
+        def refuse(handle: Any) -> bool:
+            result = result_type()
+            try:
+                if check_goal is not None:
+                    check_goal(handle.get_goal(), result)
+            except Fault as error:
+                handle.set_accepted()
+                self._report(name, result, str(error))
+                handle.set_aborted(result, str(error))
+                return True
+            return False
+
         server = GoalServer("~" + name, action, execute, auto_start=False)
+        server.refuse = refuse
         return server
 
     @staticmethod
@@ -188,9 +223,12 @@ class GripperNode:
             result.error = text
 
     def _abort(self, server: Any, name: str, result: Any, text: str) -> None:
+        self._report(name, result, text)
+        server.set_aborted(result, text)
+
+    def _report(self, name: str, result: Any, text: str) -> None:
         rospy.logerr("franka_gripper, %s: %s", name, text)
         self._explain(result, text)
-        server.set_aborted(result, text)
 
     def _check_width(self, width: float) -> None:
         most = self._hand.state.max_width
@@ -204,9 +242,11 @@ class GripperNode:
         if not result.success:
             result.error = "Homing did not reach the fingers' ends: something is in their way."
 
-    def _move(self, goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
+    def _check_move(self, goal: Any, _result: Any) -> None:
         self._check_width(goal.width)
         check(math.isfinite(goal.speed) and goal.speed > 0.0, "Only positive speeds allowed")
+
+    def _move(self, goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
         result.success = self._hand.run(lambda gripper: gripper.move(goal.width, goal.speed), cancelled)
         if not result.success:
             result.error = (
@@ -214,15 +254,17 @@ class GripperNode:
                 f"{1e3 * goal.width:.1f} mm: something is in their way."
             )
 
-    def _grasp(self, goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
-        self._check_width(goal.width)
-        check(math.isfinite(goal.speed) and goal.speed > 0.0, "Only positive speeds allowed")
+    def _check_grasp(self, goal: Any, result: Any) -> None:
+        self._check_move(goal, result)
         check(math.isfinite(goal.force) and goal.force >= 0.0, "The force must be a number not below zero.")
         inner, outer = goal.epsilon.inner, goal.epsilon.outer
         check(
             math.isfinite(inner) and math.isfinite(outer) and min(inner, outer) >= 0.0,
             "The epsilons must be numbers not below zero.",
         )
+
+    def _grasp(self, goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
+        inner, outer = goal.epsilon.inner, goal.epsilon.outer
         result.success = self._hand.run(
             lambda gripper: gripper.grasp(goal.width, goal.speed, goal.force, inner, outer), cancelled
         )
@@ -233,13 +275,16 @@ class GripperNode:
                 "no object between them, or another one than expected."
             )
 
+    def _check_command(self, goal: Any, result: Any) -> None:
+        result.position = self._hand.state.width
+        self._check_width(2.0 * goal.command.position)
+        check(math.isfinite(goal.command.max_effort), "max_effort must be a number.")
+
     def _command(self, goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
         """control_msgs/GripperCommand: the position is one finger's, the result's the whole width."""
         parameters, state = self._parameters, self._hand.state
         width, effort = 2.0 * goal.command.position, goal.command.max_effort
         result.position = state.width
-        self._check_width(width)
-        check(math.isfinite(effort), "max_effort must be a number.")
         result.reached_goal = True
         # Fingers that another command moves have not arrived, whatever their width.
         if self._hand.busy or abs(width - state.width) >= ARRIVED:

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <actionlib/server/simple_action_server.h>
 #include <combined_robot_hw/combined_robot_hw.h>
 #include <franka_hw/franka_combinable_hw.h>
+#include <franka_hw/goal_server.h>
 #include <franka_msgs/ErrorRecoveryAction.h>
 #include <ros/service_server.h>
 
@@ -62,7 +62,7 @@ class FrankaCombinedHW : public combined_robot_hw::CombinedRobotHW {
   const std::vector<FrankaCombinableHW*>& arms() const noexcept { return arms_; }
 
  private:
-  using RecoveryServer = actionlib::SimpleActionServer<franka_msgs::ErrorRecoveryAction>;
+  using RecoveryServer = GoalServer<franka_msgs::ErrorRecoveryAction>;
 
   void setupServices(ros::NodeHandle& robot_hw_nh);
   void recover();

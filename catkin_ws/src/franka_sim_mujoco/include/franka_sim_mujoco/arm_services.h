@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <actionlib/server/simple_action_server.h>
+#include <franka_hw/goal_server.h>
 #include <franka_msgs/ErrorRecoveryAction.h>
 #include <franka_msgs/SetJointConfiguration.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
@@ -66,7 +66,7 @@ class ArmServices {
   PlaceJoint place_joint_;
   bool restart_controllers_;
   std::vector<ros::ServiceServer> servers_;
-  actionlib::SimpleActionServer<franka_msgs::ErrorRecoveryAction> recovery_;
+  franka_hw::GoalServer<franka_msgs::ErrorRecoveryAction> recovery_;
 };
 
 }  // namespace franka_sim_mujoco

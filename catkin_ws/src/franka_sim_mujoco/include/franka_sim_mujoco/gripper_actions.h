@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <actionlib/server/simple_action_server.h>
 #include <control_msgs/GripperCommandAction.h>
 #include <franka_gripper/GraspAction.h>
 #include <franka_gripper/HomingAction.h>
 #include <franka_gripper/MoveAction.h>
 #include <franka_gripper/StopAction.h>
+#include <franka_hw/goal_server.h>
 #include <franka_sim_mujoco/gripper_mailbox.h>
 #include <ros/node_handle.h>
 
@@ -31,7 +31,8 @@ struct GripperActionParameters {
 };
 
 /// The hand's five actions: stop, homing, move, grasp and gripper_action, in the controller's
-/// namespace. A goal of one interrupts the command of another. Each runs in its own thread.
+/// namespace. A goal of one interrupts the command of another, unless it
+/// is not possible. Each runs in its own thread.
 class GripperActions {
  public:
   GripperActions(const ros::NodeHandle& node, const GripperActionParameters& parameters,
@@ -43,7 +44,7 @@ class GripperActions {
  private:
   using Fate = GripperCommand::Fate;
   template <typename Action>
-  using Server = actionlib::SimpleActionServer<Action>;
+  using Server = franka_hw::GoalServer<Action>;
 
   void stop();
   void homing();
@@ -58,8 +59,15 @@ class GripperActions {
                 Result& result);
   template <typename Action>
   Fate await(Server<Action>& server, const GripperCommand& command) const;
+  // Why a goal is not possible; empty if it is.
   std::string widthFault(double width) const;
-  static std::string speedFault(double speed);
+  std::string fingersFault(double width, double speed) const;
+  std::string moveFault(const franka_gripper::MoveGoal& goal) const;
+  std::string graspFault(const franka_gripper::GraspGoal& goal) const;
+  std::string commandFault(const control_msgs::GripperCommandGoal& goal) const;
+  /// Copies a fault to the result. @returns the fault
+  template <typename Result>
+  std::string explained(const std::string& fault, Result& result) const;
 
   GripperActionParameters parameters_;
   GripperMailbox& mailbox_;
