@@ -269,19 +269,21 @@ TEST_F(ClosedLoop, MalformedGoalsAreRejectedAndMoveNothing) {
   start();
   const closed_loop::TestRobot::Values before = robot_.position_;
   const Goal good = goalTo(target_);
-  expectRejected(Goal(), Result::INVALID_JOINTS);
 
   Goal goal = good;
-  goal.trajectory.joint_names = {"j0", "j1"};
-  EXPECT_NE(
-      std::string::npos,
-      expectRejected(goal, Result::INVALID_JOINTS).error_string.find("allow_partial_joints_goal"));
-  goal.trajectory.joint_names = {"j0", "j1", "j9"};
-  expectRejected(goal, Result::INVALID_JOINTS);
-  goal.trajectory.joint_names = {"j0", "j1", "j1"};
-  expectRejected(goal, Result::INVALID_JOINTS);
-  goal.trajectory.joint_names = {"j0", "j1", "j2", "j3"};
-  expectRejected(goal, Result::INVALID_JOINTS);
+  const std::vector<std::pair<std::vector<std::string>, std::string>> wrong_joints{
+      {{},
+       ": j0 j1 j2. Name them all, or set the controller's parameter allow_partial_joints_goal"},
+      {{"j0", "j1"}, ": j2. Name them all"},
+      {{"j0", "j1", "j9"}, "names 'j9', which is not a joint"},
+      {{"j0", "j9"}, "Its joints are j0 j1 j2."},
+      {{"j0", "j1", "j1"}, "'j1' more than once"},
+      {{"j0", "j1", "j2", "j3"}, "'j3'"}};
+  for (const auto& [names, sentence] : wrong_joints) {
+    goal.trajectory.joint_names = names;
+    const std::string text = expectRejected(goal, Result::INVALID_JOINTS).error_string;
+    EXPECT_NE(std::string::npos, text.find(sentence)) << text;
+  }
 
   goal = good;
   std::swap(goal.trajectory.points[3], goal.trajectory.points[4]);

@@ -147,20 +147,31 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::trajectoryComman
 template <class SegmentImpl, class HardwareInterface>
 bool JointTrajectoryController<SegmentImpl, HardwareInterface>::checkJoints(
     const trajectory_msgs::JointTrajectory& msg, std::string& reason) const {
-  if (!allow_partial_joints_goal_ && msg.joint_names.size() != joint_names_.size()) {
-    reason = "The goal names " + std::to_string(msg.joint_names.size()) +
-             " joint(s), but the controller '" + name_ + "' has " +
-             std::to_string(joint_names_.size()) +
-             ". Name them all, or set the controller's parameter allow_partial_joints_goal.";
-    return false;
-  }
-  if (internal::mapping(msg.joint_names, joint_names_).empty()) {
-    reason = "The joints of the goal are not those of the controller '" + name_ +
-             "': each has to be one of";
-    for (const std::string& joint : joint_names_) {
-      reason += " " + joint;
+  const auto named = [&msg](const std::string& joint) {
+    return std::count(msg.joint_names.begin(), msg.joint_names.end(), joint);
+  };
+  for (const std::string& joint : msg.joint_names) {
+    if (std::find(joint_names_.begin(), joint_names_.end(), joint) == joint_names_.end()) {
+      reason = "The goal names '" + joint + "', which is not a joint of the controller '" + name_ +
+               "'. Its joints are";
+      for (const std::string& own : joint_names_) {
+        reason += " " + own;
+      }
+      reason += ".";
+      return false;
     }
-    reason += ", and none may be named twice.";
+    if (named(joint) > 1) {
+      reason = "The goal names the joint '" + joint + "' more than once.";
+      return false;
+    }
+  }
+  std::string missing;
+  for (const std::string& own : joint_names_) {
+    missing += named(own) == 0 ? " " + own : "";
+  }
+  if (msg.joint_names.empty() || (!missing.empty() && !allow_partial_joints_goal_)) {
+    reason = "The goal lacks joints of the controller '" + name_ + "':" + missing +
+             ". Name them all, or set the controller's parameter allow_partial_joints_goal.";
     return false;
   }
   return true;
