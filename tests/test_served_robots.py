@@ -173,7 +173,7 @@ class Motion:
 @both
 def test_a_client_finds_its_robot(robot, operator):
     address, version = ROBOTS[robot]
-    alone = "Idle, client of protocol 0, errors none"
+    alone = "Idle, no client, errors none"
     wait_for(lambda: operator.sees().text.split(", q")[0] == alone, alone, WAIT)
     with Client(address, version) as client:
         assert client.connect() == (0, version)

@@ -43,7 +43,8 @@ TIME_LIMIT = 60.0  # [s]
 # The last request of wait() may take this long beyond the limit: else it would have no time for its answer.
 MIN_ANSWER_TIME = 1.0  # [s] (chosen here)
 STATE = re.compile(
-    r"(?P<mode>.+?), client of protocol (?P<protocol>\d+), errors (?P<errors>.*), q(?P<q>(?: \S+){7})"
+    r"(?P<mode>.+?), (?:client of protocol (?P<protocol>\d+)|no client), errors (?P<errors>.*)"
+    r", q(?P<q>(?: \S+){7})"
     r"(?:; (?P<fault>.*))?"
 )
 ERROR = re.compile(r"(?P<name>\w+)(?: \((?P<detail>[^()]*)\))?")
@@ -600,7 +601,7 @@ class Remote:
             )
         errors = {} if match["errors"] == "none" else dict(ERROR.findall(match["errors"]))
         q = numpy.array(match["q"].split(), dtype=float)
-        return RemoteState(match["mode"], int(match["protocol"]), errors, q, match["fault"] or "")
+        return RemoteState(match["mode"], int(match["protocol"] or 0), errors, q, match["fault"] or "")
 
     def state_hash(self, timeout: float | None = None) -> int:
         """Hash of all states since the first command, as pyfranka.sim.SimulatedRobot.state_hash(). In

@@ -302,9 +302,10 @@ std::string collisionOf(const ControlUnit& unit, RobotError error) {
 
 std::string describe(SimRobot& robot) {
   const franka_core::RobotState& state = robot.unit().state();
-  return std::string(franka_core::fci::modeName(state.robot_mode)) + ", client of protocol " +
-         std::to_string(robot.clientVersion()) + ", errors" + errorNames(robot.unit()) + ", q" +
-         toText(state.q);
+  const unsigned protocol = robot.clientVersion();
+  return std::string(franka_core::fci::modeName(state.robot_mode)) + ", " +
+         (protocol == 0 ? "no client" : "client of protocol " + std::to_string(protocol)) +
+         ", errors" + errorNames(robot.unit()) + ", q" + toText(state.q);
 }
 
 }  // namespace franka_sim::fci
