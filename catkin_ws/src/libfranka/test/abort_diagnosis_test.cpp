@@ -215,6 +215,7 @@ TEST(AbortDiagnosis, ElbowVelocities) {
   expectIn(message(0.3025, 10), "an acceleration of 1500 rad/s^2; the limit is 10");
   expectIn(message(0.30102, 5), "an acceleration of 20 rad/s^2; the limit is 10");
   expectIn(message(0.301006, 5), "a jerk of 6000 rad/s^3; the limit is 5000");
+  expectIn(message(0.30100500005, 5), "a jerk of 5000.1 rad/s^3; the limit is 5000");
   expectIn(message(3.0, 5),
            "joint 3 was commanded, as the elbow, to 3 rad, and its range is -2.897 to 2.897 rad");
   log.back().command.valid_elbow = false;

@@ -29,9 +29,15 @@ const char* derivativeName(int order) {
 
 /// "3 rad/s^2; the limit is 2 (3 ms before the end of the log)"
 std::string againstLimit(const Excess& excess, int order) {
-  return number(excess.value) + " " + excess.unit + "/s" +
-         (order > 1 ? "^" + std::to_string(order) : "") + "; the limit is " + number(excess.limit) +
-         " (" + std::to_string(excess.age) + " ms before the end of the log)";
+  int digits = 4;  // as many as show which of the two is larger
+  while (excess.value != excess.limit && digits < 17 &&
+         numberText(excess.value, digits) == numberText(excess.limit, digits)) {
+    digits++;
+  }
+  return numberText(excess.value, digits) + " " + excess.unit + "/s" +
+         (order > 1 ? "^" + std::to_string(order) : "") + "; the limit is " +
+         numberText(excess.limit, digits) + " (" + std::to_string(excess.age) +
+         " ms before the end of the log)";
 }
 
 /// Distance of two poses: "3 mm and 4 degrees"
