@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -93,6 +94,22 @@ MoveRequest motionOf(MotionGeneratorMode generator, const py::object& name) {
                                 controller + ".");
   }
   return motion;
+}
+
+/// Targets that are farther from the base are wrong units, or in another frame: the flange of both
+/// robots reaches 0.86 m from joint 2, which is 0.33 m above the base; the rest is for tools
+/// (chosen here).
+constexpr double kMaxTargetDistance = 2.0;  // [m]
+
+void checkReach(const std::array<double, 16>& pose) {
+  const double distance = std::hypot(pose[12], pose[13], pose[14]);
+  if (distance > kMaxTargetDistance) {
+    throw std::invalid_argument(
+        "target lies " + franka_core::numberText(distance, 4) +
+        " m from the robot's base, which no arm reaches: it is a pose in the "
+        "frame of the base, in meters, at most " +
+        franka_core::numberText(kMaxTargetDistance, 4) + " m away.");
+  }
 }
 
 franka_sim::TargetMotion motionOf(const py::object& linear) {
@@ -197,6 +214,7 @@ void bindCommands(py::class_<Robot>& robot) {
               throw std::invalid_argument("stiffness must lie between 0 and 14250 Nm/rad.");
             }
             self.use([&](SimulatedRobot& robot) {
+              franka_sim::Simulation::checkPositions(robot, q);
               franka_sim::JointLaw& law = robot.jointLaw();
               if (K) {
                 law.setStiffness(*K);
@@ -211,6 +229,7 @@ void bindCommands(py::class_<Robot>& robot) {
              const py::object& stiffness, const py::object& nullspace_stiffness,
              const py::object& linear, const py::object& damping) {
             const auto pose = frameOf(target, "target");
+            checkReach(pose);
             const double seconds = durationOf(duration);
             const franka_sim::TargetMotion motion = motionOf(linear);
             const auto K = stiffness.is_none() ? std::optional<std::array<double, 6>>()

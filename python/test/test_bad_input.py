@@ -15,6 +15,7 @@ from sentences import ERRORS, check_refused_while_another_thread_steps, unlike_o
 NAN, INF = math.nan, math.inf
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
 ROBOTS_TAKE_TURNS = True
+START = (0, -0.785, 0, -2.356, 0, 1.571, 0.785)  # [rad]
 FAR = 1e4  # [m], [N]: beyond what a world takes
 QUATERNION_0 = (0, 0, 1, 0, 0, 0, 0)
 
@@ -144,6 +145,8 @@ ROBOT = {
     "joint_impedance": {
         "target needs 7 numbers": lambda x: x.joint_impedance([1, 2]),
         "target must be finite": lambda x: x.joint_impedance([NAN] * 7),
+        "Joint 2 of": lambda x: x.joint_impedance(np.degrees(START)),
+        "Joint 7 of": lambda x: x.joint_impedance([*START[:6], 3.1]),
         "duration must be 0 to": lambda x: x.joint_impedance([0] * 7, duration=-1.0),
         "duration must be a finite": lambda x: x.joint_impedance([0] * 7, duration=NAN),
         "duration must be a number, not 'long'": lambda x: x.joint_impedance([0] * 7, duration="long"),
@@ -154,6 +157,7 @@ ROBOT = {
     "cartesian_impedance": {
         "target needs 16 numbers": lambda x: x.cartesian_impedance([0, 0, 1]),
         "target cannot be used": lambda x: x.cartesian_impedance(np.ones((4, 4))),
+        "target lies 3 m from": lambda x: x.cartesian_impedance(np.eye(4) + np.eye(4, k=3) * 3),
         "duration must be": lambda x: x.cartesian_impedance(np.eye(4), duration=INF),
         "stiffness must not be negative": lambda x: x.cartesian_impedance(np.eye(4), stiffness=[-1] * 6),
         "stiffness must be finite": lambda x: x.cartesian_impedance(np.eye(4), stiffness=[NAN] * 6),

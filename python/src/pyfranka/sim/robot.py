@@ -273,7 +273,7 @@ class SimulatedRobot:
         reached within the duration [s], smoothly from rest to rest or, for targets that follow each other
         (linear), at constant speed; stiffness: 7 [Nm/rad], which stays until the motion ends.
 
-        Raises as command().
+        Raises as command(), and ValueError for a target beyond the range of its joint.
 
         >>> arm.joint_impedance(arm.state.q + 0.1, duration=1.0)
         >>> sim.step(1500)
@@ -291,9 +291,9 @@ class SimulatedRobot:
         linear: bool = False,
         damping: ArrayLike | None = None,
     ) -> None:
-        """The same for the end effector. target: O_T_EE, 4x4; stiffness: 6 [N/m, Nm/rad] along and about the
-        axes of K; nullspace_stiffness of the joints [Nm/rad]; damping of the joints beside that of the
-        springs, 7 [Nm s/rad], for an arm that swings.
+        """The same for the end effector. target: O_T_EE, 4x4, at most 2 m from the base; stiffness:
+        6 [N/m, Nm/rad] along and about the axes of K; nullspace_stiffness of the joints [Nm/rad]; damping of
+        the joints beside that of the springs, 7 [Nm s/rad], for an arm that swings.
 
         >>> target = arm.state.O_T_EE.copy()
         >>> target[2, 3] += 0.05
