@@ -16,8 +16,8 @@ namespace {
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kDegreesPerRadian = 57.29577951308232;
-// Shortest time between two warnings of joints near their ends. [s]
-constexpr double kLimitReportPeriod = 5.0;
+// A joint that was away from its ends for this time is reported again. [s]
+constexpr double kTimeAway = 5.0;
 constexpr double kLimitCheckPeriod = 0.5;
 
 }  // namespace
@@ -34,8 +34,12 @@ JointLimitMonitor::JointLimitMonitor(ros::NodeHandle& nh, const std::string& arm
     }
     near_limit_[i] = kNan;
   }
-  timer_ =
-      nh.createWallTimer(ros::WallDuration(kLimitCheckPeriod), &JointLimitMonitor::report, this);
+  timer_ = nh.createWallTimer(ros::WallDuration(kLimitCheckPeriod), [this](const auto& event) {
+    const std::string text = news(event.current_real);
+    if (!text.empty()) {
+      ROS_WARN_STREAM(text);
+    }
+  });
 }
 
 void JointLimitMonitor::check(const std::array<double, 7>& q, double threshold) noexcept {
@@ -49,23 +53,23 @@ double JointLimitMonitor::distanceToLimit(std::size_t joint, double q) const noe
   return std::min(std::abs(q - ranges_[joint][0]), std::abs(q - ranges_[joint][1]));
 }
 
-void JointLimitMonitor::report(const ros::WallTimerEvent& /*event*/) {
+std::string JointLimitMonitor::news(ros::WallTime now) {
   using franka_core::fixedText;
   std::string joints;
+  bool has_new_one = false;
   for (std::size_t i = 0; i < joint_names_.size(); i++) {
     const double q = near_limit_[i].load(std::memory_order_relaxed);
     if (std::isnan(q)) {
       continue;
     }
+    has_new_one = has_new_one || (now - last_near_[i]).toSec() > kTimeAway;
+    last_near_[i] = now;
     joints += "\n\t" + joint_names_[i] + ": " +
               fixedText(distanceToLimit(i, q) * kDegreesPerRadian, 6) +
               " degrees to the end of its range (q = " + fixedText(q, 6) + ", limits " +
               fixedText(ranges_[i][0], 6) + " and " + fixedText(ranges_[i][1], 6) + " rad)";
   }
-  if (!joints.empty()) {
-    ROS_WARN_STREAM_THROTTLE(
-        kLimitReportPeriod, "FrankaHW: joints of '" << arm_id_ << "' near their limits:" << joints);
-  }
+  return has_new_one ? "FrankaHW: joints of '" + arm_id_ + "' near their limits:" + joints : "";
 }
 
 }  // namespace franka_hw

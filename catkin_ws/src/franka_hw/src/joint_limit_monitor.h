@@ -15,7 +15,7 @@ namespace franka_hw {
 /// Warns about joints of one arm that are near an end of their range in the description.
 ///
 /// The thread of the control cycle calls check(), which records the joints; a timer of ROS prints
-/// them, at most every 5 s, until this is destroyed.
+/// them when another one has come near, until this is destroyed.
 class JointLimitMonitor {
  public:
   /// @param nh serves the timer @param description joints that are missing there are not checked
@@ -26,14 +26,18 @@ class JointLimitMonitor {
   /// Real-time safe. @param q positions [rad]
   void check(const std::array<double, 7>& q, double threshold) noexcept;
 
+  /// A sentence with all joints near an end, if one of them was not for some seconds; else empty.
+  /// Called by the timer. @param now later than in the last call
+  std::string news(ros::WallTime now);
+
  private:
   double distanceToLimit(std::size_t joint, double q) const noexcept;
-  void report(const ros::WallTimerEvent& event);
 
   const std::string arm_id_;
   const std::array<std::string, 7> joint_names_;
   std::array<std::array<double, 2>, 7> ranges_;    // [rad]; infinite without limits
   std::array<std::atomic<double>, 7> near_limit_;  // position of a joint near its end, else NaN
+  std::array<ros::WallTime, 7> last_near_{};       // used by news()
   ros::WallTimer timer_;
 };
 

@@ -9,8 +9,10 @@
 #include <franka_msgs/SetLoad.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <future>
 
+#include "../../src/joint_limit_monitor.h"
 #include "support.h"
 
 namespace franka_hw_test {
@@ -55,6 +57,41 @@ TEST_F(Connection, WarnsOnceOfAnEndEffectorThatIsNotTheDescribedOne) {
   const std::size_t first = text.find("17 mm");
   ASSERT_NE(std::string::npos, first) << text;
   EXPECT_EQ(std::string::npos, text.find("17 mm", first + 1)) << text;
+}
+
+TEST(JointLimitMonitor, NamesJointsWhenOneComesNear) {
+  FakeArm arm;
+  const std::vector<std::string> joints = FakeArm::joints(arm.arm_id);
+  std::array<std::string, 7> names;
+  std::copy(joints.begin(), joints.end(), names.begin());
+  urdf::Model description;
+  ASSERT_TRUE(description.initString(urdfOf(arm.arm_id)));
+  franka_hw::JointLimitMonitor monitor(arm.nh, arm.arm_id, names, description);
+  std::array<double, 7> q{0, 0, 0, -1.5, 0, 1.5, 0};
+  const auto names_at = [&](double seconds, std::size_t joint) {
+    monitor.check(q, 0.1);
+    const std::string text = monitor.news(ros::WallTime(100.0 + seconds));
+    return text.find(names[joint]) != std::string::npos;
+  };
+  const auto near_end = [&](std::size_t joint) {
+    return description.getJoint(names[joint])->limits->upper - 0.05;
+  };
+  EXPECT_FALSE(names_at(0.0, 6));
+  q[6] = near_end(6);
+  EXPECT_TRUE(names_at(0.5, 6));
+  for (double time = 1.0; time < 20.0; time += 0.5) {
+    EXPECT_FALSE(names_at(time, 6)) << time << " s: it has not moved";
+  }
+  q[0] = near_end(0);
+  EXPECT_TRUE(names_at(20.0, 0));
+  q[6] = 0.0;
+  EXPECT_FALSE(names_at(22.0, 0));
+  q[6] = near_end(6);
+  EXPECT_FALSE(names_at(24.0, 6)) << "it was away for four seconds only";
+  q[6] = 0.0;
+  EXPECT_FALSE(names_at(26.0, 0));
+  q[6] = near_end(6);
+  EXPECT_TRUE(names_at(30.0, 6));
 }
 
 TEST_F(Connection, IsKeptWhileAControllerRuns) {
