@@ -46,7 +46,9 @@ void describePhysics(Simulation& simulation,
 }
 
 /// The settings of ODE have no counterpart and are not read.
-void setPhysics(Simulation& simulation, const gazebo_msgs::SetPhysicsProperties::Request& request) {
+/// @returns what robots do not follow; empty if the gravity stays
+std::string setPhysics(Simulation& simulation,
+                       const gazebo_msgs::SetPhysicsProperties::Request& request) {
   if (!(std::abs(request.time_step - World::kTick) < 1e-9)) {
     throw std::runtime_error("The time step is " + franka_core::numberText(World::kTick) +
                              " s and not " + franka_core::numberText(request.time_step) +
@@ -55,8 +57,16 @@ void setPhysics(Simulation& simulation, const gazebo_msgs::SetPhysicsProperties:
   const double factor = request.max_update_rate * World::kTick;
   paceOf(factor);  // throws for a wrong one, before anything changes
   const auto gravity = fromMessage(request.gravity);
-  simulation.withWorld([&](World& world) { setGravity(world, gravity); });
+  bool is_other = false;
+  simulation.withWorld([&](World& world) {
+    is_other = franka_sim::gravity(world) != gravity;
+    setGravity(world, gravity);
+  });
   simulation.setRealTimeFactor(factor);
+  return is_other
+             ? "Robots go on compensating the gravity with which they were spawned: spawn them "
+               "again to let them know of the new one."
+             : "";
 }
 
 /// The duration of a force [ticks]. @throws std::runtime_error if it begins later
@@ -162,8 +172,8 @@ void SimServices::offerGazeboPhysics() {
       });
   services_.offer<SetPhysicsProperties>(
       "set_physics_properties",
-      [this](SetPhysicsProperties::Request& request, SetPhysicsProperties::Response&) {
-        setPhysics(simulation_, request);
+      [this](SetPhysicsProperties::Request& request, SetPhysicsProperties::Response& response) {
+        response.status_message = setPhysics(simulation_, request);
       });
   services_.offer<ApplyBodyWrench>(
       "apply_body_wrench", [this](ApplyBodyWrench::Request& request, ApplyBodyWrench::Response&) {

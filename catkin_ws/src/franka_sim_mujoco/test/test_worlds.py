@@ -444,7 +444,8 @@ def set_physics(gravity_z, time_step=0.001, **expected):
 
 
 def test_gazebo_set_physics_properties_changes_gravity_and_no_time_step():
-    set_physics(-1.5)
+    assert "compensating the gravity with which they were spawned" in set_physics(-1.5).status_message
+    assert not set_physics(-1.5).status_message
     refused = set_physics(-9.0, time_step=0.002, fails=True)
     assert "0.002" in refused.status_message
     assert gazebo("get_physics_properties", GetPhysicsProperties).gravity.z == -1.5
