@@ -111,7 +111,8 @@ class Reader {
 
   void notePlugins(const XMLElement& element, const std::string& of) {
     forEach(element, "plugin", [&](const XMLElement& plugin) {
-      note("plugin '" + optional(plugin, "name") + "' of " + of);
+      note("plugin '" + optional(plugin, "name") + "' (" + optional(plugin, "filename") + ") of " +
+           of);
     });
   }
 

@@ -281,6 +281,25 @@ void readPlugins(const XMLElement& gazebo, UrdfRobot* robot) {
   }
 }
 
+/// Settings of Gazebo that have no effect here, with what they are of.
+void noteUnread(const XMLElement& gazebo, UrdfRobot* robot) {
+  const std::string reference = optional(gazebo, "reference");
+  const std::string what = reference.empty() ? "the model" : "'" + reference + "'";
+  if (!reference.empty() && robot->link(reference) < 0 && robot->joint(reference) < 0) {
+    robot->notes.insert("<gazebo> of " + what + ", which is neither a link nor a joint");
+    return;
+  }
+  if (isTrue(gazebo, "turnGravityOff", false) || !isTrue(gazebo, "gravity", true)) {
+    robot->notes.insert("gravity that is off, of " + what);
+  }
+  // Fixed joints are always kept; forces of joints can always be read.
+  noteUnknown(
+      gazebo, what,
+      {"sensor", "plugin", "static", "self_collide", "collision", "mu", "mu1", "gravity",
+       "turnGravityOff", "provideFeedback", "preserveFixedJoint", "disableFixedJointLumping"},
+      &robot->notes);
+}
+
 /// The <gazebo> elements.
 void readExtensions(const XMLElement& root, const std::string& context, UrdfRobot* robot) {
   for (auto* e = root.FirstChildElement("gazebo"); e != nullptr;
@@ -300,6 +319,7 @@ void readExtensions(const XMLElement& root, const std::string& context, UrdfRobo
     }
     readSensors(*e, robot, link);
     readPlugins(*e, robot);
+    noteUnread(*e, robot);
   }
 }
 

@@ -243,7 +243,8 @@ TEST_F(SdfWorldTest, ReportsUnsupportedElementsInOneSentence) {
       "<model name='lost'><link name='l'><visual name='v'><geometry><mesh><uri>model://gone/x.dae"
       "</uri></mesh></geometry></visual><sensor name='imu' type='imu'/></link></model>"));
   const std::string text = world.unsupported();
-  for (const char* part : {"wind_maker", "bounce", "mu2", "joint 'b::s'", "gone/x.dae", "imu"}) {
+  for (const char* part :
+       {"'wind_maker' (libw.so)", "bounce", "mu2", "joint 'b::s'", "gone/x.dae", "imu"}) {
     EXPECT_THAT(text, HasSubstr(part));
   }
   EXPECT_DOUBLE_EQ(

@@ -159,6 +159,32 @@ TEST(UrdfRobotTest, ReadsCamerasAndNamesWhatIsNotSimulated) {
   EXPECT_NE(std::string::npos, robot.notes.rbegin()->find("rob::arm::bump"));
 }
 
+TEST(UrdfRobotTest, NamesSettingsOfGazeboThatHaveNoEffect) {
+  const auto notesOf = [](const std::string& settings) {
+    const auto notes = physics::readUrdf(twoLinks(hinge() + settings), "rob").notes;
+    return std::vector<std::string>(notes.begin(), notes.end());
+  };
+  using List = std::vector<std::string>;
+  const auto of = [](const std::string& name, const std::string& settings) {
+    return "<gazebo reference='" + name + "'>" + settings + "</gazebo>";
+  };
+  EXPECT_EQ(List{"gravity that is off, of 'arm'"}, notesOf(of("arm", "<gravity>0</gravity>")));
+  EXPECT_EQ(List{"gravity that is off, of 'arm'"},
+            notesOf(of("arm", "<turnGravityOff>true</turnGravityOff>")));
+  EXPECT_EQ((List{"<kd> of 'arm'", "<kp> of 'arm'", "<mu2> of 'arm'"}),
+            notesOf(of("arm", "<mu1>1</mu1><mu2>1</mu2><kp>1e6</kp><kd>1</kd>")));
+  EXPECT_EQ(List{"<selfCollide> of 'arm'"}, notesOf(of("arm", "<selfCollide>true</selfCollide>")));
+  EXPECT_EQ(List{"<stopKd> of 'j'"}, notesOf(of("j", "<stopKd>1</stopKd>")));
+  EXPECT_EQ(List{"<gazebo> of 'amr', which is neither a link nor a joint"},
+            notesOf(of("amr", "<gravity>0</gravity>")));
+  EXPECT_EQ(List{"<pose> of the model"}, notesOf("<gazebo><pose>0 0 1 0 0 0</pose></gazebo>"));
+  EXPECT_EQ(List{}, notesOf(of("arm",
+                               "<mu1>1</mu1><turnGravityOff>false</turnGravityOff>"
+                               "<collision><surface/></collision>") +
+                            of("j", "<provideFeedback>true</provideFeedback>") +
+                            "<gazebo><static>false</static></gazebo>"));
+}
+
 TEST(UrdfRobotTest, RefusesLoopsAndTwoParents) {
   const std::string loop =
       "<robot name='r'><link name='root'/><link name='a'/><link name='b'/>"
