@@ -146,7 +146,7 @@ def streams_of(topics, clock) -> set[str]:
 
 def check_actions(actions, when: str) -> None:
     for action, goal in actions:
-        assert action.run(goal)[0] == GoalStatus.SUCCEEDED, f"{action} {when}"
+        assert action.run(goal)[0] == GoalStatus.SUCCEEDED, f"{type(goal).__name__} {when}"
 
 
 def test_streams_nodes_and_actions_continue_after_jumps(tmp_path):

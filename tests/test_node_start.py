@@ -21,7 +21,7 @@ CLEAN_END, SHORT_END = 40.0, 0.1  # [s] values of shutdown_timeout
 ENDED_BY_TIMEOUT = "ended without the robot's answer"
 ONE, ALL = "/franka_control", "/combined_panda"  # names of the nodes
 
-# It has left before the program does.
+# Requests a recovery, and exits as soon as the node has accepted the goal.
 ASK_RECOVERY = f"""
 import actionlib, rospy, rospy_connections, threading
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal
@@ -347,7 +347,7 @@ def test_a_node_waiting_for_a_recovery_exits_on_interrupt(master):
         one(master) as node,
     ):
         node.must_print("is ready")
-        holds_the_arm(master, node)
+        start_trajectory_controller(master, node)
         robot.remote.push("panda_link7", (0, 0, -220), ticks=60)
         node.must_print("reflex")
         proxy.hold_replies()
@@ -370,10 +370,10 @@ def moving(master, through=()):
     master.set(ONE + "/robot_ip", OTHER)
     set_controllers(master, "panda")
     with one_with_robot(master, "lockstep", through) as (node, robot):
-        holds_the_arm(master, node)
+        start_trajectory_controller(master, node)
         yield node, robot
 
 
-def holds_the_arm(master, node):
+def start_trajectory_controller(master, node):
     answer = manager(master, "spawn", TRAJECTORY)
     assert "Started" in answer, f"{answer}\n{node.output}"

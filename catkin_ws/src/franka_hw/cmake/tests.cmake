@@ -35,6 +35,7 @@ add_rostest_gtest(franka_hw_robot_test test/franka_hw_robot.test
   test/robot/combined_test.cpp
   test/robot/connection_test.cpp
   test/robot/cycle_test.cpp
+  test/robot/goal_server_test.cpp
   test/robot/interfaces_test.cpp
   test/robot/main.cpp
   test/robot/modes_test.cpp

@@ -35,7 +35,7 @@ JointLimitMonitor::JointLimitMonitor(ros::NodeHandle& nh, const std::string& arm
     near_limit_[i] = kNan;
   }
   timer_ = nh.createWallTimer(ros::WallDuration(kLimitCheckPeriod), [this](const auto& event) {
-    const std::string text = news(event.current_real);
+    const std::string text = makeWarning(event.current_real);
     if (!text.empty()) {
       ROS_WARN_STREAM(text);
     }
@@ -53,23 +53,23 @@ double JointLimitMonitor::distanceToLimit(std::size_t joint, double q) const noe
   return std::min(std::abs(q - ranges_[joint][0]), std::abs(q - ranges_[joint][1]));
 }
 
-std::string JointLimitMonitor::news(ros::WallTime now) {
+std::string JointLimitMonitor::makeWarning(ros::WallTime now) {
   using franka_core::fixedText;
   std::string joints;
-  bool has_new_one = false;
+  bool has_new_joint = false;
   for (std::size_t i = 0; i < joint_names_.size(); i++) {
     const double q = near_limit_[i].load(std::memory_order_relaxed);
     if (std::isnan(q)) {
       continue;
     }
-    has_new_one = has_new_one || (now - last_near_[i]).toSec() > kTimeAway;
+    has_new_joint = has_new_joint || (now - last_near_[i]).toSec() > kTimeAway;
     last_near_[i] = now;
     joints += "\n\t" + joint_names_[i] + ": " +
               fixedText(distanceToLimit(i, q) * kDegreesPerRadian, 6) +
               " degrees to the end of its range (q = " + fixedText(q, 6) + ", limits " +
               fixedText(ranges_[i][0], 6) + " and " + fixedText(ranges_[i][1], 6) + " rad)";
   }
-  return has_new_one ? "FrankaHW: joints of '" + arm_id_ + "' near their limits:" + joints : "";
+  return has_new_joint ? "FrankaHW: joints of '" + arm_id_ + "' near their limits:" + joints : "";
 }
 
 }  // namespace franka_hw

@@ -26,9 +26,10 @@ class JointLimitMonitor {
   /// Real-time safe. @param q positions [rad]
   void check(const std::array<double, 7>& q, double threshold) noexcept;
 
-  /// A sentence with all joints near an end, if one of them was not for some seconds; else empty.
-  /// Called by the timer. @param now later than in the last call
-  std::string news(ros::WallTime now);
+  /// The timer calls it. Not real-time safe.
+  /// @returns a sentence that names all joints near an end if one of them was not near for the last
+  /// five seconds; otherwise an empty string @param now later than in the last call
+  std::string makeWarning(ros::WallTime now);
 
  private:
   double distanceToLimit(std::size_t joint, double q) const noexcept;
@@ -37,7 +38,7 @@ class JointLimitMonitor {
   const std::array<std::string, 7> joint_names_;
   std::array<std::array<double, 2>, 7> ranges_;    // [rad]; infinite without limits
   std::array<std::atomic<double>, 7> near_limit_;  // position of a joint near its end, else NaN
-  std::array<ros::WallTime, 7> last_near_{};       // used by news()
+  std::array<ros::WallTime, 7> last_near_{};       // used by makeWarning()
   ros::WallTimer timer_;
 };
 

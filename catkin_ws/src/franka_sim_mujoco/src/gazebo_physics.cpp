@@ -46,7 +46,7 @@ void describePhysics(Simulation& simulation,
 }
 
 /// The settings of ODE have no counterpart and are not read.
-/// @returns what robots do not follow; empty if the gravity stays
+/// @returns a note for the user if there are robots that compensate another gravity now
 std::string setPhysics(Simulation& simulation,
                        const gazebo_msgs::SetPhysicsProperties::Request& request) {
   if (!(std::abs(request.time_step - World::kTick) < 1e-9)) {
@@ -57,13 +57,13 @@ std::string setPhysics(Simulation& simulation,
   const double factor = request.max_update_rate * World::kTick;
   paceOf(factor);  // throws for a wrong one, before anything changes
   const auto gravity = fromMessage(request.gravity);
-  bool is_other = false;
+  bool robots_differ = false;
   simulation.withWorld([&](World& world) {
-    is_other = franka_sim::gravity(world) != gravity;
+    robots_differ = franka_sim::gravity(world) != gravity && !world.robots().empty();
     setGravity(world, gravity);
   });
   simulation.setRealTimeFactor(factor);
-  return is_other
+  return robots_differ
              ? "Robots go on compensating the gravity with which they were spawned: spawn them "
                "again to let them know of the new one."
              : "";

@@ -218,6 +218,9 @@ TEST(AbortDiagnosis, ElbowVelocities) {
   expectIn(message(0.30100500005, 5), "a jerk of 5000.1 rad/s^3; the limit is 5000");
   expectIn(message(3.0, 5),
            "joint 3 was commanded, as the elbow, to 3 rad, and its range is -2.897 to 2.897 rad");
+  expectIn(message(2.89731, 5),
+           "joint 3 was commanded, as the elbow, to 2.89731 rad, and its range is -2.8973 to "
+           "2.8973 rad");
   log.back().command.valid_elbow = false;
   expectIn(message(0.0, 5), "no command of the log has an elbow");
 }

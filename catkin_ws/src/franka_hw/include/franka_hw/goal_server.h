@@ -56,12 +56,13 @@ class GoalServer {
     server_.start();
   }
 
-  /// Waits for the goal that runs; others do not start any more. Not to be called while it is
-  /// carried out, in the same thread.
+  /// Waits for the end of the goal that runs. The waiting goal and later ones are canceled. Must
+  /// not be called by the function that carries out goals.
   void shutdown() {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       ending_ = true;
+      cancelNext("The server of the action shuts down.");
     }
     wake_.notify_all();
     if (thread_.joinable()) {
@@ -82,7 +83,7 @@ class GoalServer {
     end([&](Handle& goal) { goal.setCanceled(result, text); });
   }
 
-  /// Whether it is to end: a client cancelled it, or a new goal waits.
+  /// Whether it is to end: a client canceled it, or a new goal waits.
   bool isPreemptRequested() const noexcept { return preempt_requested_; }
   /// Whether a new goal waits for its end.
   bool isNewGoalAvailable() const {
@@ -103,11 +104,13 @@ class GoalServer {
       return;
     }
     const std::lock_guard<std::mutex> lock(mutex_);
-    if (has_next_) {
-      next_.setCanceled(Result(), "A newer goal replaced this one before it began.");
-    }
+    cancelNext("A newer goal replaced this one before it began.");
     next_ = goal;
     has_next_ = true;
+    if (ending_) {
+      cancelNext("The server of the action shuts down.");
+      return;
+    }
     preempt_requested_ = runs_;
     wake_.notify_all();
   }
@@ -115,10 +118,16 @@ class GoalServer {
   void cancel(Handle& goal) {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (has_next_ && goal == next_) {
-      has_next_ = false;
-      next_.setCanceled(Result(), "The goal was cancelled before it began.");
+      cancelNext("The goal was canceled before it began.");
     } else if (runs_ && goal == current_) {
       preempt_requested_ = true;
+    }
+  }
+
+  void cancelNext(const char* reason) {
+    if (has_next_) {
+      has_next_ = false;
+      next_.setCanceled(Result(), reason);
     }
   }
 

@@ -70,7 +70,7 @@ TEST(JointLimitMonitor, NamesJointsWhenOneComesNear) {
   std::array<double, 7> q{0, 0, 0, -1.5, 0, 1.5, 0};
   const auto names_at = [&](double seconds, std::size_t joint) {
     monitor.check(q, 0.1);
-    const std::string text = monitor.news(ros::WallTime(100.0 + seconds));
+    const std::string text = monitor.makeWarning(ros::WallTime(100.0 + seconds));
     return text.find(names[joint]) != std::string::npos;
   };
   const auto near_end = [&](std::size_t joint) {

@@ -298,6 +298,11 @@ void noteUnread(const XMLElement& gazebo, UrdfRobot* robot) {
       {"sensor", "plugin", "static", "self_collide", "collision", "mu", "mu1", "gravity",
        "turnGravityOff", "provideFeedback", "preserveFixedJoint", "disableFixedJointLumping"},
       &robot->notes);
+  for (const char* of_models : {"static", "self_collide"}) {
+    if (!reference.empty() && gazebo.FirstChildElement(of_models) != nullptr) {
+      robot->notes.insert("<" + std::string(of_models) + "> of " + what);
+    }
+  }
 }
 
 /// The <gazebo> elements.

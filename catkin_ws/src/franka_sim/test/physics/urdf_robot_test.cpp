@@ -174,6 +174,7 @@ TEST(UrdfRobotTest, NamesSettingsOfGazeboThatHaveNoEffect) {
   EXPECT_EQ((List{"<kd> of 'arm'", "<kp> of 'arm'", "<mu2> of 'arm'"}),
             notesOf(of("arm", "<mu1>1</mu1><mu2>1</mu2><kp>1e6</kp><kd>1</kd>")));
   EXPECT_EQ(List{"<selfCollide> of 'arm'"}, notesOf(of("arm", "<selfCollide>true</selfCollide>")));
+  EXPECT_EQ(List{"<self_collide> of 'arm'"}, notesOf(of("arm", "<self_collide>1</self_collide>")));
   EXPECT_EQ(List{"<stopKd> of 'j'"}, notesOf(of("j", "<stopKd>1</stopKd>")));
   EXPECT_EQ(List{"<gazebo> of 'amr', which is neither a link nor a joint"},
             notesOf(of("amr", "<gravity>0</gravity>")));

@@ -22,6 +22,15 @@ using Matrix4 = Eigen::Map<const Eigen::Matrix4d>;
 
 std::string number(double value) { return numberText(value, 4); }
 
+/// How many digits, four or more, show which of two numbers is larger.
+int digitsToSeparate(double a, double b) {
+  int digits = 4;
+  while (a != b && digits < 17 && numberText(a, digits) == numberText(b, digits)) {
+    digits++;
+  }
+  return digits;
+}
+
 /// "a velocity" and so on.
 const char* derivativeName(int order) {
   return order == 1 ? "a velocity" : (order == 2 ? "an acceleration" : "a jerk");
@@ -29,11 +38,7 @@ const char* derivativeName(int order) {
 
 /// "3 rad/s^2; the limit is 2 (3 ms before the end of the log)"
 std::string againstLimit(const Excess& excess, int order) {
-  int digits = 4;  // as many as show which of the two is larger
-  while (excess.value != excess.limit && digits < 17 &&
-         numberText(excess.value, digits) == numberText(excess.limit, digits)) {
-    digits++;
-  }
+  const int digits = digitsToSeparate(excess.value, excess.limit);
   return numberText(excess.value, digits) + " " + excess.unit + "/s" +
          (order > 1 ? "^" + std::to_string(order) : "") + "; the limit is " +
          numberText(excess.limit, digits) + " (" + std::to_string(excess.age) +
@@ -85,9 +90,12 @@ constexpr const char* kWasCommanded = "was commanded to";
 constexpr const char* kWouldHaveFollowed = "would have followed the Cartesian command to";
 
 std::string rangeOf(const Position& position, const char* verb, const ArmLimits& limits) {
-  return jointName(position.joint) + " " + verb + " " + number(position.q) +
-         " rad, and its range is " + number(limits.q_min[position.joint]) + " to " +
-         number(limits.q_max[position.joint]) + " rad.";
+  const double lowest = limits.q_min[position.joint], highest = limits.q_max[position.joint];
+  const int digits =
+      std::max(digitsToSeparate(position.q, lowest), digitsToSeparate(position.q, highest));
+  return jointName(position.joint) + " " + verb + " " + numberText(position.q, digits) +
+         " rad, and its range is " + numberText(lowest, digits) + " to " +
+         numberText(highest, digits) + " rad.";
 }
 
 class Diagnosis {

@@ -181,8 +181,8 @@ std::optional<Pose> poseIn(const urdf::Link& ancestor, const urdf::LinkConstShar
   return at ? std::optional<Pose>(pose) : std::nullopt;
 }
 
-// Pose of a link that the arm carries in the flange frame. Empty if there is no such link. Some
-// descriptions mount the hand on link 7 instead of the flange.
+// The pose in the flange frame of a link that is mounted on the arm; empty if there is no such
+// link. Some descriptions mount the hand on link 7 instead of the flange.
 std::optional<Pose> poseInFlange(const urdf::ModelInterface& model, const std::string& prefix,
                                  const std::string& name) {
   const urdf::LinkConstSharedPtr link = model.getLink(prefix + name);
