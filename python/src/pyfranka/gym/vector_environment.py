@@ -97,7 +97,7 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
         self._desired = numpy.zeros((self.num_envs, self._goal_size()), dtype=numpy.float32)
         self._randoms: list[numpy.random.Generator] = []
         self._steps = numpy.zeros(self.num_envs, dtype=int)
-        self._ended = numpy.zeros(self.num_envs, dtype=bool)
+        self._ended: Values = numpy.zeros(self.num_envs, dtype=bool)
         # Of a dict of arrays.
         self._shared: Any = create_empty_array(self.single_observation_space, self.num_envs)
 
@@ -133,10 +133,10 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
         self._seed(seeds, mask)
         infos: dict[str, Any] = {}
         observations: list[Any] = [None] * self.num_envs
-        for i in numpy.flatnonzero(mask).tolist():
+        for i in map(int, numpy.flatnonzero(mask)):
             observations[i], info = self._reset_one(i, checked)
             infos = self._add_info(infos, info, i)
-        for i in numpy.flatnonzero(~mask).tolist():
+        for i in map(int, numpy.flatnonzero(~mask)):
             observations[i] = self._row(i)
         return self._together(observations), infos
 
@@ -219,7 +219,7 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
         self._ended = terminated | truncated
         infos.update({f"_{name}": numpy.ones(self.num_envs, dtype=bool) for name in list(infos)})
         renewed = self._ended if self.autoreset_mode == AutoresetMode.SAME_STEP else resting
-        for i in numpy.flatnonzero(renewed).tolist():
+        for i in map(int, numpy.flatnonzero(renewed)):
             infos = self._renew(i, seen, infos)
         self._shared = {name: values.copy() for name, values in seen.items()}
         return seen, rewards, terminated, truncated, infos

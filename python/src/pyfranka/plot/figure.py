@@ -114,7 +114,8 @@ class Plot:
 
     def _chosen(self, values: Array) -> list[int]:
         """The columns to draw: those of the chosen parts that have numbers."""
-        count, known = values.shape[1], np.isfinite(values).any(axis=0)
+        count = values.shape[1]
+        known = [bool(np.isfinite(column).any()) for column in values.T]
         return [
             i for i in range(count) if known[i] and (not self._parts or count < 6 or i + 1 in self._parts)
         ]
@@ -384,7 +385,7 @@ def _spans(modes: Sequence[int]) -> list[tuple[int, int, pyfranka.RobotMode]]:
     """First row, row after the last one, and mode."""
     if not len(modes):
         return []
-    edges = [0, *(np.flatnonzero(np.diff(np.asarray(modes))) + 1).tolist(), len(modes)]
+    edges = [0, *(int(i) + 1 for i in np.flatnonzero(np.diff(np.asarray(modes)))), len(modes)]
     return [(a, b, pyfranka.RobotMode(modes[a])) for a, b in zip(edges, edges[1:])]
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 import pyfranka
 from pyfranka.sim import arguments
 
-Array = NDArray[np.float64]
+Array = NDArray[np.floating[Any]]
 
 PANDA, FR3 = 5, 10  # protocol versions whose limits a robot of a known kind gets
 KINDS = {"panda": PANDA, "fr3": FR3}

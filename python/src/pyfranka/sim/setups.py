@@ -60,7 +60,7 @@ class _Setup:
         if NOT_IN_NAMES.search(text(self.name, "name")):
             raise ValueError(f"name is the prefix of joints and links; it cannot be {self.name!r}.")
         base = numbers(self.base, "base (x, y, z [m] and, optionally, the turn [rad])", 3, 4)
-        self._set("base", tuple(base.tolist()))
+        self._set("base", tuple(map(float, base)))
         self._set("hand", _hand(self.hand))
         self._set("load", _load(self.load))
         _sim.check_realism(text(self.realism, "realism"))
@@ -156,8 +156,8 @@ def _load(load: typing.Any) -> tuple[float, tuple[float, ...], tuple[float, ...]
         ) from None
     return (
         float(numbers(mass, "The mass of load [kg]", 1)[0]),
-        tuple(numbers(center, "The center of mass of load [m]", 3).tolist()),
-        tuple(inertia(turning, "The inertia of load [kg m^2]").tolist()),
+        tuple(map(float, numbers(center, "The center of mass of load [m]", 3))),
+        tuple(map(float, inertia(turning, "The inertia of load [kg m^2]"))),
     )
 
 

@@ -108,7 +108,8 @@ class Arm:
         self._corrected = 0.0  # time of the last correction
         # Friction stops an arm before its equilibrium pose: [m] and, as a rotation vector, [rad] by which
         # that pose is led further. It stays for the next motion, so that the held object feels no jump.
-        self._lead_position, self._lead_turn = np.zeros(3), np.zeros(3)
+        self._lead_position: Array = np.zeros(3)
+        self._lead_turn: Array = np.zeros(3)
         self._publisher = rospy.Publisher(
             f"{namespace}{self.CONTROLLER}/equilibrium_pose", PoseStamped, queue_size=1
         )
@@ -474,7 +475,8 @@ class PickAndPlace:
             and abs(offset[1, 3]) < TRAY_SIZE[1] / 2
             and lowest < height < highest
         )
-        return Placement(tuple(stone[:3, 3].tolist()), math.hypot(offset[0, 3], offset[1, 3]), inside)
+        x, y, z = map(float, stone[:3, 3])
+        return Placement((x, y, z), math.hypot(offset[0, 3], offset[1, 3]), inside)
 
     def _in_base(self, world: Array) -> Array:
         return self._base_inverse @ world
