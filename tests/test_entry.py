@@ -592,8 +592,12 @@ def test_clean_removes_what_was_made_and_nothing_else(tmp_path):
     subprocess.run(["git", "init", "--quiet", tmp_path], check=True, timeout=60)
     for name in ("franka", ".gitignore"):
         shutil.copy(TOP / name, tmp_path)
-    for name in ("out/a", ".venv/b", "catkin_ws/build/c", "mine.txt"):
+    (tmp_path / ".git/info/exclude").write_text("*.bag\n.envrc\n")  # the user's own
+    for name in ("out/a", ".venv/b", "catkin_ws/build/c", "mine.txt", "my.bag", ".envrc"):
         (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / name).touch()
-    subprocess.run([tmp_path / "franka", "clean"], check=True, timeout=60)
-    assert sorted(path.name for path in tmp_path.iterdir()) == [".git", ".gitignore", "franka", "mine.txt"]
+    command = [tmp_path / "franka", "clean"]
+    printed = subprocess.run(command, check=True, timeout=60, text=True, stdout=subprocess.PIPE).stdout
+    assert {".venv/", "catkin_ws/build/", "out/"} <= set(printed.splitlines())
+    left = sorted(path.name for path in tmp_path.iterdir())
+    assert left == [".envrc", ".git", ".gitignore", "franka", "mine.txt", "my.bag"]
