@@ -199,8 +199,9 @@ std::string World::unsupported(const std::string& name) const {
     }
   }
   std::string list;
-  for (const std::string& what : notes) {
-    list += (list.empty() ? "" : "; ") + what;
+  for (const std::string& note : notes) {
+    const bool ends = !note.empty() && note.back() == '.';  // the text of an error
+    list += (list.empty() ? "" : "; ") + note.substr(0, note.size() - ends);
   }
   return list.empty() ? list
                       : subject + " has elements that are not simulated as written: " + list + ".";

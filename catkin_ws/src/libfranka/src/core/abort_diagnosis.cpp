@@ -219,12 +219,15 @@ std::string Diagnosis::collision() const {
               (i < 3 ? " N)" : " Nm)");
     }
   }
-  return text.empty() ? "the log does not show where. Check the configured load (setLoad) and the "
-                        "thresholds (setCollisionBehavior)."
+  const std::string advice =
+      " the configured load (setLoad; ROS: service set_load) and the thresholds "
+      "(setCollisionBehavior; ROS: services set_force_torque_collision_behavior and "
+      "set_full_collision_behavior, collision_config in the node's yaml file).";
+  return text.empty() ? "the log does not show where. Check" + advice
                       : "a collision was detected at " + text +
-                            ". If nothing was touched, check the configured load (setLoad) and the "
-                            "thresholds "
-                            "(setCollisionBehavior).";
+                            ". These values are filtered: the robot compares a larger one with its "
+                            "thresholds. If nothing was touched, check" +
+                            advice;
 }
 
 std::string Diagnosis::deviation() const {
