@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Sequences of steps on cells of several arms: in the simulation's process, and on two arms of hardware.
+"""Sequences of steps on cells of several arms, whose controllers run in the simulation's process.
 
 What a step does not name keeps its mode, motion and rate. A refused call changes nothing. No controller runs
 without effect, and the states never end. A stop is pressed while any of its sources is.
@@ -8,10 +8,20 @@ without effect, and the states never end. A stop is pressed while any of its sou
 
 import pytest
 import state_machines
-from cell import ARMS, GRIPPER, MOTIONS, MOVE, REFLEX, START, STATE, USER_STOPPED, controller, started_cell
-from control_nodes import SUCCEEDED, ControlNode, arms_and_launch
+from cell import (
+    ARMS,
+    GRIPPER,
+    MOTIONS,
+    MOVE,
+    REFLEX,
+    START,
+    STATE,
+    USER_STOPPED,
+    controller,
+    load_of,
+    started_cell,
+)
 from controller_manager_msgs.srv import LoadController, UnloadController
-from franka_msgs.srv import SetLoad
 from franka_sim_mujoco.srv import (
     DeleteObject,
     DeleteRobot,
@@ -26,10 +36,8 @@ from franka_sim_mujoco.srv import (
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from hypothesis import strategies as st
 from hypothesis.stateful import initialize, invariant, precondition, rule
-from ros_client import call, launched
-from waiting import holds, wait_for
+from ros_client import call
 
-PATIENCE_FOR_STATES = 10.0  # [s] of the robots' time
 BRAKING = 500  # [ticks] after which an arm rests, and its brakes have opened
 SOURCES = ("service", "user_stop", "input x31", "input x32", "input x33")  # of the served robot's stop
 HORIZON = 900  # [ticks] of the motions without any step
@@ -41,6 +49,7 @@ FORMATIONS = (
     {"left": "velocity", "right": "pose", "solo": "position"},
     {"left": "torque", "right": "torque", "solo": "velocity"},
     {"left": None, "right": "position", "solo": "torque"},
+    {"left": "trajectory", "right": "trajectory", "solo": "trajectory"},
 )
 NAMES = st.sampled_from(list(ARMS))
 KINDS = st.sampled_from(list(MOTIONS))
@@ -49,14 +58,6 @@ BOX = (
     "<mujoco><worldbody><body name='{}'><freejoint/><geom type='box' size='.1 .1 .1' mass='1'/></body>"
     "</worldbody></mujoco>"
 )
-
-
-def load_of(mass: float) -> dict:
-    return {
-        "mass": mass,
-        "F_x_center_load": [0, 0, 0.05],
-        "load_inertia": [1e-3, 0, 0, 0, 1e-3, 0, 0, 0, 1e-3],
-    }
 
 
 def world(service: str, kind, **fields) -> bool:
@@ -241,6 +242,45 @@ class CellMachine(state_machines.Machine):
         assert answer.success, answer.error
         self.name(arm)
 
+    @rule(arm=NAMES, position=st.sampled_from([START[3], -2.0]))
+    def put_by_the_world(self, arm, position):
+        """The door that knows joints only."""
+        self.begins_step()
+        names = [self.cell.arms[arm].joints[3]]
+        assert world("set_joint_states", SetJointStates, names=names, positions=[position])
+        self.name(arm)
+
+    @rule()
+    def reset_the_world(self):
+        """All arms go on from their start: not as at first, because hands and filters keep what they had."""
+        self.begins_step()
+        self.cell.reset()
+        for arm in ARMS:
+            self.name(arm)
+
+    @rule(by=st.sampled_from([-1000, 1000]))
+    def jump_clock(self, by):
+        """A clock of somebody else, then again that of the simulation."""
+        self.begins_step()
+        self.cell.jump_clock(by)
+
+    @rule(arm=NAMES, right=st.booleans())
+    def send_goal(self, arm, right):
+        """To the trajectory controller, which may not run."""
+        self.begins_step()
+        accepted = self.cell.accepts_goal(arm, right)
+        assert accepted == (right and "trajectory" in self.running[arm])
+        if accepted:
+            self.name(arm)
+
+    @rule()
+    def spawn_and_delete_a_robot(self):
+        self.begins_step()
+        self.tolerance = SAME_AFTER_SPAWN
+        self.cell.spawn("guest")
+        self.cell.step(3)
+        assert world("delete_robot", DeleteRobot, name="guest")
+
     @rule(arm=NAMES, pressed=st.booleans())
     def press_user_stop(self, arm, pressed):
         self.begins_step()
@@ -355,169 +395,3 @@ def test_steps_on_arms_in_the_simulation_change_what_they_name(cell):
 @pytest.mark.long_form("other sequences each time")
 def test_random_steps_on_arms_in_the_simulation(cell):
     state_machines.run(cell, sequences=1000, steps=40, random=True)
-
-
-CONTROLLER = "effort_joint_trajectory_controller"  # of all joints of both arms
-SIDES = st.integers(0, 1)
-
-
-class NodeMachine(state_machines.Machine):
-    """Steps on franka_combined_control_node, whose two simulated robots run by themselves.
-
-    Both arms wait while one has an error of its own, because one controller moves them.
-    """
-
-    node = None
-
-    @initialize()
-    def start(self):
-        arms = self.node.arms
-        for arm in arms:
-            for source in ("user_stop", "input x4"):
-                arm.operator.send(f"{source} off")
-            arm.operator.wait(lambda state: state.mode != "User stopped")
-        if CONTROLLER in self.node.controllers.running():
-            self.node.controllers.stop(CONTROLLER)
-        self.node.recover()
-        self.node.wait_until_all_are("idle")
-        arms[0].operator.reset()
-        self.node.controllers.start(CONTROLLER)
-        self.runs = True
-        self.pressed = {arm.name: set() for arm in arms}
-        self.failed, self.needy = set(), set()  # a motion was aborted; only the robot is in error
-        self.check()
-
-    def check(self) -> None:
-        """What holds after each step, as soon as it has been noticed."""
-        arms = self.node.arms
-        for arm in arms:
-            mode = arm.operator.state().mode
-            stopped = mode in ("User stopped", "Other")
-            assert stopped == bool(self.pressed[arm.name]), f"{arm.name}: {mode}, {self.pressed[arm.name]}"
-        self.check_that_states_go_on()
-        assert (CONTROLLER in self.node.controllers.running()) == self.runs
-        error = bool(self.failed)
-        if error or not self.needy:
-            wait_for(lambda: all(arm.has_error == error for arm in arms), f"The error of both arms: {error}")
-        if not error and not self.needy:
-            self.node.wait_until_all_are("moving" if self.runs else "idle")
-
-    def check_that_states_go_on(self) -> None:
-        """Measured in the time of the robots."""
-        arms = self.node.arms
-        before = [arm.states for arm in arms]
-        end = arms[0].operator.time + PATIENCE_FOR_STATES
-
-        def ended():
-            return all(arm.states > n + 1 for arm, n in zip(arms, before)) or arms[0].operator.time > end
-
-        assert holds(ended)
-        silent = [arm.name for arm, n in zip(arms, before) if arm.states <= n]
-        assert not silent, f"The states of {', '.join(silent)} have ended."
-
-    def stops(self, name: str) -> None:
-        """An arm stops, which is an error if it moves."""
-        moves = self.runs and not self.failed and not self.needy
-        if name not in self.failed:
-            (self.failed if moves else self.needy).add(name)
-
-    @rule(sides=st.sampled_from([(0,), (1,), (0, 1)]), recovered=st.none() | SIDES)
-    def push(self, sides, recovered):
-        """Arms that are not stopped have a reflex; then one arm may be recovered."""
-        self.begins_step()
-        for arm in (self.node.arms[side] for side in sides):
-            if not self.pressed[arm.name]:
-                arm.push()
-                arm.operator.wait(lambda state: state.mode == "Reflex")
-                arm.wait_for_end_of_push()
-                self.stops(arm.name)
-        self.check()
-        if recovered is not None:
-            self.recover(self.node.arms[recovered])
-
-    @rule(side=SIDES, source=st.sampled_from(["user_stop", "input x4"]), on=st.booleans())
-    def press(self, side, source, on):
-        self.begins_step()
-        arm, other = self.node.arms[side], self.node.arms[1 - side]
-        before = other.operator.report()
-        arm.operator.send(f"{source} {'on' if on else 'off'}")
-        if on:
-            self.stops(arm.name)
-        (self.pressed[arm.name].add if on else self.pressed[arm.name].discard)(source)
-        if not self.pressed[arm.name]:
-            arm.operator.wait(lambda state: state.mode != "User stopped")
-        after = other.operator.report()
-        assert (after.inputs, after.fci, after.brakes) == (before.inputs, before.fci, before.brakes)
-        self.check()
-
-    @rule(side=SIDES)
-    def lose_and_connect_again(self, side):
-        self.begins_step()
-        arm = self.node.arms[side]
-        if arm.name in self.failed | self.needy:
-            return  # whether it is in error after that depends on when it was lost
-        arm.operator.deactivate_fci()
-        self.check_that_states_go_on()
-        arm.operator.activate_fci()
-        wait_for(lambda: self.node.trigger("connect")[0], f"A connection with {arm.name}")
-        self.stops(arm.name)
-        self.check()
-
-    @rule(side=SIDES)
-    def recover_one(self, side):
-        self.begins_step()
-        self.recover(self.node.arms[side])
-
-    def recover(self, arm) -> None:
-        done = arm.recover() == SUCCEEDED
-        if self.pressed[arm.name]:
-            assert not done or arm.name not in self.failed, "recovered in spite of its stop"
-        else:
-            assert done, f"{arm.name} was not recovered."
-            self.failed.discard(arm.name)
-            self.needy.discard(arm.name)
-        self.check()
-
-    @rule()
-    def recover_all(self):
-        self.begins_step()
-        self.node.recover()
-        self.failed = {name for name in self.failed if self.pressed[name]}
-        self.needy = {name for name in self.needy if self.pressed[name]}
-        self.check()
-
-    @rule(start=st.booleans())
-    def switch(self, start):
-        self.begins_step()
-        names = [CONTROLLER]
-        if self.node.controllers.switches(**({"start": names} if start else {"stop": names})):
-            self.runs = start
-        self.check()
-
-    @rule(side=SIDES)
-    def refused(self, side):
-        self.begins_step()
-        assert not self.node.controllers.switches(start=["nothing"])
-        assert not call(self.node.arms[side].service("set_load"), SetLoad, **load_of(100.0)).success
-        self.check()
-
-
-@pytest.fixture(scope="module")
-def node(tmp_path_factory):
-    folder = tmp_path_factory.mktemp("node")
-    arms, launch = arms_and_launch("panda", 2, 61, folder)
-    with launched(*launch, "sim:=true", "realism:=ideal", log=folder / "launch.log"):
-        NodeMachine.node = ControlNode(arms)
-        NodeMachine.node.controllers.load(CONTROLLER)
-        yield NodeMachine
-
-
-@pytest.mark.own_process
-def test_steps_on_two_arms_of_hardware_change_what_they_name(node):
-    state_machines.run(node, sequences=6, steps=12, random=False, shrink=False)
-
-
-@pytest.mark.own_process
-@pytest.mark.long_form("other sequences each time")
-def test_random_steps_on_two_arms_of_hardware(node):
-    state_machines.run(node, sequences=100, steps=20, random=True, shrink=False)

@@ -13,14 +13,17 @@ from contextlib import contextmanager
 from pathlib import Path
 
 import rospy
+from actionlib import CommState
 from actionlib_msgs.msg import GoalStatus
+from control_msgs.msg import FollowJointTrajectoryAction
 from controller_manager_msgs.srv import ListControllers
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
 from franka_msgs.srv import SetEEFrame, SetJointConfiguration, SetLoad
 from franka_sim_mujoco.srv import GetJointStates, SpawnRobot, SpawnRobotRequest, Step
 from pyfranka.remote import Remote
-from ros_client import Action, Controllers, launched
+from ros_client import Action, Controllers, launched, trajectory
 from ros_nodes import executable
+from rosgraph_msgs.msg import Clock
 from std_srvs.srv import SetBool, Trigger
 from waiting import wait_for
 
@@ -36,6 +39,7 @@ LAUNCH = """<launch>
 START = (0.0, -0.785398163, 0.0, -2.35619449, 0.0, 1.57079632679, 0.785398163397)
 ARMS = {"left": "/duo", "right": "/duo", "solo": "/solo"}  # with their namespaces
 ROBOTS = {"duo": ("left", "right"), "solo": ("solo",), "served": ("served",)}
+GUEST = "guest"  # a robot that comes and goes
 ADDRESS = "127.0.7.91"  # of the served robot
 EXAMPLES = "franka_example_controllers/"
 # Controllers of each arm by their kind. Those of MOTIONS claim the arm, and exclude each other.
@@ -45,11 +49,21 @@ MOTIONS = {
     "twist": EXAMPLES + "CartesianVelocityExampleController",
     "pose": EXAMPLES + "CartesianPoseExampleController",
     "torque": EXAMPLES + "CartesianImpedanceExampleController",
+    "trajectory": "position_controllers/JointTrajectoryController",
 }
 STATE, GRIPPER = "franka_state_controller", "franka_gripper"
 PUBLISH_RATE = 1000.0  # [Hz]
 MAX_TICKS = 4000  # of a request that waits for ticks
 MOVE, REFLEX, USER_STOPPED = FrankaState.ROBOT_MODE_MOVE, FrankaState.ROBOT_MODE_REFLEX, 5
+
+
+def load_of(mass: float) -> dict:
+    """The fields of a request of set_load. @param mass [kg]"""
+    return {
+        "mass": mass,
+        "F_x_center_load": [0, 0, 0.05],
+        "load_inertia": [1e-3, 0, 0, 0, 1e-3, 0, 0, 0, 1e-3],
+    }
 
 
 def controller(arm: str, kind: str) -> str:
@@ -58,7 +72,8 @@ def controller(arm: str, kind: str) -> str:
 
 def parameters(arm: str) -> dict:
     """Those of the controllers of an arm."""
-    common = {"arm_id": arm, "joint_names": [f"{arm}_joint{i}" for i in range(1, 8)]}
+    joints = [f"{arm}_joint{i}" for i in range(1, 8)]
+    common = {"arm_id": arm, "joint_names": joints, "joints": joints}
     fingers = {f"finger{i}": {"gains": {"p": 100, "d": 1}} for i in (1, 2)}
     return {
         STATE: {"type": "franka_control/FrankaStateController", "publish_rate": PUBLISH_RATE, **common},
@@ -80,6 +95,7 @@ def description(robot: str) -> str:
             *("gazebo:=true", "hand:=false", "arm_id:=served", "xyz:=4 0 0"),
         ],
     }
+    files[GUEST] = [files["served"][0], "gazebo:=true", "hand:=true", "arm_id:=guest", "xyz:=0 4 0"]
     command = [executable("xacro", "xacro"), *map(str, files[robot])]
     return subprocess.run(command, text=True, capture_output=True, check=True).stdout
 
@@ -119,7 +135,7 @@ class Cell:
         self.begin = self.tick = self._step(0).tick
         self.now = rospy.Time()
         for robot in ROBOTS:
-            self._spawn(robot)
+            self.spawn(robot)
         self.operator = Remote(ADDRESS)
         self.stop_served = rospy.ServiceProxy("/served/franka_sim/set_user_stop", SetBool)
         self.step(5)  # the hardware reads the positions, at which some controllers must load
@@ -137,16 +153,25 @@ class Cell:
             )
             actions[name] = action
         self._recoveries = actions
+        self._goals = {
+            arm: Action(
+                f"{namespace}/{controller(arm, 'trajectory')}/follow_joint_trajectory",
+                FollowJointTrajectoryAction,
+            )
+            for arm, namespace in ARMS.items()
+        }
+        self._clock = rospy.Publisher("/clock", Clock, queue_size=1)
 
     @staticmethod
-    def _spawn(robot: str) -> None:
+    def spawn(robot: str) -> None:
         order = SpawnRobotRequest(name=robot, urdf=description(robot), robot_namespace=f"/{robot}")
         rospy.set_param(f"/{robot}/reflexes", True)
+        rospy.set_param(f"/{robot}/robot_description", order.urdf)
         if robot != "duo":
             rospy.set_param(f"/{robot}/arm_id", robot)
         if robot == "served":
             rospy.set_param("/served/fci_ip", ADDRESS)
-        for arm in ROBOTS[robot]:
+        for arm in ROBOTS.get(robot, (robot,)):
             rospy.set_param(f"/{robot}/{arm}", parameters(arm))
             order.joint_names += [f"{arm}_joint{i}" for i in range(1, 8)]
             order.joint_positions += START
@@ -215,6 +240,18 @@ class Cell:
     def recover(self, arm: str) -> bool:
         status, _ = self.during_steps(lambda: self._recoveries[arm].run(ErrorRecoveryGoal()))
         return status == GoalStatus.SUCCEEDED
+
+    def accepts_goal(self, arm: str, right: bool) -> bool:
+        """Whether the trajectory controller of an arm takes a goal. @param right with its own joints"""
+        names = self.arms[arm].joints[:7] if right else ["nobody"]
+        handle = self._goals[arm].send(trajectory(dict(zip(names, START)), 0.2))
+        waits = (CommState.WAITING_FOR_GOAL_ACK, CommState.PENDING)
+        wait_for(lambda: handle.get_comm_state() not in waits, "An answer to a goal")
+        return handle.get_goal_status() != GoalStatus.REJECTED
+
+    def jump_clock(self, by: float) -> None:
+        """Publishes a time that is not the simulation's. @param by seconds from its own"""
+        self._clock.publish(Clock(rospy.Time(max(self.now.to_sec() + by, 0.0))))
 
     def running(self) -> dict[str, set[str]]:
         """The kinds of the controllers that run, by arm."""

@@ -159,7 +159,8 @@ class ControlNode:
         wait_for(lambda: all(arm.state for arm in self.arms), "A first state of each arm")
 
     def recover(self) -> tuple[int | None, str]:
-        return self.recovery.run(ErrorRecoveryGoal())
+        """Status and text, also right after a connection: a robot that is lost has no such action."""
+        return Action(f"{self.name}/error_recovery", ErrorRecoveryAction).run(ErrorRecoveryGoal())
 
     def trigger(self, service: str) -> tuple[bool, str]:
         return trigger(f"{self.name}/{service}")

@@ -84,6 +84,14 @@ void CombinedHWSim::worldWasReset() {
   }
 }
 
+std::vector<RobotHWSim*> CombinedHWSim::parts() {
+  std::vector<RobotHWSim*> parts;
+  for (const auto& member : members_) {
+    parts.push_back(member.get());
+  }
+  return parts;
+}
+
 bool CombinedHWSim::checkForConflict(const std::list<ControllerInfo>& controllers) const {
   return switches_.checkForConflict(controllers);
 }

@@ -30,6 +30,7 @@ class CombinedHWSim : public RobotHWSim {
   void writeSim(ros::Time time, ros::Duration period) override;
   void eStopActive(bool active) override;
   void worldWasReset() override;
+  std::vector<RobotHWSim*> parts() override;
 
   bool checkForConflict(
       const std::list<hardware_interface::ControllerInfo>& controllers) const override;

@@ -54,6 +54,30 @@ class Stopwatch {
   std::int64_t last_;
 };
 
+std::set<std::string> resourcesOf(const hardware_interface::RobotHW& hardware) {
+  std::set<std::string> resources;
+  for (const std::string& interface : hardware.getNames()) {
+    for (const std::string& resource : hardware.getInterfaceResources(interface)) {
+      resources.insert(resource);
+    }
+  }
+  return resources;
+}
+
+template <typename Names>
+bool containsAny(const std::set<std::string>& names, const Names& searched) {
+  return std::any_of(searched.begin(), searched.end(),
+                     [&](const std::string& name) { return names.count(name) > 0; });
+}
+
+bool claimsAnyOf(const hardware_interface::ControllerInfo& controller,
+                 const std::set<std::string>& resources) {
+  return std::any_of(controller.claimed_resources.begin(), controller.claimed_resources.end(),
+                     [&](const hardware_interface::InterfaceResources& claimed) {
+                       return containsAny(resources, claimed.resources);
+                     });
+}
+
 }  // namespace
 
 RobotInstance::RobotInstance(const RobotPlan& plan, franka_sim::World& world,
@@ -144,8 +168,7 @@ void RobotInstance::startHardware(const RobotPlan& plan, const RobotHandle& robo
 }
 
 bool RobotInstance::hasAnyOf(const std::vector<std::string>& joints) const {
-  return std::any_of(joints.begin(), joints.end(),
-                     [this](const std::string& joint) { return joints_.count(joint) > 0; });
+  return containsAny(joints_, joints);
 }
 
 void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
@@ -164,7 +187,7 @@ void RobotInstance::tick(const ros::Time& time, TickTimes* times) {
     --ticks_to_control_;
   } else {
     updateControllers(time, ros::Duration(control_ticks_ * franka_sim::World::kTick));
-    restart_controllers_ = false;
+    restarts_ = nullptr;
     ticks_to_control_ = control_ticks_ - 1;
   }
   if (times != nullptr) {
@@ -226,7 +249,7 @@ void RobotInstance::reviewStart() {
 
 void RobotInstance::updateControllers(const ros::Time& time, const ros::Duration& period) {
   try {
-    manager_->update(time, period, restart_controllers_);
+    manager_->update(time, period, restarts_);
   } catch (...) {
     // A single controller must not end the simulation.
     thrown_report_.report(name_, exceptionText(),
@@ -261,9 +284,28 @@ void RobotInstance::worldWasReset() {
   }
   if (hardware_) {
     hardware_->worldWasReset();
-    restart_controllers_ = true;
+    restarts_ = [](const hardware_interface::ControllerInfo&) { return true; };
     ticks_to_control_ = 0;
   }
+}
+
+void RobotInstance::jointsWereSet(const std::vector<std::string>& joints) {
+  if (!hardware_) {
+    worldWasReset();
+    return;
+  }
+  std::set<std::string> concerned;
+  for (RobotHWSim* part : hardware_->parts()) {
+    std::set<std::string> resources = resourcesOf(*part);
+    if (containsAny(resources, joints)) {
+      part->worldWasReset();
+      concerned.merge(resources);
+    }
+  }
+  restarts_ = [concerned,
+               before = restarts_](const hardware_interface::ControllerInfo& controller) {
+    return (before && before(controller)) || claimsAnyOf(controller, concerned);
+  };
 }
 
 }  // namespace franka_sim_mujoco

@@ -120,6 +120,9 @@ class RobotInstance {
   void halt();
   /// The world was reset or restored; controllers are restarted in the next tick.
   void worldWasReset();
+  /// The same for the arms that have one of these joints, and the controllers that claim something
+  /// of them.
+  void jointsWereSet(const std::vector<std::string>& joints);
 
  private:
   void start(const RobotPlan& plan, franka_sim::World& world, HardwareLoader& loader,
@@ -136,7 +139,7 @@ class RobotInstance {
   std::set<std::string> joints_;
   int control_ticks_;
   int ticks_to_control_{0};
-  bool restart_controllers_{false};
+  controller_manager::ControllerManager::ControllerFilter restarts_;  ///< in the next update
   int start_ticks_left_{0};
   std::vector<std::string> awaited_controllers_;
   franka_hw::ThrownReport thrown_report_;

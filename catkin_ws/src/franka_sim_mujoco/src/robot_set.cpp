@@ -331,7 +331,7 @@ void RobotSet::setJoints(const std::vector<std::string>& names,
     }
     for (const auto& robot : robots_) {
       if (robot->hasAnyOf(names)) {
-        robot->worldWasReset();
+        robot->jointsWereSet(names);
       }
     }
   });

@@ -76,6 +76,8 @@ class RobotHWSim : public hardware_interface::RobotHW {
   virtual void eStopActive(bool /*active*/) {}
   /// The world was reset, or joints were teleported: reset velocities and filters.
   virtual void worldWasReset() {}
+  /// What can be reset without the rest of the robot: its arms, or the robot as a whole.
+  virtual std::vector<RobotHWSim*> parts() { return {this}; }
 };
 
 }  // namespace franka_sim_mujoco

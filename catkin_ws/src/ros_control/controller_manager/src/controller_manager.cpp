@@ -19,6 +19,15 @@ namespace controller_manager {
 using controller_interface::ControllerBase;
 using controller_interface::ControllerBaseSharedPtr;
 
+namespace {
+
+const ControllerManager::ControllerFilter kNone;
+const ControllerManager::ControllerFilter kAll = [](const hardware_interface::ControllerInfo&) {
+  return true;
+};
+
+}  // namespace
+
 ControllerManager::ControllerManager(hardware_interface::RobotHW* robot_hw,
                                      const ros::NodeHandle& nh)
     : robot_hw_(robot_hw),
@@ -47,12 +56,19 @@ ControllerManager::~ControllerManager() {
 
 void ControllerManager::update(const ros::Time& time, const ros::Duration& period,
                                bool reset_controllers) {
+  update(time, period, reset_controllers ? kAll : kNone);
+}
+
+void ControllerManager::update(const ros::Time& time, const ros::Duration& period,
+                               const ControllerFilter& restarts) {
   const internal::LoopGate::Visit visit(*gate_);
   const internal::ControllerList& list = registry_->forLoop();
   internal::FirstException thrown;
-  if (reset_controllers) {
+  if (restarts) {
     for (const ControllerSpec& spec : list.specs()) {
-      thrown.capture([&] { restart(spec, time); });
+      if (restarts(spec.info)) {
+        thrown.capture([&] { restart(spec, time); });
+      }
     }
   }
   if (supervisor_) {

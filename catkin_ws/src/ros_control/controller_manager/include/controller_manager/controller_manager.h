@@ -15,6 +15,7 @@
 #include <ros/node_handle.h>
 #include <ros/time.h>
 
+#include <functional>
 #include <list>
 #include <memory>
 #include <mutex>
@@ -88,6 +89,13 @@ class ControllerManager {
   /// @param time of this cycle @param period since the one before
   /// @param reset_controllers restart the running controllers first
   void update(const ros::Time& time, const ros::Duration& period, bool reset_controllers = false);
+
+  /// Chooses a controller by its name, its type and what it claims.
+  typedef std::function<bool(const hardware_interface::ControllerInfo&)> ControllerFilter;
+
+  /// The same, but first restarts those of the running controllers that the filter chooses; none
+  /// without a filter. @param restarts called in this thread, with each controller
+  void update(const ros::Time& time, const ros::Duration& period, const ControllerFilter& restarts);
 
   /// Loads the controller with the parameters in the namespace `name`.
   /// @returns false after logging the reason
