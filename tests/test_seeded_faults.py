@@ -23,6 +23,11 @@ MACHINES = {
     "catkin_ws/src/franka_sim_mujoco": "tests/test_cell_properties.py",
 }
 
+# Variables of this run's workspace, and of its pytest.
+OF_THIS_RUN = re.compile(
+    r"PYTEST_|ROS_|CMAKE_PREFIX_PATH|PYTHONPATH|LD_LIBRARY_PATH|PKG_CONFIG_PATH|FRANKA_TEST_"
+)
+
 pytestmark = [
     pytest.mark.long_form("builds what has a fault once for each of them"),
     pytest.mark.timeout(7200),
@@ -80,6 +85,11 @@ def test_a_fault_of_the_control_unit_is_found(unit, patch, monkeypatch):
     assert found, printed[-3000:]
 
 
+def environment() -> dict[str, str]:
+    """That of a terminal in which no workspace is set up."""
+    return {name: value for name, value in os.environ.items() if not OF_THIS_RUN.match(name)}
+
+
 @pytest.fixture(scope="module")
 def workspace(tmp_path_factory):
     """A copy of the project, built."""
@@ -87,7 +97,7 @@ def workspace(tmp_path_factory):
     for name in run("git", "ls-files", "-z", cwd=TOP).rstrip("\0").split("\0"):
         (top / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copy(TOP / name, top / name, follow_symlinks=False)
-    run(top / "franka", "build", cwd=top)
+    run(top / "franka", "build", cwd=top, env=environment())
     return top
 
 
@@ -96,13 +106,12 @@ def test_a_fault_of_the_workspace_is_found(workspace, patch):
     text = patch.read_text(encoding="utf-8")
     machine = next(file for source, file in MACHINES.items() if f"+++ b/{source}/" in text)
     pytest_of_this_run = [TOP / ".venv/bin/python3", "-m", "pytest", "-q", "-k", "not random", machine]
-    environment = {name: value for name, value in os.environ.items() if not name.startswith("PYTEST_")}
     printed = seeded(
         workspace,
         patch,
-        build=lambda: run(workspace / "franka", "build", cwd=workspace, env=environment),
+        build=lambda: run(workspace / "franka", "build", cwd=workspace, env=environment()),
         search=lambda: run(
-            workspace / "franka", "shell", *pytest_of_this_run, cwd=workspace, env=environment, check=False
+            workspace / "franka", "shell", *pytest_of_this_run, cwd=workspace, env=environment(), check=False
         ),
     )
     found = re.findall(r"Found in sequence \d+ after \d+ steps in all", printed)
