@@ -6,7 +6,6 @@ import asyncio
 import contextlib
 import http.client
 import json
-import os
 import re
 import socket
 import ssl
@@ -453,40 +452,3 @@ def test_there_is_no_desk_without_a_password():
 def test_invalid_options_are_refused_with_a_message(word):
     with pytest.raises(ValueError, match=r"\.$"):
         Options.of([word])
-
-
-# ---- the certificate -------------------------------------------------------------------------------------
-
-
-def test_clients_can_check_the_certificate_for_the_name_of_robots(desk, tmp_path):
-    trusted = tmp_path / "desk.pem"
-    trusted.write_text(ssl.get_server_certificate(("127.0.0.1", desk.port)))
-    context = ssl.create_default_context(cafile=str(trusted))
-    context.verify_flags |= ssl.VERIFY_X509_STRICT  # as from Python 3.13 on
-    for name in ("robot.franka.de", "127.0.0.1"):
-        with socket.create_connection(("127.0.0.1", desk.port)) as plain:
-            with context.wrap_socket(plain, server_hostname=name) as secure:
-                assert secure.version() in ("TLSv1.2", "TLSv1.3")
-    with socket.create_connection(("127.0.0.1", desk.port)) as plain:
-        with pytest.raises(ssl.SSLCertVerificationError):
-            context.wrap_socket(plain, server_hostname="evil.example")
-
-
-def test_the_certificate_is_kept_where_only_its_user_can_read_it(tmp_path):
-    from pyfranka.desk.certificate import make_pem, tls_context
-
-    folder = tmp_path / "cache"
-    tls_context("127.0.0.1", folder)
-    path = folder / "127.0.0.1.pem"
-    first = path.read_bytes()
-    assert path.stat().st_mode & 0o077 == 0 and folder.stat().st_mode & 0o077 == 0
-    tls_context("127.0.0.1", folder)
-    assert path.read_bytes() == first
-    path.write_bytes(b"nothing")
-    tls_context("127.0.0.1", folder)
-    assert path.read_bytes() not in (b"nothing", first)
-    tls_context("127.0.0.1", tmp_path / "127.0.0.1.pem" / "no folder")  # in memory
-    assert make_pem("robot.local").count(b"BEGIN") == 2
-    (tmp_path / "file").write_text("")
-    tls_context("127.0.0.1", tmp_path / "file" / "below")
-    assert json.dumps(os.listdir(folder)) == '["127.0.0.1.pem"]'

@@ -4,8 +4,10 @@
 
 from __future__ import annotations
 
+import contextlib
 import datetime
 import ipaddress
+import logging
 import os
 import ssl
 import tempfile
@@ -18,19 +20,29 @@ from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
 
 ROBOT_NAME = "robot.franka.de"  # clients send it as the server's name
 DAYS, LEFT = 825, 30  # [days] of validity; a certificate with fewer days left is replaced (chosen here)
+log = logging.getLogger("franka_desk")
 
 
 def tls_context(address: str, folder: Path | None = None) -> ssl.SSLContext:
     """A context for servers at that address. folder: where key and certificate are kept; None: in the user's
-    cache folder, or only in memory if that cannot be written."""
-    folder = folder or cache_folder()
-    path = folder / f"{address.replace(':', '_')}.pem"
-    if not _is_valid(path):
-        try:
-            _write(path, make_pem(address))
-        except OSError:
-            return _context_of(make_pem(address))
-    return _context(path)
+    cache folder, or only in memory if that cannot be written. Kept ones that cannot be used are replaced,
+    with one warning."""
+    path = (folder or cache_folder()) / f"{address.replace(':', '_')}.pem"
+    try:
+        return _kept_context(path)
+    except (FileNotFoundError, NotADirectoryError):
+        pass
+    except Exception as error:  # whatever reads a damaged file may raise anything
+        log.warning(
+            "The certificate %s cannot be used (%s). Desk makes a new one: clients that trust the old one "
+            "need the new one.",
+            path,
+            str(error) or type(error).__name__,
+        )
+    pem = make_pem(address)
+    with contextlib.suppress(OSError):
+        _write(path, pem)
+    return _context_of(pem)
 
 
 def cache_folder() -> Path:
@@ -56,8 +68,8 @@ def make_pem(address: str) -> bytes:
         .not_valid_before(now - datetime.timedelta(days=1))
         .not_valid_after(now + datetime.timedelta(days=DAYS))
         .add_extension(x509.SubjectAlternativeName(names), critical=False)
-        # Clients that check it take it for its own authority.
-        .add_extension(x509.BasicConstraints(ca=True, path_length=0), critical=True)
+        # A client that trusts it trusts this server only: it cannot sign certificates of other servers.
+        .add_extension(x509.BasicConstraints(ca=False, path_length=None), critical=True)
         .add_extension(_key_usage(), critical=True)
         .add_extension(usage, critical=False)
         # Strict clients (Python 3.13) require both.
@@ -74,24 +86,28 @@ def make_pem(address: str) -> bytes:
 
 
 def _key_usage() -> x509.KeyUsage:
-    names = ("digital_signature", "key_cert_sign")
     others = ["content_commitment", "key_encipherment", "data_encipherment", "key_agreement"]
-    others += ["crl_sign", "encipher_only", "decipher_only"]
-    return x509.KeyUsage(**dict.fromkeys(names, True), **dict.fromkeys(others, False))
+    others += ["key_cert_sign", "crl_sign", "encipher_only", "decipher_only"]
+    return x509.KeyUsage(digital_signature=True, **dict.fromkeys(others, False))
 
 
-def _is_valid(path: Path) -> bool:
-    try:
-        certificate = x509.load_pem_x509_certificate(
-            path.read_bytes().partition(b"-----END PRIVATE KEY-----\n")[2]
-        )
-    except (OSError, ValueError):
-        return False
+# Raises an exception if key or certificate cannot be used.
+def _kept_context(path: Path) -> ssl.SSLContext:
+    pem = path.read_bytes()
+    certificate = x509.load_pem_x509_certificate(pem.partition(b"-----END PRIVATE KEY-----\n")[2])
+    key = certificate.public_key()
+    if not isinstance(key, ec.EllipticCurvePublicKey):
+        raise ValueError("its key is of another kind")
+    key.verify(certificate.signature, certificate.tbs_certificate_bytes, ec.ECDSA(hashes.SHA256()))
+    if certificate.extensions.get_extension_for_class(x509.BasicConstraints).value.ca:
+        raise ValueError("it could sign other certificates, as earlier versions made it")
     if hasattr(certificate, "not_valid_after_utc"):  # from cryptography 42 on
         end: datetime.datetime = certificate.not_valid_after_utc
     else:
         end = certificate.not_valid_after.replace(tzinfo=datetime.UTC)
-    return end - datetime.datetime.now(datetime.UTC) > datetime.timedelta(days=LEFT)
+    if end - datetime.datetime.now(datetime.UTC) <= datetime.timedelta(days=LEFT):
+        raise ValueError(f"it is valid until {end:%Y-%m-%d} only")
+    return _context_of(pem)
 
 
 def _write(path: Path, pem: bytes) -> None:
@@ -103,15 +119,12 @@ def _write(path: Path, pem: bytes) -> None:
 
 
 def _context_of(pem: bytes) -> ssl.SSLContext:
-    with tempfile.NamedTemporaryFile() as file:
+    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
+    with tempfile.NamedTemporaryFile() as file:  # load_cert_chain reads files only
         file.write(pem)
         file.flush()
-        return _context(Path(file.name))
-
-
-def _context(path: Path) -> ssl.SSLContext:
-    context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
-    context.load_cert_chain(path)
+        # Without a password OpenSSL would ask for that of an encrypted key at the terminal.
+        context.load_cert_chain(file.name, password="")
     # A client with one thread that reads and one that writes (Python's websockets, so panda-python) can lose
     # the answer to its first request while it reads tickets: 6 of 2400 times, and never without tickets.
     context.num_tickets = 0
