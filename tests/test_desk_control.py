@@ -2,6 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Who has control of a robot: requests, take-over and release, in both interfaces of Desk."""
 
+import asyncio
 import http.client
 import json
 import socket
@@ -12,6 +13,7 @@ from desk_fixtures import desk_with_robot, fresh_desk, fresh_robot
 from desk_robot import OPEN
 from desk_server import basic
 from pyfranka.desk.fci import ATTEMPT
+from pyfranka.desk.tokens import Tokens
 from waiting import wait_for
 
 TOKEN = "/admin/api/control-token"
@@ -263,6 +265,63 @@ def test_a_client_that_goes_away_withdraws_its_request(desk, cookie):
     wait_for(lambda: state(desk)["tokenRequest"])
     later.go_away()
     wait_for(lambda: state(desk)["tokenRequest"] is None)
+
+
+WAYS_TO_CONTROL = {
+    "release": lambda tokens: tokens.release(tokens.active.token),
+    "accept": lambda tokens: tokens.accept(),
+    "circle button": lambda tokens: tokens.confirm_at_robot(),
+}
+
+
+@pytest.mark.parametrize("is_waiting", [True, False])
+@pytest.mark.parametrize("way", WAYS_TO_CONTROL.values(), ids=WAYS_TO_CONTROL)
+def test_pending_request_gets_control_only_if_its_client_is_waiting(way, is_waiting):
+    async def decide():
+        tokens = Tokens(30.0, lambda: None, lambda: None)
+        holder = tokens.request("me")
+        pending = tokens.request("you", force=True, is_waiting=lambda: is_waiting)
+        way(tokens)
+        if is_waiting:
+            expected = pending
+        else:  # the holder keeps control, or has released it
+            expected = None if way is WAYS_TO_CONTROL["release"] else holder
+        assert tokens.active is expected and tokens.pending is None
+        assert await pending.answer == ("granted" if is_waiting else "withdrawn")
+
+    asyncio.run(decide())
+
+
+def test_client_that_has_just_gone_does_not_get_control(desk, cookie):
+    first = desk.take_control("me", **cookie)
+    with desk.stopped_clock():  # so that no time passes in which Desk could look for it
+        later = Later(desk, {"owner": "you"})
+        wait_for(lambda: state(desk)["tokenRequest"])
+        connections = len(desk.desk.gate._guards)
+        later.go_away()
+        wait_for(lambda: len(desk.desk.gate._guards) < connections)
+        assert release(desk, first, cookie).status == 200
+        assert active_id(desk) is None
+
+
+def test_client_that_goes_while_control_is_granted_releases_it(desk, cookie):
+    first = desk.take_control("me", **cookie)
+    later = Later(desk, {"owner": "you"})
+    wait_for(lambda: state(desk)["tokenRequest"])
+
+    async def grant_and_disconnect():
+        tokens = desk.desk.tokens
+        waiting = tokens.pending
+        tokens.release(first["token"])
+        assert tokens.active is waiting
+        for handler in list(desk.desk.gate._guards):
+            if handler.transport is not None:
+                handler.transport.abort()
+
+    desk.call(grant_and_disconnect())
+    desk.close_connection()
+    wait_for(lambda: active_id(desk) is None)
+    later.result()
 
 
 @pytest.mark.parametrize("timeout", [0, -1, "1", True, [], 1e999])

@@ -11,6 +11,7 @@ import aiohttp
 import pytest
 from desk_robot import ScriptedRobot
 from desk_server import PASSWORD, USER, DeskServer, unverified
+from waiting import wait_for
 
 JSON = "application/json"
 SCENE = {
@@ -281,6 +282,24 @@ def test_control_is_taken_and_released(desk, cookie):
     mine = control(desk, cookie)
     assert mine["control"]["owner"] == USER and mine["control"]["id"] == mine["id"]
     assert control(desk, cookie, "release", mine["token"])["control"]["owner"] is None
+
+
+def test_page_that_has_been_closed_does_not_get_control(desk, cookie):
+    holder = desk.take_control("anna", **cookie)
+
+    async def request_on_open_page():
+        async with aiohttp.ClientSession() as session:
+            url = f"https://127.0.0.1:{desk.port}"
+            options = {"headers": cookie, "ssl": unverified()}
+            async with session.ws_connect(f"{url}/page/live", **options) as stream:
+                await stream.receive_str(timeout=60)
+                async with session.post(f"{url}/page/control", json={"what": "take"}, **options) as answer:
+                    assert (await answer.json())["control"]["request"]
+
+    asyncio.run(request_on_open_page())
+    wait_for(lambda: desk.desk.gate.sockets.total == 0, "The end of the stream")
+    after = control(desk, cookie, "release", holder["token"])
+    assert after["control"]["owner"] is None and after["control"]["request"] is None
 
 
 # ---- the stream ------------------------------------------------------------------------------------------

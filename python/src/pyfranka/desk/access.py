@@ -23,6 +23,17 @@ OWN_SITES = {"same-origin", "none"}  # of the header Sec-Fetch-Site
 ROLES = {Login.SAFETY: {"Admin", "SafetyOperator"}, Login.ADMIN: {"Admin"}}
 
 
+def is_connected(request: web.Request) -> bool:
+    """Whether the client of a request still has its connection."""
+    return request.transport is not None and not request.transport.is_closing()
+
+
+def check_connection(request: web.Request) -> None:
+    """Raises DeskError (424), which nobody receives, if the client has gone: it cannot hold control."""
+    if not is_connected(request):
+        raise DeskError(424, "Withdrawn", "The client has gone.")
+
+
 def check_origin(request: web.Request, changes: bool) -> None:
     """Refuses requests that a page of another origin makes a browser send; other clients send neither
     header. changes: whether the request may change something, or opens a WebSocket."""

@@ -9,7 +9,14 @@ import hashlib
 from aiohttp import web
 
 from pyfranka.desk import actions, checks
-from pyfranka.desk.access import COOKIE, check_login, check_password, check_token, not_in_control
+from pyfranka.desk.access import (
+    COOKIE,
+    check_connection,
+    check_login,
+    check_password,
+    check_token,
+    not_in_control,
+)
 from pyfranka.desk.end_effectors import GENERIC, GRIPPER, PUMP, load_of_lists
 from pyfranka.desk.errors import DeskError, bad_request
 from pyfranka.desk.routes import Call, Handler, Login, Route, Token, on_fr3, on_panda, with_tokens
@@ -68,6 +75,7 @@ async def request_control(call: Call) -> Json:
     owner = call.object({}).get("requestedBy", call.user.name if call.user else "")
     checks.text(owner, "requestedBy")
     force = call.request.query.get("force", "false").lower() not in ("false", "0")
+    check_connection(call.request)
     request = call.desk.tokens.request(owner, force)
     return {"id": request.id, "token": request.token}
 

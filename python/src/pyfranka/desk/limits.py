@@ -76,6 +76,11 @@ class Counted:
         self._limit, self._limit_of_address, self._what = limit, limit_of_address, what
         self._of: Counter[str] = Counter()
 
+    @property
+    def total(self) -> int:
+        """How many are held."""
+        return self._of.total()
+
     @contextlib.contextmanager
     def one(self, address: str) -> Iterator[None]:
         """Holds one. Raises DeskError (429) if there are too many."""

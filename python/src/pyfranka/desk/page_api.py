@@ -11,6 +11,7 @@ import hashlib
 import json
 import os
 import re
+from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -204,7 +205,8 @@ class PageApi:
         what = body.get("what")
         answer: dict[str, Any] = {}
         if what in ("take", "force"):
-            granted = desk.tokens.request(user.name, what == "force")
+            access.check_connection(request)
+            granted = desk.tokens.request(user.name, what == "force", self._is_waiting(request))
             answer = {"id": granted.id, "token": granted.token}
         elif what in ("release", "withdraw"):
             desk.tokens.release(token)  # an unknown one has nothing to release
@@ -215,6 +217,13 @@ class PageApi:
         else:
             raise bad_request("'what' must be take, force, release, withdraw, accept or deny.")
         return web.json_response({**answer, "control": control_of(desk)})
+
+    # A page that has been closed does not get control; other clients of this interface have no stream.
+    def _is_waiting(self, request: web.Request) -> Callable[[], bool]:
+        token = request.cookies.get(access.COOKIE, "")
+        if not self.stream.has_page(token):
+            return lambda: True
+        return lambda: self.stream.has_page(token)
 
     # ---- checks ------------------------------------------------------------------------------------------
 

@@ -78,6 +78,10 @@ class Live:
         finally:
             self._pages.discard(page)
 
+    def has_page(self, token: str) -> bool:
+        """Whether a page of this login is open."""
+        return any(page.token == token for page in self._pages)
+
     async def close(self) -> None:
         """Ends the stream."""
         for page in list(self._pages):

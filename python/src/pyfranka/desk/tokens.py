@@ -13,13 +13,14 @@ from dataclasses import dataclass, field
 
 @dataclass
 class Request:
-    """A granted or pending request for control. answer: `granted`, `replaced`, `denied` or `withdrawn`, when
-    it is decided."""
+    """A granted or pending request for control. is_waiting: whether its client is still there to get control.
+    answer: `granted`, `replaced`, `denied` or `withdrawn`, when it is decided."""
 
     id: int
     token: str
     owner: str
     force: bool = False
+    is_waiting: Callable[[], bool] = lambda: True
     answer: asyncio.Future[str] = field(default_factory=lambda: asyncio.get_running_loop().create_future())
 
     def decide(self, answer: str) -> None:
@@ -43,9 +44,12 @@ class Tokens:
         self._next = 1 + secrets.randbelow(1 << 30)
         self._timer: asyncio.TimerHandle | None = None
 
-    def request(self, owner: str, force: bool = False) -> Request:
-        """Requests control; granted at once if no user has control."""
-        request = Request(self._next, secrets.token_urlsafe(24), owner, force)
+    def request(
+        self, owner: str, force: bool = False, is_waiting: Callable[[], bool] = lambda: True
+    ) -> Request:
+        """Requests control; granted at once if no user has control. A pending request gets control only if its
+        client is still waiting then."""
+        request = Request(self._next, secrets.token_urlsafe(24), owner, force, is_waiting)
         self._next += 1
         if self.active is None:
             self._grant(request)
@@ -93,9 +97,12 @@ class Tokens:
             self.accept()
 
     def accept(self) -> None:
-        """Gives control to the pending request."""
+        """Gives control to the pending request; the holder keeps it if that one's client has gone."""
         if self.pending is not None:
-            self._lose_active()
+            if self.pending.is_waiting():
+                self._lose_active()
+            else:
+                self._set_pending(None, "withdrawn")
             self._on_change()
 
     def deny(self) -> None:
@@ -115,13 +122,13 @@ class Tokens:
             self._set_pending(None, "denied")
             self._on_change()
 
-    # Grants the pending request.
+    # Grants the pending request, unless its client has gone.
     def _lose_active(self) -> None:
         lost, self.active = self.active, None
-        request, self.pending = self.pending, None
-        self._stop_timer()
-        if request is not None:
+        if self.pending is not None and self.pending.is_waiting():
+            request, self.pending = self.pending, None
             self._grant(request)
+        self._set_pending(None, "withdrawn")
         if lost is not None:
             self._on_loss()
 

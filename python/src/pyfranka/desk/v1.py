@@ -8,7 +8,7 @@ import asyncio
 import typing
 
 from pyfranka.desk import actions, checks, status
-from pyfranka.desk.access import not_in_control
+from pyfranka.desk.access import check_connection, is_connected, not_in_control
 from pyfranka.desk.errors import DeskError, Refused, bad_request
 from pyfranka.desk.routes import Call, Handler, Login, Route, Token, with_v1
 from pyfranka.desk.status import Json
@@ -86,11 +86,14 @@ async def take_control(call: Call) -> Json:
     timeout = body.get("timeout")
     if timeout is not None and not checks.number(timeout, "timeout") > 0.0:
         raise bad_request("The field timeout must be a positive number of seconds.")
-    request = call.desk.tokens.request(owner)
+    check_connection(call.request)
+    request = call.desk.tokens.request(owner, is_waiting=lambda: is_connected(call.request))
     try:
         await _wait_for_control(call, request, timeout)
-    finally:
-        call.desk.tokens.withdraw(request)
+        check_connection(call.request)  # it may have gone just after control was granted
+    except BaseException:
+        call.desk.tokens.release(request.token)
+        raise
     value: Json = {"token": request.token}
     if call.desk.options.token_id:
         value["tokenId"] = request.id
@@ -113,8 +116,7 @@ async def _wait_for_control(call: Call, request: Request, timeout: float | None)
         else loop.time() + timeout - (EARLY_ANSWER if timeout >= LONG_TIMEOUT else 0.0)
     )
     while not request.answer.done():
-        if call.request.transport is None:
-            raise DeskError(424, "Withdrawn", "The client has gone.")
+        check_connection(call.request)
         left = CHECK_PERIOD if end is None else min(CHECK_PERIOD, end - loop.time())
         if left <= 0.0:
             break
