@@ -15,7 +15,7 @@ and in functions (tests/style.py):
     robot, sessions, tokens, limits
     end_effectors, configuration, fci, power
     desk
-    status, actions, routes, access
+    status, actions, routes, access, request_body
     legacy, v1, sockets, page_lines, page_live, page_api
     server
     cli

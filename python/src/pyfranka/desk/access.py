@@ -41,9 +41,35 @@ def check_origin(request: web.Request, changes: bool) -> None:
         return
     site = request.headers.get("Sec-Fetch-Site", "none")
     origin = request.headers.get("Origin")
-    foreign = origin is not None and urllib.parse.urlsplit(origin).netloc.lower() != request.host.lower()
+    foreign = origin is not None and _host_of(origin) != request.host.lower()
     if foreign or site not in OWN_SITES:
         raise DeskError(403, "Forbidden", "Requests from pages of another origin are refused.")
+
+
+def _host_of(origin: str) -> str:
+    try:
+        return urllib.parse.urlsplit(origin).netloc.lower()
+    except ValueError:
+        return ""
+
+
+def check_handshake(request: web.Request) -> None:
+    """Raises DeskError (400) if a WebSocket's key has characters for which aiohttp raises other errors."""
+    if not request.headers.get("Sec-WebSocket-Key", "").isascii():
+        raise DeskError(400, "BadRequest", "The header Sec-WebSocket-Key is not valid.")
+
+
+def cookies_of(request: web.Request) -> list[str]:
+    """The values of the cookie of a login. Not with aiohttp, which raises errors for some cookies that pages
+    of other programs at this host have set."""
+    pairs = (part.partition("=") for line in request.headers.getall("Cookie", []) for part in line.split(";"))
+    return [value.strip().strip('"') for name, _, value in pairs if name.strip() == COOKIE]
+
+
+def session_of(request: web.Request, desk: Desk) -> str | None:
+    """The token of the login in the cookies; None without a valid one."""
+    valid = (token for token in cookies_of(request) if desk.sessions.name(token) is not None)
+    return next(valid, None)
 
 
 async def user_of(request: web.Request, desk: Desk) -> User | None:
@@ -52,7 +78,7 @@ async def user_of(request: web.Request, desk: Desk) -> User | None:
     header = request.headers.get("Authorization", "")
     if header.startswith("Basic "):
         return await _user_of_basic(request, desk, header.removeprefix("Basic "))
-    for token in (request.cookies.get(COOKIE, ""), header):
+    for token in (*cookies_of(request), header):
         name = desk.sessions.name(token) if token else None
         user = desk.users.get(name) if name is not None else None
         if user is not None:

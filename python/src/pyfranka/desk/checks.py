@@ -13,8 +13,13 @@ MAX_TEXT_LENGTH = 200  # [characters] (chosen here)
 
 
 def text(value: typing.Any, name: str) -> str:
-    """A text that is not empty."""
-    if not isinstance(value, str) or not value.strip() or len(value) > MAX_TEXT_LENGTH:
+    """A text that is not empty and has no halves of characters, which UTF-8 cannot have."""
+    if (
+        not isinstance(value, str)
+        or not value.strip()
+        or len(value) > MAX_TEXT_LENGTH
+        or any("\ud800" <= character <= "\udfff" for character in value)
+    ):
         raise bad_request(f"The field {name} must be a text of 1 to {MAX_TEXT_LENGTH} characters.")
     return value
 
@@ -25,7 +30,11 @@ def number(value: typing.Any, name: str, limit: float = math.inf) -> float:
         raise bad_request(
             f"The field {name} must be a number" + (f" up to {limit:g}." if math.isfinite(limit) else ".")
         )
-    if not math.isfinite(result := float(value)):
+    try:
+        result = float(value)
+    except OverflowError:  # an integer with hundreds of digits
+        result = math.inf
+    if not math.isfinite(result):
         raise bad_request(f"The field {name} must be a finite number.")
     return result
 

@@ -10,11 +10,11 @@ from aiohttp import web
 
 from pyfranka.desk import actions, checks
 from pyfranka.desk.access import (
-    COOKIE,
     check_connection,
     check_login,
     check_password,
     check_token,
+    cookies_of,
     not_in_control,
 )
 from pyfranka.desk.end_effectors import GENERIC, GRIPPER, PUMP, load_of_lists
@@ -49,7 +49,7 @@ async def login(call: Call) -> web.Response:
 async def logout(call: Call) -> None:
     """Ends the session; control does not change."""
     request = call.request
-    for token in (request.cookies.get(COOKIE, ""), request.headers.get("Authorization", "")):
+    for token in (*cookies_of(request), request.headers.get("Authorization", "")):
         if token:
             call.desk.sessions.close(token)
 

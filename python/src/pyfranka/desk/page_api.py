@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import base64
 import functools
 import hashlib
@@ -23,6 +22,7 @@ from pyfranka.desk.errors import DeskError, Refused, bad_request, unavailable
 from pyfranka.desk.limits import address_of
 from pyfranka.desk.page_lines import line_of
 from pyfranka.desk.page_live import Live, Page, control_of
+from pyfranka.desk.request_body import read_body
 from pyfranka.desk.sessions import User
 
 FOLDER = Path(__file__).resolve().parent / "page"
@@ -87,7 +87,7 @@ class PageApi:
         path = self.files.get(request.match_info["name"])
         if path is None:
             raise DeskError(404, "NotFound", "The page has no such file.")
-        return file_answer(path)
+        return file_answer(request, path)
 
     async def robot_mesh(self, request: web.Request) -> web.StreamResponse:
         """A mesh of the robots, as ./franka install or pyfranka-meshes has installed it."""
@@ -95,7 +95,7 @@ class PageApi:
         path = self.meshes.get((request.match_info["type"], request.match_info["part"]))
         if path is None:
             raise DeskError(404, "NotFound", "This mesh is not installed.")
-        return file_answer(path)
+        return file_answer(request, path)
 
     # ---- logins ------------------------------------------------------------------------------------------
 
@@ -116,9 +116,9 @@ class PageApi:
     async def logout(self, request: web.Request) -> web.Response:
         """Ends the session."""
         access.check_origin(request, True)
-        token = request.cookies.get(access.COOKIE, "")
-        for desk in self.desk.all:
-            desk.sessions.close(token)
+        for token in access.cookies_of(request):
+            for desk in self.desk.all:
+                desk.sessions.close(token)
         answer = web.json_response({})
         answer.del_cookie(access.COOKIE, path="/")
         return answer
@@ -169,8 +169,9 @@ class PageApi:
     async def live(self, request: web.Request) -> web.StreamResponse:
         """The stream of states."""
         access.check_origin(request, True)
-        token = request.cookies.get(access.COOKIE, "")
-        if self.desk.sessions.name(token) is None:
+        access.check_handshake(request)
+        token = access.session_of(request, self.desk)
+        if token is None:
             raise DeskError(401, "Unauthorized", "Log in first.")
         with self.desk.gate.sockets.one(address_of(request)):
             socket = web.WebSocketResponse(heartbeat=20.0, max_msg_size=1024, compress=False)
@@ -220,8 +221,8 @@ class PageApi:
 
     # A page that has been closed does not get control; other clients of this interface have no stream.
     def _is_waiting(self, request: web.Request) -> Callable[[], bool]:
-        token = request.cookies.get(access.COOKIE, "")
-        if not self.stream.has_page(token):
+        token = access.session_of(request, self.desk)
+        if token is None or not self.stream.has_page(token):
             return lambda: True
         return lambda: self.stream.has_page(token)
 
@@ -241,13 +242,14 @@ class PageApi:
 
     async def _body(self, request: web.Request) -> dict[str, Any]:
         """A JSON object; other types are refused, because forms of other sites could send them."""
-        if request.content_type != "application/json":
+        kind, charset = _content_type(request)
+        if kind != "application/json":
             raise DeskError(415, "UnsupportedMediaType", "The body must be of the type application/json.")
+        if charset not in ("", "utf-8"):
+            raise DeskError(415, "UnsupportedMediaType", "The body must be in UTF-8.")
+        content = await read_body(request, self.desk.gate.limits)
         try:
-            text = await asyncio.wait_for(request.text(), self.desk.gate.limits.body_time)
-            body = json.loads(text)
-        except TimeoutError:
-            raise DeskError(408, "RequestTimeout", "The body has not come in time.") from None
+            body = json.loads(content)
         except (ValueError, RecursionError):
             raise bad_request("The body is not valid JSON.") from None
         if not isinstance(body, dict):
@@ -255,10 +257,10 @@ class PageApi:
         return body
 
     def _number(self, word: object) -> int:
-        desks = self.desk.all
-        if not str(word).isascii() or not str(word).isdigit() or int(str(word)[:6]) >= len(desks):
-            raise DeskError(404, "NotFound", f"There is no such robot; there are {len(desks)}, from 0.")
-        return int(str(word))
+        names = [str(number) for number in range(len(self.desk.all))]
+        if isinstance(word, bool) or str(word) not in names:
+            raise DeskError(404, "NotFound", f"There is no such robot; there are {len(names)}, from 0.")
+        return names.index(str(word))
 
 
 def _check_control(request: web.Request, desk: Desk) -> None:
@@ -271,8 +273,20 @@ def token_of(request: web.Request) -> str:
     return request.headers.get("X-Control-Token", "")
 
 
-def file_answer(path: Path) -> web.FileResponse:
-    """A file, which browsers cache and revalidate."""
+def _content_type(request: web.Request) -> tuple[str, str]:
+    """The type of the body and its charset, in lower case; aiohttp raises errors for some values."""
+    kind, *parameters = request.headers.get("Content-Type", "").lower().split(";")
+    named = dict(parameter.strip().partition("=")[::2] for parameter in parameters)
+    return kind.strip(), named.get("charset", "").strip('"')
+
+
+def file_answer(request: web.Request, path: Path) -> web.FileResponse:
+    """A file, which browsers cache and revalidate. Raises DeskError (400) for headers that are not valid."""
+    try:
+        for name in ("if_modified_since", "if_unmodified_since", "if_range", "http_range"):
+            getattr(request, name)
+    except (ValueError, OverflowError):
+        raise bad_request("A date or a range in the headers of the request is not valid.") from None
     if not path.is_file():
         raise unavailable(f"The file {path.name} is no longer there.")
     headers = {"Content-Type": TYPES[path.suffix], "Cache-Control": "no-cache"}

@@ -14,7 +14,8 @@ from pyfranka.desk.errors import bad_request
 MAX_PUSH_TIME = 1000  # [ms] (chosen here: a push ends soon after its page has closed)
 MAX_PUSH_FORCE = 200.0  # [N] of each component (chosen here)
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,63}")
-BODY = re.compile(r"[^\s\x00-\x1f\x7f]{1,200}")
+BODY = re.compile(r"[^\s\x00-\x1f\x7f\ud800-\udfff]{1,200}")
+TIME = re.compile(r"[0-9]{1,4}")
 
 
 @dataclass(frozen=True)
@@ -115,7 +116,7 @@ def _force(word: str) -> str | None:
 
 
 def _milliseconds(word: str) -> str | None:
-    return word if word.isascii() and word.isdigit() and 1 <= int(word[:6]) <= MAX_PUSH_TIME else None
+    return word if TIME.fullmatch(word) and 1 <= int(word) <= MAX_PUSH_TIME else None
 
 
 KINDS: dict[str, Callable[[str], str | None]] = {

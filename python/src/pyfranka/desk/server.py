@@ -16,8 +16,9 @@ from aiohttp import web
 
 from pyfranka.desk import access, legacy, page_api, sockets, v1
 from pyfranka.desk.desk import Desk
-from pyfranka.desk.errors import DeskError, Refused, RobotGone, bad_request, unavailable
+from pyfranka.desk.errors import DeskError, Refused, RobotGone, unavailable
 from pyfranka.desk.limits import Gate
+from pyfranka.desk.request_body import read_body
 from pyfranka.desk.robot import DeskRobot
 from pyfranka.desk.routes import Call, Route, Routes
 from pyfranka.desk.sessions import Users
@@ -28,7 +29,7 @@ Handler = Callable[[web.Request], Awaitable[web.StreamResponse]]
 # Newer versions of aiohttp require a key of their own type.
 DESK = getattr(web, "AppKey", lambda name, kind: name)("desk", Desk)  # of the application's robot
 ROUTES = Routes([*legacy.ROUTES, *v1.ROUTES, *sockets.ROUTES])
-OTHER_ROBOT = re.compile(r"/robots/(\d{1,3})(/.*)")
+OTHER_ROBOT = re.compile(r"/robots/([0-9]{1,3})(/.*)")
 HANDSHAKE_TIME = 10.0  # [s] for TLS (chosen here)
 LINGER = 1.0  # [s] for the rest of a body after an early answer (chosen here)
 TEMPORARY = {"SelfTestRunning", "NotReady"}  # refusals that end after some time: clients try again
@@ -110,6 +111,8 @@ async def _finish(request: web.Request, handler: Handler) -> web.StreamResponse:
             raise
         answer = _error_answer(_desk_error(error, request), newer)
     if not answer.prepared:
+        if "Upgrade" in request.headers:  # aiohttp reads no further request of this connection
+            answer.force_close()
         answer.headers.setdefault("Server", "franka_desk")
         answer.headers.setdefault("Cache-Control", "no-store")
         answer.headers.setdefault("X-Content-Type-Options", "nosniff")
@@ -144,7 +147,7 @@ def _error_answer(error: DeskError, newer: bool) -> web.Response:
 async def _dispatch(request: web.Request) -> web.StreamResponse:
     desk, path = _desk_and_path(request)
     desk.power.check()
-    body = await _body(request)
+    body = await read_body(request, desk.gate.limits)
     matches = ROUTES.find(path, desk.profile)
     if not matches:
         return _not_found(path, desk)
@@ -206,21 +209,6 @@ def _desk_and_path(request: web.Request) -> tuple[Desk, str]:
     if number >= len(desks):
         raise DeskError(404, "NotFound", f"There is no robot {number}; there are {len(desks)}.")
     return desks[number], match[2]
-
-
-async def _body(request: web.Request) -> bytes:
-    limits = request.app[DESK].gate.limits
-    try:
-        async with asyncio.timeout(limits.body_time):
-            return await request.read()
-    except TimeoutError:
-        raise DeskError(408, "RequestTimeout", "The body has not come in time.") from None
-    except web.HTTPRequestEntityTooLarge:
-        raise DeskError(413, "TooLarge", f"The body has more than {limits.body} bytes.") from None
-    except (web.HTTPException, ConnectionError):
-        raise
-    except Exception:
-        raise bad_request("The body could not be read.") from None
 
 
 def _not_found(path: str, desk: Desk) -> web.Response:

@@ -28,7 +28,7 @@ class User:
 
 def digest_of(name: str, password: str) -> str:
     """The digest that clients send instead of a password: the numbers of a SHA-256 digest, in base64."""
-    digest = hashlib.sha256(f"{password}#{name}@franka".encode()).digest()
+    digest = hashlib.sha256(f"{password}#{name}@franka".encode(errors="surrogatepass")).digest()
     return base64.b64encode(",".join(map(str, digest)).encode()).decode()
 
 

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 from aiohttp import WSMsgType, web
 
 from pyfranka.desk import status
+from pyfranka.desk.access import check_handshake
 from pyfranka.desk.desk import Desk
 from pyfranka.desk.limits import address_of
 from pyfranka.desk.routes import Call, Handler, Login, Route, Where, everywhere, on_fr3, with_tokens, with_v1
@@ -134,6 +135,7 @@ def _is_upgrade(request: web.Request) -> bool:
 
 async def _serve(call: Call, work: Callable[[Send], typing.Awaitable[None]]) -> web.WebSocketResponse:
     """Runs the work, which sends, until the client closes."""
+    check_handshake(call.request)
     socket = web.WebSocketResponse(heartbeat=PING, max_msg_size=MAX_MESSAGE_LENGTH, compress=False)
     with call.desk.gate.sockets.one(address_of(call.request)):
         await socket.prepare(call.request)

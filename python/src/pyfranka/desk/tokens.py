@@ -47,8 +47,8 @@ class Tokens:
     def request(
         self, owner: str, force: bool = False, is_waiting: Callable[[], bool] = lambda: True
     ) -> Request:
-        """Requests control; granted at once if no user has control. A pending request gets control only if its
-        client is still waiting then."""
+        """Requests control; granted at once if no user has control. A pending request gets it only if its
+        client is waiting then."""
         request = Request(self._next, secrets.token_urlsafe(24), owner, force, is_waiting)
         self._next += 1
         if self.active is None:
