@@ -316,6 +316,32 @@ def test_equal_simultaneous_lines_are_sent_once_and_the_last_one_decides(tmp_pat
         assert robot.lines == [f"joints {word}" for word in words]
 
 
+def test_urgent_line_does_not_wait_with_an_equal_one(tmp_path):
+    answered = asyncio.Event()
+
+    async def answer(*words):
+        await answered.wait()
+        return "ok"
+
+    with desk_with_robot(tmp_path) as (robot, desk):
+        robot.answers |= {"move": answer, "hand": answer, "recover": answer}
+        sent, send = [], desk.desk.robot.send
+
+        def begin(line, urgent=False):
+            sent.append(asyncio.run_coroutine_threadsafe(send(line, urgent), desk.loop))
+
+        for line in ("move pack", "hand homing", "recover"):  # as many as may run at a time
+            begin(line)
+        wait_for(lambda: len(robot.lines) == 3)
+        begin("fci off")
+        begin("fci off", urgent=True)
+        wait_for(lambda: "fci off" in robot.lines, "The urgent line")
+        assert not answered.is_set()
+        robot.call(answered.set)
+        for each in sent:
+            each.result(DEADLINE)
+
+
 def connections(desk, count):
     """So many connections; none if one is refused, as while the end of an earlier one is on its way."""
     kept, context = [], unverified()

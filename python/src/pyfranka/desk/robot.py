@@ -45,7 +45,7 @@ class DeskRobot:
         self._listeners: list[Callable[[], None]] = []
         self._lines, self._urgent = asyncio.Semaphore(LINES), asyncio.Semaphore(URGENT_LINES)
         self._running: set[asyncio.Task[str]] = set()
-        self._last: tuple[str, asyncio.Task[str]] | None = None
+        self._last: tuple[str, bool, asyncio.Task[str]] | None = None  # line, urgent, and its answer
         self._poller: asyncio.Task[None] | None = None
         self._first = asyncio.Event()
 
@@ -85,18 +85,19 @@ class DeskRobot:
     async def send(self, line: str, urgent: bool = False) -> str:
         """Sends a line; returns the text after `ok`. The report is then newer than the effect of the line.
 
-        A line that equals the last one, which is not answered yet, is not sent again. urgent: does not wait
-        for other lines. If the caller is cancelled, the line still runs to its end. Raises Refused or
-        RobotGone.
+        A line that equals the last one, which is not answered yet, is not sent again, unless only the new one
+        is urgent. urgent: does not wait for other lines. If the caller is cancelled, the line still runs to
+        its end. Raises Refused or RobotGone.
         """
         if "\n" in line or "\r" in line:
             raise ValueError("A line has no line break.")
-        if self._last is None or self._last[0] != line or self._last[1].done():
+        last = self._last
+        if last is None or last[0] != line or last[2].done() or (urgent and not last[1]):
             task = asyncio.get_running_loop().create_task(self._send(line, urgent))
             self._running.add(task)
             task.add_done_callback(self._ended)
-            self._last = line, task
-        return await asyncio.shield(self._last[1])
+            self._last = last = line, urgent, task
+        return await asyncio.shield(last[2])
 
     async def refresh(self) -> Report:
         """A report of the robot after this call. Raises RobotGone."""
