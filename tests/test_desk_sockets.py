@@ -11,10 +11,10 @@ import aiohttp
 import pytest
 from desk_fixtures import desk_with_robot, fresh_desk, fresh_robot
 from desk_robot import OPEN
-from desk_server import LIMITS, PASSWORD, USER, basic, unverified
+from desk_server import LIMITS, PASSWORD, USER, SteppedLoop, basic, unverified
 from pyfranka.desk import Limits
 from pyfranka.desk.profiles import PROFILES
-from pyfranka.desk.sockets import TOPICS
+from pyfranka.desk.sockets import TOPICS, Topic, send_snapshots
 from waiting import wait_for
 
 LIMIT = 60.0  # [s] for a message
@@ -239,6 +239,42 @@ def test_sockets_of_an_address_are_limited(tmp_path):
                 await following(opened)
 
         run(talk())
+
+
+class FakeDesk:
+    """A desk with a value that changes."""
+
+    def __init__(self):
+        self.robot, self.value, self.event = self, 0, asyncio.Event()
+        self.report = True
+
+    @contextlib.contextmanager
+    def watch(self):
+        yield self.event
+
+    def set_value(self, value):
+        self.value = value
+        self.event.set()
+
+
+def test_change_while_a_snapshot_is_sent_is_sent_next():
+    async def listen():
+        asyncio.get_running_loop().stop_clock()  # no period ends
+        desk, sent = FakeDesk(), []
+
+        async def send(value):
+            sent.append(value)
+            if value == 0:
+                desk.set_value(1)
+
+        work = asyncio.create_task(send_snapshots(desk, Topic("", lambda desk: desk.value), send))
+        for _ in range(10):  # turns of the loop
+            await asyncio.wait([work], timeout=0)
+        assert sent == [0, 1]
+        work.cancel()
+
+    with contextlib.closing(SteppedLoop()) as loop:
+        loop.run_until_complete(listen())
 
 
 def test_events_of_the_newer_interface_are_a_stream(fr3):

@@ -75,7 +75,7 @@ def _handler(topic: Topic) -> Handler:
         if not _is_upgrade(call.request):
             return topic.snapshot(call.desk)
         topic.snapshot(call.desk)  # an error is an answer, not an end of the socket
-        return await _serve(call, lambda send: _send_snapshots(call.desk, topic, send))
+        return await _serve(call, lambda send: send_snapshots(call.desk, topic, send))
 
     return handle
 
@@ -115,7 +115,7 @@ async def server_sent_events(call: Call) -> web.StreamResponse:
                 await response.write(data)
 
         with contextlib.suppress(ConnectionError, asyncio.TimeoutError):
-            await _send_snapshots(call.desk, topic, send, lambda: call.request.transport is not None)
+            await send_snapshots(call.desk, topic, send, lambda: call.request.transport is not None)
     return response
 
 
@@ -167,13 +167,15 @@ async def _until_disconnected(work: typing.Awaitable[None]) -> None:
         await work
 
 
-async def _send_snapshots(
+async def send_snapshots(
     desk: Desk, topic: Topic, send: Send, keep_sending: Callable[[], bool] = lambda: True
 ) -> None:
+    """Sends snapshots of a topic: at once, at changes and after its period."""
     loop = asyncio.get_running_loop()
     last, due = None, loop.time()
     with desk.watch() as event:
         while keep_sending():
+            event.clear()  # before the snapshot: a change while it is sent comes next
             if desk.robot.report is not None:
                 value = topic.snapshot(desk)
                 key = _without_volatile(value) if topic.on_change else None
@@ -182,15 +184,10 @@ async def _send_snapshots(
                     last, due = key, max(due + topic.period, loop.time() + 0.5 * topic.period)
             with contextlib.suppress(asyncio.TimeoutError):
                 async with asyncio.timeout(topic.period):
-                    await _next(event, topic, due - loop.time())
-
-
-async def _next(event: asyncio.Event, topic: Topic, left: float) -> None:
-    if topic.on_change:
-        event.clear()
-        await event.wait()
-    else:
-        await asyncio.sleep(max(0.0, left))
+                    if topic.on_change:
+                        await event.wait()
+                    else:
+                        await asyncio.sleep(max(0.0, due - loop.time()))
 
 
 async def _send_queue(first: dict[str, bool], queue: asyncio.Queue[dict[str, bool]], send: Send) -> None:
