@@ -4,6 +4,7 @@
 
 import asyncio
 import contextlib
+import dataclasses
 import http.client
 import json
 import re
@@ -13,17 +14,20 @@ from random import Random
 
 import pytest
 from desk_fixtures import desk_with_robot
+from desk_server import LIMITS as ANY_NUMBER
 from desk_server import PASSWORD, USER, SteppedLoop, basic, unverified
 from pyfranka.desk import Limits, Options, Settings
+from pyfranka.desk.addresses import network_of, place_of, url_of
 from pyfranka.desk.errors import DeskError
-from pyfranka.desk.limits import LOGIN_RATE, Throttle
+from pyfranka.desk.login_throttle import LOGIN_RATE, LoginThrottle
 from pyfranka.desk.server import LINGER, ROUTES
-from pyfranka.desk.sessions import digest_of
+from pyfranka.desk.sessions import User, digest_of
+from pyfranka.desk.throttle import Throttle
 from pyfranka.desk.v1 import ROUTES as V1_ROUTES
 from waiting import wait_for
 
 CONFIGURATION = "/api/configuration"
-LIMITS = Limits(rate=20000.0, wrong_logins=100000, connections_of_address=8)
+LIMITS = dataclasses.replace(ANY_NUMBER, connections_of_address=8)
 DEADLINE = 60.0  # [s]
 
 
@@ -267,6 +271,122 @@ def test_uses_above_the_rate_wait_for_their_turn():
 
     with contextlib.closing(SteppedLoop()) as loop:
         loop.run_until_complete(crowd())
+
+
+NO_WAITING = Limits(waiting=0, wrong_logins=3, wrong_logins_of_user=5, wrong_logins_of_all=8)
+ANNA = User("anna", "")
+
+
+def answered(statuses):
+    """How many of these logins were compared at once."""
+    return sum(status != 429 for status in statuses)
+
+
+def throttled(work):
+    """Runs the coroutine function with a throttle and a function that logs in, on a stopped clock."""
+
+    async def run():
+        loop, throttle = asyncio.get_running_loop(), LoginThrottle(NO_WAITING)
+        loop.stop_clock()
+
+        async def log_in(address, name, user=None):
+            try:
+                return 401 if await throttle.compare(address, name, lambda: user) is None else 200
+            except DeskError as error:
+                return error.status
+
+        await work(loop, log_in)
+
+    with contextlib.closing(SteppedLoop()) as loop:
+        loop.run_until_complete(run())
+
+
+def test_wrong_passwords_are_limited_for_one_address():
+    async def guess(loop, log_in):
+        assert answered([await log_in("a", f"user {k}") for k in range(10)]) == 3
+        assert await log_in("b", "anna", ANNA) == 200
+        loop.ahead += 1.0 / LOGIN_RATE
+        assert answered([await log_in("a", f"user {k}") for k in range(10)]) == 1
+
+    throttled(guess)
+
+
+def test_wrong_passwords_are_limited_for_one_user():
+    async def guess(loop, log_in):
+        assert answered([await log_in(f"address {k}", "anna") for k in range(7)]) == 5
+        assert await log_in("another address", "anna", ANNA) == 429  # the right one waits too
+        assert await log_in("another address", "bert") == 401
+
+    throttled(guess)
+
+
+def test_wrong_passwords_are_limited_in_all():
+    async def guess(loop, log_in):
+        assert answered([await log_in(f"address {k}", f"user {k}") for k in range(20)]) == 8
+
+    throttled(guess)
+
+
+def test_wrong_passwords_of_others_do_not_lock_out_a_user_at_a_known_address():
+    async def guess(loop, log_in):
+        assert await log_in("home", "anna", ANNA) == 200
+        for k in range(20):
+            await log_in(f"address {k}", "anna")
+        assert await log_in("home", "anna", ANNA) == 200
+        assert answered([await log_in("home", "anna") for _ in range(10)]) == 3  # its own count
+
+    throttled(guess)
+
+
+@pytest.mark.parametrize(
+    "peers, same",
+    [
+        (["127.0.0.1", "127.0.0.2"], False),
+        (["2001:db8:1:2::1", "2001:db8:1:2:ffff::2"], True),
+        (["2001:db8:1:2::1", "2001:db8:1:3::1"], False),
+        (["::ffff:127.0.0.1", "127.0.0.1"], True),
+        (["::ffff:127.0.0.1", "::ffff:127.0.0.2"], False),
+        (["fe80::1%eth0", "fe80::2"], True),
+        (["no address", "127.0.0.1"], False),
+    ],
+)
+def test_addresses_of_one_ipv6_network_count_as_one(peers, same):
+    one, other = (network_of((peer, 1234)) for peer in peers)
+    assert (one == other) == same
+
+
+PLACES = [
+    ("127.0.0.1", ("127.0.0.1", 99)),
+    ("127.0.0.1:8443", ("127.0.0.1", 8443)),
+    ("robot.local:0", ("robot.local", 0)),
+    ("::1", ("::1", 99)),
+    ("[::1]", ("::1", 99)),
+    ("[::1]:8443", ("::1", 8443)),
+    ("[fe80::1%eth0]:8443", ("fe80::1%eth0", 8443)),
+    *((word, None) for word in ("", ":1", "a:", "a:b", "a:65536", "a:" + "1" * 5000, "a:\u0663")),
+    *((word, None) for word in ("[::1", "[::1]8443", "[::1]:", "[]:1", "[a]:1", "[::1]:x")),
+]
+
+
+@pytest.mark.parametrize("word, place", PLACES, ids=lambda each: str(each)[:20])
+def test_place_is_an_address_with_a_port(word, place):
+    if place is None:
+        with pytest.raises(ValueError, match=r"\.$"):
+            place_of(word, 99)
+    else:
+        assert place_of(word, 99) == place
+
+
+@pytest.mark.parametrize(
+    "address, url",
+    [
+        ("127.0.0.1", "https://127.0.0.1:8443"),
+        ("::1", "https://[::1]:8443"),
+        ("fe80::1%eth0", "https://[fe80::1%25eth0]:8443"),
+    ],
+)
+def test_url_has_ipv6_addresses_in_brackets(address, url):
+    assert url_of(address, 8443) == url
 
 
 def test_too_many_requests_and_wrong_passwords_have_to_wait(tmp_path):

@@ -5,6 +5,7 @@
 import asyncio
 import base64
 import contextlib
+import dataclasses
 import json
 
 import aiohttp
@@ -237,6 +238,22 @@ def test_sockets_of_an_address_are_limited(tmp_path):
                 assert refused.value.status == 429
             async with socket(desk, SAFETY) as opened:
                 await following(opened)
+
+        run(talk())
+
+
+def test_sockets_without_a_login_do_not_take_the_places_of_users(tmp_path):
+    limits = dataclasses.replace(LIMITS, sockets=2, sockets_without_login=3)
+    with desk_with_robot(tmp_path, limits=limits) as (_, desk):
+
+        async def talk():
+            async with contextlib.AsyncExitStack() as stack:
+                for headers, places in (({"X-None": "1"}, 3), (login(), 2)):
+                    for _ in range(places):
+                        await following(await stack.enter_async_context(socket(desk, SAFETY, headers)))
+                    with pytest.raises(aiohttp.WSServerHandshakeError) as refused:
+                        await stack.enter_async_context(socket(desk, SAFETY, headers))
+                    assert refused.value.status == 429
 
         run(talk())
 

@@ -22,7 +22,8 @@ from waiting import wait_for
 
 USER, PASSWORD = "franka", "open-sesame"
 # Tests send wrong passwords and many requests.
-LIMITS = Limits(rate=20000.0, wrong_logins=100000)
+MANY = 100000
+LIMITS = Limits(rate=20000.0, wrong_logins=MANY, wrong_logins_of_user=MANY, wrong_logins_of_all=MANY)
 START_LIMIT = 60.0  # [s] for one call, on a busy machine
 STEP = 1.0  # [s] by which the clock is put forward at once: less than a report of the robot may take
 

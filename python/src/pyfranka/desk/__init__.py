@@ -11,8 +11,8 @@ talks to the robot over its control interface only (docs/franka_sim.md).
 Layers of modules, the lowest first. A module imports only those that are listed before it, also for types
 and in functions (tests/style.py):
 
-    errors, checks, settings, profiles, certificate
-    robot, sessions, tokens, limits
+    errors, checks, settings, profiles, certificate, addresses
+    robot, sessions, tokens, throttle, login_throttle, limits
     end_effectors, configuration, fci, power
     desk
     status, actions, routes, access, request_body

@@ -11,9 +11,9 @@ import urllib.parse
 
 from aiohttp import web
 
+from pyfranka.desk.addresses import address_of
 from pyfranka.desk.desk import Desk
 from pyfranka.desk.errors import DeskError
-from pyfranka.desk.limits import address_of
 from pyfranka.desk.routes import Call, Login, Token
 from pyfranka.desk.sessions import User
 
@@ -86,17 +86,13 @@ async def user_of(request: web.Request, desk: Desk) -> User | None:
     return None
 
 
-async def check_password(request: web.Request, desk: Desk, user: typing.Callable[[], User | None]) -> User:
-    """Compares a password and returns its user. An address that has sent many wrong passwords waits before
-    each further comparison. Raises DeskError (401)."""
-    address, throttle = address_of(request), desk.gate.wrong_logins
-    waits = throttle.delay(address) > 0.0
-    if waits:
-        await throttle.wait(address, throttle.use(address))
-    found = user()
+async def check_password(
+    request: web.Request, desk: Desk, name: str, compare: typing.Callable[[], User | None]
+) -> User:
+    """Compares a password and returns its user. After many wrong passwords it waits first (LoginThrottle).
+    Raises DeskError (401)."""
+    found = await desk.gate.logins.compare(address_of(request), name, compare)
     if found is None:
-        if not waits:
-            throttle.use(address)
         raise DeskError(401, "WrongCredentials", "User or password is wrong.")
     return found
 
@@ -106,7 +102,7 @@ async def _user_of_basic(request: web.Request, desk: Desk, word: str) -> User:
         name, _, password = base64.b64decode(word, validate=True).decode().partition(":")
     except (binascii.Error, ValueError):
         name = password = ""
-    return await check_password(request, desk, lambda: desk.users.by_password(name, password))
+    return await check_password(request, desk, name, lambda: desk.users.by_password(name, password))
 
 
 def check_login(user: User | None, login: Login) -> None:

@@ -17,6 +17,7 @@ import typing
 from collections.abc import Sequence
 
 from pyfranka.command_line import Parser, install_command
+from pyfranka.desk.addresses import place_of, url_of
 from pyfranka.desk.profiles import PROFILES
 from pyfranka.desk.robot import PORT, DeskRobot
 from pyfranka.desk.settings import USER, Options, Settings
@@ -41,8 +42,8 @@ def main(arguments: Sequence[str] | None = None) -> int:
     words = _parser().parse_args(arguments)
     try:
         settings, generated = _settings(words)
-        robots = [_place(word, PORT) for word in words.robot or ["127.0.0.1"]]
-        listen = _place(words.listen, 0) if words.listen else None
+        robots = [place_of(word, PORT) for word in words.robot or ["127.0.0.1"]]
+        listen = place_of(words.listen, 0) if words.listen else None
     except ValueError as error:
         print(f"franka_desk: {error}", file=sys.stderr)
         return 2
@@ -116,15 +117,6 @@ def _settings(words: argparse.Namespace) -> tuple[Settings, bool]:
     return settings, not password
 
 
-def _place(word: str, port: int) -> tuple[str, int]:
-    address, colon, number = word.rpartition(":")
-    if not colon or (":" in address and not address.startswith("[")):  # an address of IPv6
-        return word.strip("[]"), port
-    if not number.isdecimal() or not int(number) < 65536 or not address:
-        raise ValueError(f"'{word}' is not an ADDRESS:PORT.")
-    return address.strip("[]"), int(number)
-
-
 async def _run(
     places: list[tuple[str, int]], listen: tuple[str, int] | None, settings: Settings, child: int | None
 ) -> int:
@@ -139,10 +131,11 @@ async def _run(
         sites.append(await _open(app_of(desks, number), _ports(listen, robot, number)))
         desks[number].power.site = sites[-1]
     for desk, site in zip(desks, sites):
-        print(f"franka_desk: robot at {desk.robot.place}: https://{site.address}:{site.port}", flush=True)
+        url = url_of(site.address, site.port)
+        print(f"franka_desk: robot at {desk.robot.place}: {url}", flush=True)
     if child is not None:
         with os.fdopen(child, "w") as addresses:
-            addresses.writelines(f"https://{site.address}:{site.port}\n" for site in sites)
+            addresses.writelines(f"{url_of(site.address, site.port)}\n" for site in sites)
     await end.wait()
     for site in sites:
         await site.cleanup()

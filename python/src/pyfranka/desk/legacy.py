@@ -42,7 +42,7 @@ async def login(call: Call) -> web.Response:
     if not isinstance(name, str) or not isinstance(digest, str):
         raise bad_request("The login needs the texts 'login' and 'password'.")
     desk = call.desk
-    user = await check_password(call.request, desk, lambda: desk.users.by_digest(name, digest))
+    user = await check_password(call.request, desk, name, lambda: desk.users.by_digest(name, digest))
     return web.Response(text=desk.open_session(user))
 
 

@@ -1,72 +1,22 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Limits for each address: connections, requests a second, wrong logins, open sockets."""
+"""Limits for each address: connections, requests a second, open sockets."""
 
 from __future__ import annotations
 
 import asyncio
 import contextlib
-from collections import Counter, OrderedDict
+from collections import Counter
 from collections.abc import Callable, Iterator
-from dataclasses import dataclass
-from typing import Any
 
 from aiohttp import web
 
+from pyfranka.desk.addresses import address_of, network_of
 from pyfranka.desk.errors import DeskError
+from pyfranka.desk.login_throttle import LoginThrottle
+from pyfranka.desk.sessions import User
 from pyfranka.desk.settings import Limits
-
-LOGIN_RATE = 1.0  # [1/s] of an address that has sent too many wrong passwords (chosen here)
-MAX_ADDRESSES = 4096  # addresses (chosen here)
-
-
-@dataclass
-class _Bucket:
-    tokens: float
-    time: float
-    waiting: int = 0
-
-
-class Throttle:
-    """Limits the rate of something for each address; early uses wait for their turn."""
-
-    def __init__(self, rate: float, burst: float, waiting: int):
-        self._rate, self._burst, self._waiting = rate, burst, waiting
-        self._buckets: OrderedDict[str, _Bucket] = OrderedDict()
-
-    def use(self, address: str) -> float:
-        """Counts one use. Returns how long it has to wait [s]."""
-        bucket = self._bucket(address)
-        bucket.tokens -= 1.0
-        return max(0.0, -bucket.tokens / self._rate)
-
-    def delay(self, address: str) -> float:
-        """The time that a use would have to wait [s], without counting it."""
-        return max(0.0, (1.0 - self._bucket(address).tokens) / self._rate)
-
-    async def wait(self, address: str, delay: float) -> None:
-        """Waits for that time. Raises DeskError (429) if too many of that address wait already."""
-        bucket = self._bucket(address)
-        if bucket.waiting >= self._waiting:
-            bucket.tokens += 1.0  # this use is not executed
-            raise DeskError(
-                429, "TooManyRequests", f"Too many requests of {address} wait already. Send fewer at a time."
-            )
-        bucket.waiting += 1
-        try:
-            await asyncio.sleep(delay)
-        finally:
-            bucket.waiting -= 1
-
-    def _bucket(self, address: str) -> _Bucket:
-        now = asyncio.get_running_loop().time()
-        bucket = self._buckets.setdefault(address, _Bucket(self._burst, now))
-        bucket.tokens = min(self._burst, bucket.tokens + (now - bucket.time) * self._rate)
-        bucket.time = now
-        self._buckets.move_to_end(address)
-        while len(self._buckets) > MAX_ADDRESSES:
-            self._buckets.popitem(last=False)
-        return bucket
+from pyfranka.desk.throttle import Throttle
 
 
 class Counted:
@@ -111,8 +61,13 @@ class Gate:
     def __init__(self, limits: Limits):
         self.limits = limits
         self.requests = Throttle(limits.rate, limits.rate, limits.waiting)
-        self.wrong_logins = Throttle(LOGIN_RATE, limits.wrong_logins, limits.waiting)
+        self.logins = LoginThrottle(limits)
         self.sockets = Counted(limits.sockets, limits.sockets_of_address, "WebSockets")
+        self.sockets_without_login = Counted(
+            limits.sockets_without_login,
+            limits.sockets_without_login_of_address,
+            "WebSockets without a login",
+        )
         self._connections = Counted(limits.connections, limits.connections_of_address, "connections")
         self._guards: dict[asyncio.BaseProtocol, _Guard] = {}
 
@@ -125,6 +80,10 @@ class Gate:
         delay = self.requests.use(address)
         if delay > 0.0:
             await self.requests.wait(address, delay)
+
+    def sockets_of(self, user: User | None) -> Counted:
+        """Open sockets of logged-in users, or of clients without a login, which take no places of users."""
+        return self.sockets if user is not None else self.sockets_without_login
 
     def factory(self, server: web.Server) -> Callable[[], asyncio.Protocol]:
         """Connections of that server, each with its limits: for loop.create_server."""
@@ -158,7 +117,7 @@ class _Guard(asyncio.Protocol):
 
     def connection_made(self, transport: asyncio.BaseTransport) -> None:
         assert isinstance(transport, asyncio.Transport)
-        self._address = _host(transport.get_extra_info("peername"))
+        self._address = network_of(transport.get_extra_info("peername"))
         self._counted = self._connections.add(self._address)
         self._guards[self._handler] = self
         self._handler.connection_made(transport)
@@ -185,12 +144,3 @@ class _Guard(asyncio.Protocol):
 
     def resume_writing(self) -> None:
         self._handler.resume_writing()
-
-
-def address_of(request: web.Request) -> str:
-    """The client's address."""
-    return _host(request.transport.get_extra_info("peername") if request.transport else None)
-
-
-def _host(peer: Any) -> str:
-    return str(peer[0]) if peer else "unknown"

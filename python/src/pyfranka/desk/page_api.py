@@ -17,9 +17,9 @@ from typing import Any
 from aiohttp import web
 
 from pyfranka.desk import access
+from pyfranka.desk.addresses import address_of
 from pyfranka.desk.desk import Desk
 from pyfranka.desk.errors import DeskError, Refused, bad_request, unavailable
-from pyfranka.desk.limits import address_of
 from pyfranka.desk.page_lines import line_of
 from pyfranka.desk.page_live import Live, Page, control_of
 from pyfranka.desk.request_body import read_body
@@ -107,7 +107,9 @@ class PageApi:
         if not isinstance(name, str) or not isinstance(password, str):
             raise bad_request("The login needs the texts 'user' and 'password'.")
         desk = self.desk
-        user = await access.check_password(request, desk, lambda: desk.users.by_password(name, password))
+        user = await access.check_password(
+            request, desk, name, lambda: desk.users.by_password(name, password)
+        )
         answer = web.json_response({"user": user.name})
         token = desk.open_session(user)
         answer.set_cookie(access.COOKIE, token, httponly=True, secure=True, samesite="Strict", path="/")

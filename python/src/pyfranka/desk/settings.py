@@ -66,13 +66,19 @@ class Limits:
     body: int = 1 << 16  #: [bytes] of a request
     body_time: float = 10.0  #: [s] for a whole body
     request_time: float = 10.0  #: [s] for the first request of a connection
-    rate: float = 500.0  #: requests a second of one address; more of them wait
+    rate: float = (
+        500.0  #: requests a second of one address (IPv6: of a network of 64 bits); more of them wait
+    )
     waiting: int = 200  #: requests of one address that wait; more are refused
     wrong_logins: int = 20  #: of one address at once; further logins wait for one second each
+    wrong_logins_of_user: int = 20  #: the same for one user name
+    wrong_logins_of_all: int = 100  #: the same of all addresses
     connections: int = 256  #: connections of all addresses
     connections_of_address: int = 128  #: the same of one address
-    sockets: int = 96  #: WebSockets and event streams of all addresses
+    sockets: int = 96  #: WebSockets and event streams of users
     sockets_of_address: int = 48  #: the same of one address
+    sockets_without_login: int = 32  #: WebSockets and event streams without a login, in addition
+    sockets_without_login_of_address: int = 16  #: the same of one address
     sessions: int = 1000  #: logins; the oldest one ends
 
 

@@ -15,8 +15,8 @@ from aiohttp import WSMsgType, web
 
 from pyfranka.desk import status
 from pyfranka.desk.access import check_handshake
+from pyfranka.desk.addresses import address_of
 from pyfranka.desk.desk import Desk
-from pyfranka.desk.limits import address_of
 from pyfranka.desk.routes import Call, Handler, Login, Route, Where, everywhere, on_fr3, with_tokens, with_v1
 from pyfranka.robot_report import Report
 
@@ -103,7 +103,7 @@ async def server_sent_events(call: Call) -> web.StreamResponse:
         "", lambda desk: {"system": status.system(desk), "controlToken": status.control_token(desk)}
     )
     text = json.dumps(topic.snapshot(call.desk))
-    with call.desk.gate.sockets.one(address_of(call.request)):
+    with call.desk.gate.sockets_of(call.user).one(address_of(call.request)):
         await response.prepare(call.request)
         if call.request.method == "HEAD":
             return response
@@ -137,7 +137,7 @@ async def _serve(call: Call, work: Callable[[Send], typing.Awaitable[None]]) -> 
     """Runs the work, which sends, until the client closes."""
     check_handshake(call.request)
     socket = web.WebSocketResponse(heartbeat=PING, max_msg_size=MAX_MESSAGE_LENGTH, compress=False)
-    with call.desk.gate.sockets.one(address_of(call.request)):
+    with call.desk.gate.sockets_of(call.user).one(address_of(call.request)):
         await socket.prepare(call.request)
 
         async def send(value: typing.Any) -> None:
