@@ -212,6 +212,7 @@ ERROR_IDS = {
 def control(place):
     """Headers that have control of the robot, which is locked."""
     _, desk = place
+    desk.close_connection()  # Desk may have ended it while no request came
     desk.clear()
     cookie = desk.log_in()
     headers = {**cookie, "X_Control_Token": desk.take_control(**cookie)["token"]}
