@@ -6,7 +6,6 @@
 #include <ros/init.h>
 
 #include <chrono>
-#include <optional>
 #include <stdexcept>
 #include <thread>
 
@@ -66,13 +65,13 @@ void ControlNode::run() {
 }
 
 void ControlNode::watchIdleRobot() {
-  const std::optional<franka::RobotState> state = connection_.readAtRest();
-  if (!state) {
+  franka::RobotState state;
+  if (!connection_.readAtRest(state)) {
     interrupted_ = interrupted_ || isLost(connection_.state());
     return;
   }
-  franka_hw_.update(*state);
-  robot_health_->state(*state);
+  franka_hw_.update(state);
+  robot_health_->state(state);
   const ros::Time now = franka_hw_.stateTime();
   try {
     updateControllers(now, now - last_update_, false);
@@ -82,7 +81,7 @@ void ControlNode::watchIdleRobot() {
   franka_hw_.checkJointLimits();
   last_update_ = now;
   if (connection_.state() == franka_hw::ArmState::kStopped &&
-      state->robot_mode == franka::RobotMode::kIdle) {
+      state.robot_mode == franka::RobotMode::kIdle) {
     recoveredByOthers();
   }
   connection_.mutex().yieldToRequests();

@@ -152,19 +152,20 @@ void ArmConnection::abort(ArmEvent event, const std::string& what,
   offer_->aborts.report(what, log, robot_ ? robot_->serverVersion() : 0);
 }
 
-std::optional<franka::RobotState> ArmConnection::readAtRest() {
+bool ArmConnection::readAtRest(franka::RobotState& state) {
   if (!connected()) {
-    return {};  // a recovery that has not ended yet may hold the mutex
+    return false;  // a recovery that has not ended yet may hold the mutex
   }
   try {
     const std::lock_guard<std::mutex> lock(mutex_);
     if (connected() && robot_) {
-      return readPatiently([this] { return robot_->readOnce(); });
+      state = readPatiently([this] { return robot_->readOnce(); });
+      return true;
     }
   } catch (const franka::Exception& error) {
     lose(error.what());
   }
-  return {};
+  return false;
 }
 
 franka::RobotState ArmConnection::readPatiently(

@@ -7,7 +7,6 @@
 #include <ros/init.h>
 
 #include <chrono>
-#include <optional>
 
 namespace franka_hw {
 
@@ -88,8 +87,9 @@ void FrankaCombinableHW::controlLoop() {
 }
 
 void FrankaCombinableHW::watchRobot() {
-  if (const std::optional<franka::RobotState> state = connection_.readAtRest()) {
-    states_.write({*state, ResponseTimes::Clock::now()});
+  franka::RobotState state;
+  if (connection_.readAtRest(state)) {
+    states_.write({state, ResponseTimes::Clock::now()});
   } else {
     if (controllerActive()) {
       connection_.fail();  // it was given up while a controller started

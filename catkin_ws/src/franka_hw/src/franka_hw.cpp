@@ -9,6 +9,7 @@
 #include <ros/init.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "command_permission.h"
 #include "joint_limit_monitor.h"
@@ -111,7 +112,8 @@ std::unique_ptr<franka::Robot> FrankaHW::openRobot() {
   command_permission_->robotConnected(robot->serverVersion());
   // A robot of protocol 3 reports no F_T_NE.
   const auto& frame = robot->serverVersion() < 4 ? state.F_T_EE : state.F_T_NE;
-  const std::string mismatch = endEffectorMismatch(described_F_T_NE_, frame, arm_id_);
+  const auto described = described_F_T_NE_ ? std::make_optional(*described_F_T_NE_) : std::nullopt;
+  const std::string mismatch = endEffectorMismatch(described, frame, arm_id_);
   // Once, not each time that a lost robot is connected again.
   if (!mismatch.empty() && mismatch != reported_mismatch_) {
     ROS_WARN_STREAM("FrankaHW: '" << arm_id_ << "' at " << robot_ip_ << ": " << mismatch

@@ -9,7 +9,7 @@
 #include <ros/console.h>
 
 #include <array>
-#include <optional>
+#include <memory>
 #include <stdexcept>
 #include <string>
 
@@ -135,16 +135,17 @@ bool readCollisionConfig(const ros::NodeHandle& nh, FrankaHW::CollisionConfig& c
 }
 
 /// F_T_NE of robot_description; empty if it has no hand, or no chain of this arm's links.
-std::optional<std::array<double, 16>> describedEndEffector(const ros::NodeHandle& root_nh,
-                                                           const std::string& arm_id) {
+std::unique_ptr<const std::array<double, 16>> describedEndEffector(const ros::NodeHandle& root_nh,
+                                                                   const std::string& arm_id) {
   std::string name, description;
   if (!root_nh.searchParam("robot_description", name) || !root_nh.getParam(name, description)) {
-    return std::nullopt;
+    return nullptr;
   }
   try {
-    return franka_core::nominalEndEffectorFromUrdf(description, arm_id);
+    const auto F_T_NE = franka_core::nominalEndEffectorFromUrdf(description, arm_id);
+    return F_T_NE ? std::make_unique<const std::array<double, 16>>(*F_T_NE) : nullptr;
   } catch (const std::invalid_argument&) {
-    return std::nullopt;  // robotMismatch() reports a description of another arm
+    return nullptr;  // robotMismatch() reports a description of another arm
   }
 }
 

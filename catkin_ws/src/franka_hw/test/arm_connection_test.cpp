@@ -51,7 +51,10 @@ TEST_F(ArmWithoutRobot, BeginsNoMotion) {
   EXPECT_FALSE(arm_.mutex().inMotion());
 }
 
-TEST_F(ArmWithoutRobot, HasNoStateToRead) { EXPECT_FALSE(arm_.readAtRest()); }
+TEST_F(ArmWithoutRobot, HasNoStateToRead) {
+  franka::RobotState state;
+  EXPECT_FALSE(arm_.readAtRest(state));
+}
 
 TEST_F(ArmWithoutRobot, RecoversFromNothing) { EXPECT_NO_THROW(arm_.recover()); }
 

@@ -15,7 +15,6 @@
 #include <functional>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <thread>
 #include <utility>
@@ -124,9 +123,9 @@ class ArmConnection {
   /// Runs `motion`, which holds a Motion, and reports what ended it. After offer().
   /// @returns whether it ended without an error
   bool move(const std::function<void()>& motion);
-  /// The next state of a robot at rest. @returns none if it is not connected, or if the connection
-  /// has just been lost, which is reported
-  std::optional<franka::RobotState> readAtRest();
+  /// Reads the next state of a robot at rest. @returns false if it is not connected, or if the
+  /// connection has just been lost, which is reported
+  bool readAtRest(franka::RobotState& state);
   /// As readAtRest(), for the holder of the mutex. Waits three seconds for a silent robot, or
   /// longer if libfranka does (as for simulated robots on this computer).
   /// @throws franka::NetworkException if the connection is lost

@@ -34,7 +34,6 @@
 #include <list>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -408,7 +407,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   std::atomic_bool in_control_{false};
   double connect_timeout_{0.0};  // [s] for a robot that is still starting
   std::atomic<franka::RobotMode> robot_mode_{franka::RobotMode::kOther};
-  std::optional<std::array<double, 16>> described_F_T_NE_;  // by robot_description
+  std::unique_ptr<const std::array<double, 16>> described_F_T_NE_;  // by robot_description
   std::string reported_mismatch_;  // of F_T_NE; written by openRobot() only
 
   std::unique_ptr<CommandPermission> command_permission_;

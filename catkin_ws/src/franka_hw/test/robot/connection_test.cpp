@@ -188,7 +188,10 @@ TEST_F(Connection, LossDoesNotWaitForARecoveryUnderWay) {
 
   arm_.robot.script([](auto& script) { script.fatal = {Command::kSetLoad}; });
   EXPECT_THROW(robot_.robot().setLoad(0.0, {}, {}), franka::NetworkException);
-  auto loop = std::async(std::launch::async, [&] { return connection.readAtRest(); });
+  auto loop = std::async(std::launch::async, [&] {
+    franka::RobotState state;
+    return connection.readAtRest(state);
+  });
   EXPECT_EQ(std::future_status::ready, loop.wait_for(kDeadline));
   EXPECT_EQ(franka_hw::ArmState::kLostInError, connection.state());
   ends.set_value();

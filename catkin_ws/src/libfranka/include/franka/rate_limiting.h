@@ -29,21 +29,18 @@ constexpr double withMargin(double velocity, double acceleration) {
   return velocity - kLimitEps - kTolNumberPacketsLost * kDeltaT * withMargin(acceleration);
 }
 constexpr std::array<double, 7> withMargin(const std::array<double, 7>& limits) {
-  std::array<double, 7> result{};
-  for (std::size_t i = 0; i < 7; i++) {
-    result[i] = withMargin(limits[i]);
-  }
-  return result;
+  return {{withMargin(limits[0]), withMargin(limits[1]), withMargin(limits[2]),
+           withMargin(limits[3]), withMargin(limits[4]), withMargin(limits[5]),
+           withMargin(limits[6])}};
 }
 constexpr std::array<double, 7> withMargin(const std::array<double, 7>& velocities,
                                            const std::array<double, 7>& accelerations) {
-  std::array<double, 7> result{};
-  for (std::size_t i = 0; i < 7; i++) {
-    result[i] = withMargin(velocities[i], accelerations[i]);
-  }
-  return result;
+  return {{withMargin(velocities[0], accelerations[0]), withMargin(velocities[1], accelerations[1]),
+           withMargin(velocities[2], accelerations[2]), withMargin(velocities[3], accelerations[3]),
+           withMargin(velocities[4], accelerations[4]), withMargin(velocities[5], accelerations[5]),
+           withMargin(velocities[6], accelerations[6])}};
 }
-inline constexpr const franka_core::ArmLimits& kFer = franka_core::kFerLimits;
+static constexpr const franka_core::ArmLimits& kFer = franka_core::kFerLimits;
 
 /// The limits of an FR3 at q [rad], each kLimitEps smaller: without a margin for lost packets.
 inline std::array<double, 7> upperJointVelocities(const franka_core::PositionVelocityLimits& limits,

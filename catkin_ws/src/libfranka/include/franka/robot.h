@@ -15,9 +15,12 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
+
+#if __cplusplus >= 201703L
+#include <optional>
+#endif
 
 /// @file
 /// The connection to a robot.
@@ -137,6 +140,7 @@ class Robot {
       const research_interface::robot::Move::ControllerMode& control_type);
   std::unique_ptr<ActiveControlBase> startCartesianVelocityControl(
       const research_interface::robot::Move::ControllerMode& control_type);
+#if __cplusplus >= 201703L
   /// The robot plans its own motion to each commanded joint position (protocol 10). Commands need
   /// not come every millisecond.
   /// @param maximum_velocities seven limits of the joint velocities [rad/s].
@@ -145,6 +149,7 @@ class Robot {
   std::unique_ptr<ActiveControlBase> startAsyncJointPositionControl(
       const research_interface::robot::Move::ControllerMode& control_type,
       const std::optional<std::vector<double>>& maximum_velocities);
+#endif
   /// @}
 
   /// Calls back with every new state until the callback returns false. For monitoring a robot that

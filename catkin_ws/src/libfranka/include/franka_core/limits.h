@@ -43,8 +43,8 @@ struct ArmLimits {
   std::array<double, 7> rate_limiter_dq;   ///< velocity limit of the client: dq, or less [rad/s]
 };
 
-/// Panda, also called FER: protocols 3 to 5.
-constexpr ArmLimits kFerLimits = [] {
+namespace limits_detail {
+constexpr ArmLimits ferLimits() {
   ArmLimits arm{};
   arm.q_min = {{-2.8973, -1.7628, -2.8973, -3.0718, -2.8973, -0.0175, -2.8973}};
   arm.q_max = {{2.8973, 1.7628, 2.8973, -0.0698, 2.8973, 3.7525, 2.8973}};
@@ -60,10 +60,14 @@ constexpr ArmLimits kFerLimits = [] {
   arm.documented_elbow_velocity = 2.175;
   arm.rate_limiter_dq = {{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}};
   return arm;
-}();
+}
+}  // namespace limits_detail
 
-/// FR3 with system 5.9 or later: protocol 10 (decision 8).
-constexpr ArmLimits kFr3Limits = [] {
+/// Panda, also called FER: protocols 3 to 5.
+constexpr ArmLimits kFerLimits = limits_detail::ferLimits();
+
+namespace limits_detail {
+constexpr ArmLimits fr3Limits() {
   ArmLimits arm{};
   arm.q_min = {{-2.9007, -1.8361, -2.9007, -3.0770, -2.8763, 0.4398, -3.0508}};
   arm.q_max = {{2.9007, 1.8361, 2.9007, -0.1169, 2.8763, 4.6216, 3.0508}};
@@ -79,15 +83,23 @@ constexpr ArmLimits kFr3Limits = [] {
   arm.documented_elbow_velocity = 2.62;
   arm.rate_limiter_dq = {{2.0, 1.0, 1.5, 1.25, 3.0, 1.5, 3.0}};
   return arm;
-}();
+}
+}  // namespace limits_detail
 
-/// FR3 before system 5.9: protocols 6 to 9. Only the position limits differ.
-constexpr ArmLimits kFr3LimitsBefore59 = [] {
+/// FR3 with system 5.9 or later: protocol 10 (decision 8).
+constexpr ArmLimits kFr3Limits = limits_detail::fr3Limits();
+
+namespace limits_detail {
+constexpr ArmLimits fr3LimitsBefore59() {
   ArmLimits arm = kFr3Limits;
   arm.q_min = {{-2.7437, -1.7837, -2.9007, -3.0421, -2.8065, 0.5445, -3.0159}};
   arm.q_max = {{2.7437, 1.7837, 2.9007, -0.1518, 2.8065, 4.5169, 3.0159}};
   return arm;
-}();
+}
+}  // namespace limits_detail
+
+/// FR3 before system 5.9: protocols 6 to 9. Only the position limits differ.
+constexpr ArmLimits kFr3LimitsBefore59 = limits_detail::fr3LimitsBefore59();
 
 /// The limits of a robot with this protocol version (decisions 8, 25).
 constexpr const ArmLimits& limitsOfProtocol(unsigned version) noexcept {
@@ -103,8 +115,8 @@ struct PositionVelocityLimits {
   std::array<double, 7> q_max;         ///< upper end [rad]
 };
 
-/// FR3, as in the client's header since libfranka 0.11 (protocol 5.5).
-constexpr PositionVelocityLimits kFr3PositionVelocityLimits = [] {
+namespace limits_detail {
+constexpr PositionVelocityLimits fr3PositionVelocityLimits() {
   PositionVelocityLimits limits{};
   limits.velocity = {{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}};
   limits.offset = {{0.30, 0.20, 0.20, 0.30, 0.35, 0.35, 0.35}};
@@ -112,11 +124,15 @@ constexpr PositionVelocityLimits kFr3PositionVelocityLimits = [] {
   limits.q_min = {{-2.7501, -1.7918, -2.9065, -3.0481, -2.8101, 0.54092, -3.0196}};
   limits.q_max = {{2.7501, 1.7918, 2.9065, -0.1458, 2.8101, 4.5205, 3.0196}};
   return limits;
-}();
+}
+}  // namespace limits_detail
 
-/// FR3 with system 5.9 or later, as in the URDF for clients of protocol 10; c is twice the URDF's
-/// deceleration (protocol 5.5).
-constexpr PositionVelocityLimits kFr3PositionVelocityLimitsFrom59 = [] {
+/// FR3, as in the client's header since libfranka 0.11 (protocol 5.5).
+constexpr PositionVelocityLimits kFr3PositionVelocityLimits =
+    limits_detail::fr3PositionVelocityLimits();
+
+namespace limits_detail {
+constexpr PositionVelocityLimits fr3PositionVelocityLimitsFrom59() {
   PositionVelocityLimits limits{};
   limits.velocity = kFr3Limits.dq;
   limits.offset = {{0.6599, 0.2517, 0.2000, 0.3533, 0.5757, 0.4878, 0.4628}};
@@ -124,7 +140,13 @@ constexpr PositionVelocityLimits kFr3PositionVelocityLimitsFrom59 = [] {
   limits.q_min = kFr3Limits.q_min;
   limits.q_max = kFr3Limits.q_max;
   return limits;
-}();
+}
+}  // namespace limits_detail
+
+/// FR3 with system 5.9 or later, as in the URDF for clients of protocol 10; c is twice the URDF's
+/// deceleration (protocol 5.5).
+constexpr PositionVelocityLimits kFr3PositionVelocityLimitsFrom59 =
+    limits_detail::fr3PositionVelocityLimitsFrom59();
 
 /// The joint velocity limits of an FR3 with this protocol version; clients of protocol 10 read them
 /// from the URDF.

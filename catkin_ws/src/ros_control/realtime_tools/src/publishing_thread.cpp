@@ -58,8 +58,9 @@ void PublishingThread::run() {
 PublishingSchedule::Clock::time_point PublishingThread::sendAll() {
   auto next = PublishingSchedule::Clock::time_point::max();
   for (Sender* const sender : senders_) {
-    if (const auto handed_over = sender->sendHandedOver()) {
-      sender->schedule_.found(*handed_over);
+    PublishingSchedule::Clock::time_point handed_over;
+    if (sender->sendHandedOver(handed_over)) {
+      sender->schedule_.found(handed_over);
     }
     next = std::min(next, sender->schedule_.next(PublishingSchedule::Clock::now()));
   }

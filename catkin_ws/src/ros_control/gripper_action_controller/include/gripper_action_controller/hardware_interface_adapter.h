@@ -81,8 +81,8 @@ class HardwareInterfaceAdapter<hardware_interface::EffortJointInterface> {
   double updateCommand(const ros::Time& /*time*/, const ros::Duration& period,
                        double /*desired_position*/, double /*desired_velocity*/,
                        double error_position, double error_velocity, double max_allowed_effort) {
-    const double effort = std::clamp(pid_->computeCommand(error_position, error_velocity, period),
-                                     -max_allowed_effort, max_allowed_effort);
+    const double desired = pid_->computeCommand(error_position, error_velocity, period);
+    const double effort = std::max(-max_allowed_effort, std::min(desired, max_allowed_effort));
     joint_->setCommand(effort);
     return effort;
   }

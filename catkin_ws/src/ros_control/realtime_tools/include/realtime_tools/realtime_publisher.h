@@ -8,7 +8,6 @@
 
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include "realtime_tools/detail/publishing_thread.h"
@@ -96,19 +95,19 @@ class RealtimePublisher : private detail::PublishingThread::Sender {
  private:
   using Clock = detail::PublishingSchedule::Clock;
 
-  std::optional<Clock::time_point> sendHandedOver() override {
+  bool sendHandedOver(Clock::time_point& handed_over) override {
     if (!turn_.tryTakeTurn()) {
-      return std::nullopt;
+      return false;
     }
     if (!latched_ && publisher_.getNumSubscribers() == 0) {
       turn_.unlockAndReturn();
-      return std::nullopt;
+      return false;
     }
     outgoing_ = msg_;
-    const Clock::time_point handed_over = handed_over_;
+    handed_over = handed_over_;
     turn_.unlockAndReturn();
     publisher_.publish(outgoing_);
-    return handed_over;
+    return true;
   }
 
   ros::Publisher publisher_;

@@ -8,12 +8,16 @@
 #include <hardware_interface/robot_hw.h>
 #include <ros/console.h>
 
+#include <initializer_list>
 #include <sstream>
 #include <string>
 #include <vector>
 
 namespace controller_interface {
 namespace internal {
+
+// Calls for each type of a pack stand in the list of an std::initializer_list, which is evaluated
+// from left to right: C++14 has no fold expressions.
 
 /// All elements in one string, each between prefix and suffix, with a delimiter between them.
 template <class T>
@@ -44,7 +48,9 @@ bool hasInterface(hardware_interface::RobotHW* robot_hw) {
 /// Whether the robot has all interfaces; only the first missing one is logged.
 template <typename... T>
 bool hasInterfaces(hardware_interface::RobotHW* robot_hw) {
-  return (hasInterface<T>(robot_hw) && ...);
+  bool all = true;
+  static_cast<void>(std::initializer_list<bool>{(all = all && hasInterface<T>(robot_hw))...});
+  return all;
 }
 
 template <class T>
@@ -58,7 +64,7 @@ void clearClaimsOf(hardware_interface::RobotHW* robot_hw) {
 /// Clears the claims of the robot's interfaces among these.
 template <typename... T>
 void clearClaims(hardware_interface::RobotHW* robot_hw) {
-  (clearClaimsOf<T>(robot_hw), ...);
+  static_cast<void>(std::initializer_list<int>{(clearClaimsOf<T>(robot_hw), 0)...});
 }
 
 template <class T>
@@ -74,7 +80,8 @@ void extractInterface(hardware_interface::RobotHW* robot_hw_in,
 template <typename... T>
 void extractInterfaceResources(hardware_interface::RobotHW* robot_hw_in,
                                hardware_interface::RobotHW* robot_hw_out) {
-  (extractInterface<T>(robot_hw_in, robot_hw_out), ...);
+  static_cast<void>(
+      std::initializer_list<int>{(extractInterface<T>(robot_hw_in, robot_hw_out), 0)...});
 }
 
 template <class T>
@@ -93,7 +100,8 @@ template <typename... T>
 void populateClaimedResources(hardware_interface::RobotHW* robot_hw,
                               ControllerBase::ClaimedResources& claimed_resources) {
   claimed_resources.clear();
-  (appendClaims<T>(robot_hw, claimed_resources), ...);
+  static_cast<void>(
+      std::initializer_list<int>{(appendClaims<T>(robot_hw, claimed_resources), 0)...});
 }
 
 }  // namespace internal

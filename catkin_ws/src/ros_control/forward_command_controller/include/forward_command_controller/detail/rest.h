@@ -18,7 +18,7 @@ constexpr bool kZeroIsRest = std::is_base_of<hardware_interface::EffortJointInte
 /// unchanged. Real-time safe.
 template <class T>
 void rest(hardware_interface::JointHandle& joint) {
-  if constexpr (kZeroIsRest<T>) {
+  if (kZeroIsRest<T>) {
     joint.setCommand(0.0);
   }
 }

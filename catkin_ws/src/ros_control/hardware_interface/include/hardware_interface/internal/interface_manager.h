@@ -16,12 +16,14 @@
 namespace hardware_interface {
 namespace internal {
 
-/// Whether T is a ResourceManager, recognized by its typedef.
-template <class T, class = void>
-struct IsResourceManager : std::false_type {};
-
 template <class T>
-struct IsResourceManager<T, std::void_t<typename T::ResourceManagerType>> : std::true_type {};
+std::true_type hasResourceManagerType(typename T::ResourceManagerType*);
+template <class T>
+std::false_type hasResourceManagerType(...);
+
+/// Whether T is a ResourceManager, recognized by its typedef: std::true_type or std::false_type.
+template <class T>
+using IsResourceManager = decltype(hasResourceManagerType<T>(nullptr));
 
 }  // namespace internal
 
@@ -46,11 +48,7 @@ class InterfaceManager {
       ROS_WARN_STREAM("Replacing previously registered interface '" << type << "'.");
     }
     interfaces_[type] = iface;
-    if constexpr (internal::IsResourceManager<T>::value) {
-      resources_[type] = iface->getNames();
-    } else {
-      resources_[type].clear();
-    }
+    resources_[type] = resourcesOf(*iface, internal::IsResourceManager<T>());
   }
 
   /// Adds all present and future interfaces of another manager.
@@ -78,7 +76,7 @@ class InterfaceManager {
     if (found.size() < 2) {
       return found.empty() ? nullptr : found.front();
     }
-    return combine(type, found);
+    return combine(type, found, internal::IsResourceManager<T>());
   }
 
   /// Type names of all interfaces, own ones first, without duplicates.
@@ -128,27 +126,37 @@ class InterfaceManager {
 
  private:
   template <class T>
-  T* combine(const std::string& type, const std::vector<T*>& parts) {
-    if constexpr (internal::IsResourceManager<T>::value) {
-      const auto known = interfaces_combo_.find(type);
-      if (known != interfaces_combo_.end() && num_ifaces_registered_[type] == parts.size()) {
-        return static_cast<T*>(known->second);
-      }
-      const auto combined = std::make_shared<T>();
-      std::vector<typename T::ResourceManagerType*> managers(parts.begin(), parts.end());
-      T::ResourceManagerType::concatManagers(managers, combined.get());
-      interfaces_combo_[type] = combined.get();
-      num_ifaces_registered_[type] = parts.size();
-      interface_destruction_list_.push_back(combined);
-      return combined.get();
-    } else {
-      ROS_ERROR_STREAM(
-          "You cannot register multiple interfaces of the same type which are not of "
-          "type ResourceManager. There is no established protocol for combining "
-          "them. The type is '"
-          << type << "'.");
-      return nullptr;
+  static std::vector<std::string> resourcesOf(const T& iface, std::true_type /*is_manager*/) {
+    return iface.getNames();
+  }
+  template <class T>
+  static std::vector<std::string> resourcesOf(const T& /*iface*/, std::false_type /*is_manager*/) {
+    return {};
+  }
+
+  template <class T>
+  T* combine(const std::string& type, const std::vector<T*>& parts, std::true_type /*is_manager*/) {
+    const auto known = interfaces_combo_.find(type);
+    if (known != interfaces_combo_.end() && num_ifaces_registered_[type] == parts.size()) {
+      return static_cast<T*>(known->second);
     }
+    const auto combined = std::make_shared<T>();
+    std::vector<typename T::ResourceManagerType*> managers(parts.begin(), parts.end());
+    T::ResourceManagerType::concatManagers(managers, combined.get());
+    interfaces_combo_[type] = combined.get();
+    num_ifaces_registered_[type] = parts.size();
+    interface_destruction_list_.push_back(combined);
+    return combined.get();
+  }
+  template <class T>
+  T* combine(const std::string& type, const std::vector<T*>& /*parts*/,
+             std::false_type /*is_manager*/) {
+    ROS_ERROR_STREAM(
+        "You cannot register multiple interfaces of the same type which are not of "
+        "type ResourceManager. There is no established protocol for combining "
+        "them. The type is '"
+        << type << "'.");
+    return nullptr;
   }
 };
 

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <chrono>
 
 namespace realtime_tools {
@@ -26,12 +25,7 @@ class PublishingSchedule {
   }
 
   /// The time of the next check.
-  Clock::time_point next(Clock::time_point now) const noexcept {
-    if (interval_ <= kMaxInterval && now < last_ + interval_) {
-      return std::max(last_ + interval_ + kMargin, now + kMinWait);
-    }
-    return now + std::clamp<Clock::duration>((now - last_) / 9, kMinWait, kMaxWait);
-  }
+  Clock::time_point next(Clock::time_point now) const noexcept;
 
  private:
   /// Between messages that come in a stream [chosen here: slower ones need no precise checks].

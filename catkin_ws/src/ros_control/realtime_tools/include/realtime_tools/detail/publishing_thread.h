@@ -5,7 +5,6 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
-#include <optional>
 #include <thread>
 #include <vector>
 
@@ -24,9 +23,10 @@ class PublishingThread {
   /// A publisher served by the thread.
   class Sender {
    public:
-    /// Sends the pending message. @returns when it was handed over; nothing if there was none, or
-    /// nobody to send it to. Called by the thread only.
-    virtual std::optional<PublishingSchedule::Clock::time_point> sendHandedOver() = 0;
+    /// Sends the pending message. Called by the thread only.
+    /// @param handed_over set to the time when the message was handed over
+    /// @returns false if there was none, or nobody to send it to
+    virtual bool sendHandedOver(PublishingSchedule::Clock::time_point& handed_over) = 0;
 
    protected:
     ~Sender() = default;
