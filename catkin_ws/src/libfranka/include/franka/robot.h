@@ -153,10 +153,11 @@ class Robot {
   /// @}
 
   /// Calls back with every new state until the callback returns false. For monitoring a robot that
-  /// something else moves; not from within a control callback.
+  /// something else moves; not from within a control callback. The first state is that of readOnce.
   /// @throws InvalidOperationException if a motion or another read runs.
   void read(std::function<bool(const RobotState&)> read_callback);
-  /// Waits for a fresh state; states that arrived before the call are dropped.
+  /// Waits for a state that arrives after the call. If none arrives within 50 ms, where a running
+  /// robot sends fifty, it returns the newest state that arrived before and was not read yet.
   /// @throws InvalidOperationException if a motion or another read runs.
   RobotState readOnce();
 

@@ -34,6 +34,10 @@ constexpr std::chrono::milliseconds kSlice{50};
 // state this much later than it arrived.
 constexpr std::chrono::milliseconds kSameTime{50};
 
+// How long a read waits for a state newer than those that have arrived. A running robot sends one
+// each millisecond (protocol 4.1). Chosen here: fifty of these periods, for a loaded computer.
+constexpr std::chrono::milliseconds kFreshStateWait{50};
+
 // More datagrams than this are left for the next call (a real robot never sends so many).
 constexpr int kDatagramsAtOnce = 4096;
 
@@ -304,22 +308,39 @@ Robot::Impl::Reply Robot::Impl::decode(Command command, const std::vector<std::u
 
 void Robot::Impl::read(const std::function<bool(const RobotState&)>& callback) {
   const Operation operation(*this);
-  takeStates();  // those that arrived before this call are old
   RobotState state;
-  do {
+  franka_core::toFranka(receiveFreshState(), state);
+  while (callback(state)) {
     franka_core::toFranka(receiveState(), state);
-  } while (callback(state));
+  }
 }
 
 RobotState Robot::Impl::readOnce() {
   const Operation operation(*this);
-  takeStates();
   RobotState state;
-  franka_core::toFranka(receiveState(), state);
+  franka_core::toFranka(receiveFreshState(), state);
   return state;
 }
 
+const franka_core::RobotState& Robot::Impl::receiveFreshState() {
+  takeStates();
+  if (!unread_) {
+    return receiveState();
+  }
+  waitForState(kFreshStateWait);
+  unread_ = false;
+  return state();
+}
+
 const franka_core::RobotState& Robot::Impl::receiveState() {
+  if (!waitForState(stateBound())) {
+    throw NetworkException(fci::kStateTimeout);
+  }
+  unread_ = false;
+  return state();
+}
+
+bool Robot::Impl::waitForState(std::chrono::milliseconds bound) {
   if (channel_->closedByServer()) {
     throw NetworkException(fci::kServerClosed);
   }
@@ -339,11 +360,11 @@ const franka_core::RobotState& Robot::Impl::receiveState() {
     if (!news && channel_->closedByServer()) {
       throw NetworkException(fci::kServerClosed);
     }
-    if (!news && waited >= stateBound()) {
-      throw NetworkException(fci::kStateTimeout);
+    if (!news && waited >= bound) {
+      return false;
     }
   }
-  return state();
+  return true;
 }
 
 std::chrono::milliseconds Robot::Impl::stateBound() const noexcept {
@@ -425,6 +446,7 @@ bool Robot::Impl::accept(const Datagram& datagram) {
                    next.motion_generator_mode != state().motion_generator_mode ||
                    next.controller_mode != state().controller_mode;
   newest_ = 1 - newest_;
+  unread_ = true;
   received_at_ = Clock::now();
   mode_.store(next.robot_mode, std::memory_order_relaxed);
   return true;

@@ -102,6 +102,9 @@ class Robot::Impl {
   /// once if the connection is closed.
   /// @throws ProtocolException for an invalid datagram.
   const franka_core::RobotState& receiveState();
+  /// Waits for a state newer than this call. If none arrives as soon as from a running robot, the
+  /// newest one that no caller has received yet, if any. @throws as receiveState.
+  const franka_core::RobotState& receiveFreshState();
   /// Reads datagrams that have arrived, without waiting. @returns whether there was a newer state.
   bool takeStates();
   /// Sends a command in answer to the newest state. @throws NetworkException if it cannot be sent.
@@ -149,6 +152,7 @@ class Robot::Impl {
                franka_core::fci::Bytes& model) const;
   bool takeStatesUnlessInUse();
   bool takesStatesIn();
+  bool waitForState(std::chrono::milliseconds bound);
   bool accept(const Datagram& datagram);
   bool mustBeSeen() const noexcept;
   std::chrono::milliseconds stateBound() const noexcept;
@@ -171,6 +175,7 @@ class Robot::Impl {
   franka_core::fci::StateBuffer buffer_{};
   std::array<franka_core::RobotState, 2> states_;  // the newest, and a buffer for the next
   std::size_t newest_{0};
+  bool unread_{false};               // no receive function has returned the newest state
   Clock::time_point received_at_{};  // the newest state
   bool repeated_{false};             // it has been repeated since
   std::optional<Moment> motion_began_;
