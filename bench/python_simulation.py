@@ -38,14 +38,14 @@ def in_cpp(sim: Simulation, robot: SimulatedRobot) -> None:
 
 
 def below_a_policy(sim: Simulation, robot: SimulatedRobot) -> None:
-    target = robot.state.q.copy()
+    target = robot.state.q
     for _ in range(TICKS // POLICY):
         robot.joint_impedance(target, duration=1e-3 * POLICY)
         sim.step(POLICY)
 
 
 def torques_in_python(sim: Simulation, robot: SimulatedRobot) -> None:
-    state, target = robot.state, robot.state.q.copy()
+    state, target = robot.live_state, robot.state.q
     q, dq = state.q, state.dq
     for _ in range(TICKS):
         robot.command(torque=STIFFNESS * (target - q) - DAMPING * dq)

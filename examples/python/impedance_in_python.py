@@ -42,10 +42,10 @@ arguments, Robot = options(__doc__)
 with Simulation(robots=[Robot()]) as sim:
     robot, model = sim[Robot.kind], sim[Robot.kind].model
     robot.set_collision_behavior([50.0] * 7, [50.0] * 7, [50.0] * 6, [50.0] * 6)
-    target = robot.state.O_T_EE.copy()
+    target = robot.state.O_T_EE
+    state = robot.live_state  # shows each tick
     moved = numpy.zeros((TICKS, 3))
     for tick in range(TICKS):
-        state = robot.state
         jacobian = model.zero_jacobian(Frame.EndEffector, state)
         wrench = -STIFFNESS * error_of(state.O_T_EE, target) - DAMPING * (jacobian @ state.dq)
         robot.command(torque=jacobian.T @ wrench + model.coriolis(state))

@@ -27,8 +27,9 @@ def record(robot, sim, ticks):
         if (tick + EVERY) % 1000 == 0:
             progress((tick + EVERY) // 1000, ticks // 1000, "recorded seconds")
         rows["time"].append(sim.time)
+        state = robot.state
         for name in FIELDS:
-            rows[name].append(getattr(robot.state, name).copy())
+            rows[name].append(getattr(state, name))
     return {name: numpy.array(values) for name, values in rows.items()}
 
 

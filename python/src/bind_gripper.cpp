@@ -37,6 +37,9 @@ void bindConnection(py::class_<Type>& type) {
            ": a connection, protocol version " +
            std::to_string(self.cast<const Type&>().serverVersion()) + ">";
   });
+  refuseCopies(type,
+               "A hand or gripper can be neither pickled nor copied: it is a connection of this "
+               "process. Connect to its address where it is used.");
   type.def_property_readonly(
       "server_version", [](const Type& self) { return version(self.serverVersion()); },
       "Version of the protocol that the hand or gripper speaks, an int.");

@@ -241,6 +241,9 @@ void bindModel(py::module_& module) {
   });
   bindForState<RobotState>(model);
   bindForArrays(model);
+  refuseCopies(model,
+               "A Model can be neither pickled nor copied: it is loaded from the robot in this "
+               "process. Call load_model() where it is used.");
 
   bindModelKdl(module);
 }
@@ -259,6 +262,9 @@ void bindSimModel(py::module_& module) {
   bindForState<franka_core::RobotState>(model);
   bindForState<RobotState>(model);
   bindForArrays(model);
+  refuseCopies(model,
+               "An ArmModel can be neither pickled nor copied: it is part of a simulation of this "
+               "process. Make a Simulation where it is used.");
 }
 
 }  // namespace pyfranka

@@ -200,6 +200,9 @@ void bindMotion(py::module_& module) {
       "It ends when it is closed, leaves its `with` block or is collected.\n\n>>> with "
       "robot.start_joint_position_control() as motion:\n...     state, period = "
       "motion.read_once()\n...     motion.write_once(pyfranka.JointPositions(state.q_d))");
+  refuseCopies(motion,
+               "An ActiveControl can be neither pickled nor copied: it is a motion of a connection "
+               "of this process.");
   motion
       .def(
           "read_once",

@@ -393,6 +393,9 @@ void bindRobot(py::module_& module) {
                           "TypeError for an argument that cannot be.\n\n>>> robot = "
                           "pyfranka.Robot(\"172.16.0.2\", pyfranka.RealtimeConfig.Ignore)\n>>> "
                           "robot.read_once().q.shape\n(7,)");
+  refuseCopies(robot,
+               "A Robot can be neither pickled nor copied: it is a connection of this process. "
+               "Connect to its address where it is used; states can be pickled.");
   withNames(
       {{{"address", "franka_address"}}, {{"address", "robot_ip_address"}}},
       [&](const auto&... extra) {

@@ -4,6 +4,7 @@
 #include <franka_core/limits.h>
 #include <franka_core/motion_limits.h>
 #include <franka_core/numbers.h>
+#include <franka_core/to_franka.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <pybind11/stl.h>
 
@@ -49,8 +50,9 @@ class Robot {
   Robot(std::shared_ptr<Shared> shared, SimulatedRobot& robot)
       : shared_(std::move(shared)), robot_(&robot) {}
 
-  /// @throws std::runtime_error once the simulation is closed, as all others
-  const franka_core::RobotState& state() const { return simulated().state(); }
+  /// Changes with each step. @throws std::runtime_error once the simulation is closed, as all
+  /// others
+  const franka_core::RobotState& liveState() const { return simulated().state(); }
   const SimulatedRobot& simulated() const {
     shared_->requireOpen();
     return *robot_;
@@ -69,6 +71,13 @@ class Robot {
         throw std::runtime_error("The robot '" + robot.setup().arm_id + "' has no hand.");
       }
       return function(*hand);
+    });
+  }
+  franka::RobotState state() {
+    return use([](const SimulatedRobot& robot) {
+      franka::RobotState state;
+      franka_core::toFranka(robot.state(), state);
+      return state;
     });
   }
   void place(const std::array<double, 7>& q) {
@@ -425,8 +434,9 @@ void bindSimulatedRobot(py::module_& module,
       .def(
           "require_open", [](const Robot& self) { self.simulated(); },
           "Raises RuntimeError once the simulation is closed.")
-      .def_property_readonly("state", &Robot::state, py::return_value_policy::reference_internal,
-                             "The present LiveState.")
+      .def_property_readonly("state", &Robot::state, "The present state, a RobotState.")
+      .def_property_readonly("live_state", &Robot::liveState,
+                             py::return_value_policy::reference_internal, "A LiveState.")
       .def_property_readonly(
           "model",
           [](const Robot& self) {

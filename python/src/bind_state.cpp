@@ -53,6 +53,69 @@ void field(py::class_<State>& type, const char* name, Value State::* member, con
   }
 }
 
+using ErrorFlags = std::array<bool, franka_core::kErrorCount>;
+
+ErrorFlags flagsOf(const franka::Errors& errors) {
+  ErrorFlags flags;
+  std::copy_n(&errors.joint_position_limits_violation, flags.size(), flags.begin());
+  return flags;
+}
+
+template <typename Value>
+bool isSame(const Value& one, const Value& other) {
+  return one == other;
+}
+
+bool isSame(const franka::Errors& one, const franka::Errors& other) {
+  return flagsOf(one) == flagsOf(other);
+}
+
+/// Whether two states have the same values.
+struct Comparison {
+  const RobotState& one;
+  const RobotState& other;
+  bool equal{true};
+};
+
+template <typename Value>
+void field(Comparison& states, const char* /* name */, Value RobotState::* member,
+           const char* /* doc */, Shape /* shape */ = Shape::kVector) {
+  states.equal = states.equal && isSame(states.one.*member, states.other.*member);
+}
+
+/// The values of a state by the names of its fields.
+struct ValueDict {
+  const RobotState& state;
+  py::dict values;
+};
+
+template <std::size_t size>
+void field(ValueDict& dict, const char* name, std::array<double, size> RobotState::* member,
+           const char* /* doc */, Shape shape = Shape::kVector) {
+  dict.values[name] = view(dict.state.*member, shape, py::none()).attr("copy")();
+}
+
+void field(ValueDict& dict, const char* name, double RobotState::* member, const char* /* doc */) {
+  dict.values[name] = dict.state.*member;
+}
+
+void field(ValueDict& dict, const char* name, franka::Errors RobotState::* member,
+           const char* /* doc */) {
+  const ErrorFlags flags = flagsOf(dict.state.*member);
+  py::list names;
+  for (std::size_t i = 0; i < flags.size(); i++) {
+    if (flags.at(i)) {
+      names.append(franka_core::kErrorNames.at(i));
+    }
+  }
+  dict.values[name] = names;
+}
+
+void field(ValueDict& dict, const char* name, franka::RobotMode RobotState::* member,
+           const char* /* doc */) {
+  dict.values[name] = py::cast(dict.state.*member).attr("name");
+}
+
 /// The name of a flag of franka::Errors, which differs from that in logs in two cases.
 std::string flagOf(const std::string& error) {
   if (error == "cartesian_position_motion_generator_invalid_frame_flag") {
@@ -70,14 +133,16 @@ void bindErrors(py::module_& module) {
       .def("__str__", [](const franka::Errors& self) { return static_cast<std::string>(self); })
       .def("__repr__", [](const franka::Errors& self) { return static_cast<std::string>(self); })
       .def(py::pickle(
-          [](const franka::Errors& self) {
-            std::array<bool, franka_core::kErrorCount> flags;
-            std::copy_n(&self.joint_position_limits_violation, flags.size(), flags.begin());
-            return py::make_tuple(flags);
+          [](const franka::Errors& self) { return py::make_tuple(flagsOf(self)); },
+          [](const py::tuple& kept) { return franka::Errors(kept[0].cast<ErrorFlags>()); }))
+      .def(
+          "__eq__",
+          [](const franka::Errors& self, const franka::Errors& other) {
+            return isSame(self, other);
           },
-          [](const py::tuple& kept) {
-            return franka::Errors(kept[0].cast<std::array<bool, franka_core::kErrorCount>>());
-          }));
+          py::arg("other"), py::is_operator())
+      .def("__hash__",
+           [](const franka::Errors& self) { return py::hash(py::tuple(py::cast(flagsOf(self)))); });
   for (std::size_t i = 0; i < franka_core::kErrorCount; i++) {
     // C++ has no pointers to members that are references, as these are: to items of one array.
     errors.def_property_readonly(
@@ -99,68 +164,112 @@ void bindModes(py::module_& module) {
                    .value("AutomaticErrorRecovery", franka::RobotMode::kAutomaticErrorRecovery));
 }
 
-template <typename State>
-void bindFrames(py::class_<State>& state) {
-  field(state, "O_T_EE", &State::O_T_EE, "Pose of EE in O, 4x4.", Shape::kMatrix4);
-  field(state, "O_T_EE_d", &State::O_T_EE_d, "Desired pose of EE in O, 4x4.", Shape::kMatrix4);
-  field(state, "O_T_EE_c", &State::O_T_EE_c, "Last commanded pose of EE in O, 4x4.",
+template <typename State, typename Fields>
+void listFrames(Fields& fields) {
+  field(fields, "O_T_EE", &State::O_T_EE, "Pose of EE in O, 4x4.", Shape::kMatrix4);
+  field(fields, "O_T_EE_d", &State::O_T_EE_d, "Desired pose of EE in O, 4x4.", Shape::kMatrix4);
+  field(fields, "O_T_EE_c", &State::O_T_EE_c, "Last commanded pose of EE in O, 4x4.",
         Shape::kMatrix4);
-  field(state, "F_T_EE", &State::F_T_EE, "Pose of EE in F, 4x4.", Shape::kMatrix4);
-  field(state, "F_T_NE", &State::F_T_NE, "Pose of NE in F, 4x4.", Shape::kMatrix4);
-  field(state, "NE_T_EE", &State::NE_T_EE, "Pose of EE in NE, 4x4.", Shape::kMatrix4);
-  field(state, "EE_T_K", &State::EE_T_K, "Pose of K in EE, 4x4.", Shape::kMatrix4);
-  field(state, "elbow", &State::elbow, "Joint 3 [rad], sign of joint 4.");
-  field(state, "elbow_d", &State::elbow_d, "Desired elbow.");
-  field(state, "elbow_c", &State::elbow_c, "Commanded elbow.");
-  field(state, "delbow_c", &State::delbow_c, "Its velocity [rad/s].");
-  field(state, "ddelbow_c", &State::ddelbow_c, "Its acceleration [rad/s^2].");
-  field(state, "O_dP_EE_d", &State::O_dP_EE_d, "Desired twist of EE in O [m/s, rad/s].");
-  field(state, "O_dP_EE_c", &State::O_dP_EE_c, "Commanded twist of EE in O [m/s, rad/s].");
-  field(state, "O_ddP_EE_c", &State::O_ddP_EE_c,
+  field(fields, "F_T_EE", &State::F_T_EE, "Pose of EE in F, 4x4.", Shape::kMatrix4);
+  field(fields, "F_T_NE", &State::F_T_NE, "Pose of NE in F, 4x4.", Shape::kMatrix4);
+  field(fields, "NE_T_EE", &State::NE_T_EE, "Pose of EE in NE, 4x4.", Shape::kMatrix4);
+  field(fields, "EE_T_K", &State::EE_T_K, "Pose of K in EE, 4x4.", Shape::kMatrix4);
+  field(fields, "elbow", &State::elbow, "Joint 3 [rad], sign of joint 4.");
+  field(fields, "elbow_d", &State::elbow_d, "Desired elbow.");
+  field(fields, "elbow_c", &State::elbow_c, "Commanded elbow.");
+  field(fields, "delbow_c", &State::delbow_c, "Its velocity [rad/s].");
+  field(fields, "ddelbow_c", &State::ddelbow_c, "Its acceleration [rad/s^2].");
+  field(fields, "O_dP_EE_d", &State::O_dP_EE_d, "Desired twist of EE in O [m/s, rad/s].");
+  field(fields, "O_dP_EE_c", &State::O_dP_EE_c, "Commanded twist of EE in O [m/s, rad/s].");
+  field(fields, "O_ddP_EE_c", &State::O_ddP_EE_c,
         "Commanded acceleration of EE in O [m/s^2, rad/s^2].");
 }
 
-template <typename State>
-void bindLoads(py::class_<State>& state) {
-  field(state, "m_ee", &State::m_ee, "Mass of the end effector [kg].");
-  field(state, "m_load", &State::m_load, "Mass of the load [kg].");
-  field(state, "m_total", &State::m_total, "Mass of both [kg].");
-  field(state, "I_ee", &State::I_ee, "Inertia of the end effector, 3x3 [kg m^2].", Shape::kMatrix3);
-  field(state, "I_load", &State::I_load, "Inertia of the load, 3x3 [kg m^2].", Shape::kMatrix3);
-  field(state, "I_total", &State::I_total, "Inertia of both, 3x3 [kg m^2].", Shape::kMatrix3);
-  field(state, "F_x_Cee", &State::F_x_Cee, "Center of mass of the end effector in F [m].");
-  field(state, "F_x_Cload", &State::F_x_Cload, "Center of mass of the load in F [m].");
-  field(state, "F_x_Ctotal", &State::F_x_Ctotal, "Center of mass of both in F [m].");
+template <typename State, typename Fields>
+void listLoads(Fields& fields) {
+  field(fields, "m_ee", &State::m_ee, "Mass of the end effector [kg].");
+  field(fields, "m_load", &State::m_load, "Mass of the load [kg].");
+  field(fields, "m_total", &State::m_total, "Mass of both [kg].");
+  field(fields, "I_ee", &State::I_ee, "Inertia of the end effector, 3x3 [kg m^2].",
+        Shape::kMatrix3);
+  field(fields, "I_load", &State::I_load, "Inertia of the load, 3x3 [kg m^2].", Shape::kMatrix3);
+  field(fields, "I_total", &State::I_total, "Inertia of both, 3x3 [kg m^2].", Shape::kMatrix3);
+  field(fields, "F_x_Cee", &State::F_x_Cee, "Center of mass of the end effector in F [m].");
+  field(fields, "F_x_Cload", &State::F_x_Cload, "Center of mass of the load in F [m].");
+  field(fields, "F_x_Ctotal", &State::F_x_Ctotal, "Center of mass of both in F [m].");
 }
 
-template <typename State>
-void bindJoints(py::class_<State>& state) {
-  field(state, "q", &State::q, "Joint positions [rad].");
-  field(state, "q_d", &State::q_d, "Desired joint positions [rad].");
-  field(state, "dq", &State::dq, "Joint velocities [rad/s].");
-  field(state, "dq_d", &State::dq_d, "Desired joint velocities [rad/s].");
-  field(state, "ddq_d", &State::ddq_d, "Desired joint accelerations [rad/s^2].");
-  field(state, "theta", &State::theta, "Motor positions [rad].");
-  field(state, "dtheta", &State::dtheta, "Motor velocities [rad/s].");
-  field(state, "tau_J", &State::tau_J, "Measured torques, gravity included [Nm].");
-  field(state, "tau_J_d", &State::tau_J_d, "Desired torques, without gravity [Nm].");
-  field(state, "dtau_J", &State::dtau_J, "Derivative of the measured torques [Nm/s].");
+template <typename State, typename Fields>
+void listJoints(Fields& fields) {
+  field(fields, "q", &State::q, "Joint positions [rad].");
+  field(fields, "q_d", &State::q_d, "Desired joint positions [rad].");
+  field(fields, "dq", &State::dq, "Joint velocities [rad/s].");
+  field(fields, "dq_d", &State::dq_d, "Desired joint velocities [rad/s].");
+  field(fields, "ddq_d", &State::ddq_d, "Desired joint accelerations [rad/s^2].");
+  field(fields, "theta", &State::theta, "Motor positions [rad].");
+  field(fields, "dtheta", &State::dtheta, "Motor velocities [rad/s].");
+  field(fields, "tau_J", &State::tau_J, "Measured torques, gravity included [Nm].");
+  field(fields, "tau_J_d", &State::tau_J_d, "Desired torques, without gravity [Nm].");
+  field(fields, "dtau_J", &State::dtau_J, "Derivative of the measured torques [Nm/s].");
 }
 
-template <typename State>
-void bindContacts(py::class_<State>& state) {
-  field(state, "joint_contact", &State::joint_contact, "1 where a joint feels a contact.");
-  field(state, "joint_collision", &State::joint_collision, "1 where a joint collided.");
-  field(state, "cartesian_contact", &State::cartesian_contact,
+template <typename State, typename Fields>
+void listContacts(Fields& fields) {
+  field(fields, "joint_contact", &State::joint_contact, "1 where a joint feels a contact.");
+  field(fields, "joint_collision", &State::joint_collision, "1 where a joint collided.");
+  field(fields, "cartesian_contact", &State::cartesian_contact,
         "1 along axes with a contact (x, y, z, R, P, Y).");
-  field(state, "cartesian_collision", &State::cartesian_collision,
+  field(fields, "cartesian_collision", &State::cartesian_collision,
         "1 along axes with a collision (x, y, z, R, P, Y).");
-  field(state, "tau_ext_hat_filtered", &State::tau_ext_hat_filtered,
+  field(fields, "tau_ext_hat_filtered", &State::tau_ext_hat_filtered,
         "Estimated external torques [Nm].");
-  field(state, "O_F_ext_hat_K", &State::O_F_ext_hat_K,
+  field(fields, "O_F_ext_hat_K", &State::O_F_ext_hat_K,
         "Estimated external wrench at K, in O [N, Nm]; what the robot exerts is positive.");
-  field(state, "K_F_ext_hat_K", &State::K_F_ext_hat_K, "The same in K.");
-  field(state, "O_ddP_O", &State::O_ddP_O, "Acceleration of the base in O [m/s^2].");
+  field(fields, "K_F_ext_hat_K", &State::K_F_ext_hat_K, "The same in K.");
+  field(fields, "O_ddP_O", &State::O_ddP_O, "Acceleration of the base in O [m/s^2].");
+}
+
+/// The fields that all states have.
+template <typename State, typename Fields>
+void listFields(Fields& fields) {
+  listFrames<State>(fields);
+  listLoads<State>(fields);
+  listJoints<State>(fields);
+  listContacts<State>(fields);
+  field(fields, "control_command_success_rate", &State::control_command_success_rate,
+        "Share of the last 100 commands that arrived; 0 when no motion runs.");
+}
+
+/// Those of a RobotState, without its time.
+template <typename Fields>
+void listAllFields(Fields& fields) {
+  field(fields, "robot_mode", &RobotState::robot_mode, "What the robot is doing.");
+  field(fields, "current_errors", &RobotState::current_errors, "Errors now.");
+  field(fields, "last_motion_errors", &RobotState::last_motion_errors,
+        "Errors that ended the last motion.");
+  listFields<RobotState>(fields);
+}
+
+bool isEqual(const RobotState& one, const RobotState& other) {
+  Comparison states{one, other, one.time == other.time};
+  listAllFields(states);
+  return states.equal;
+}
+
+py::dict valuesOf(const RobotState& state) {
+  ValueDict dict{state, {}};
+  dict.values["time"] = state.time.toSec();
+  listAllFields(dict);
+  return dict.values;
+}
+
+/// Of a state's own class, which may be derived in Python.
+py::object copyOf(const py::object& state) { return py::type::of(state)(state); }
+
+RobotState snapshotOf(const franka_core::RobotState& state) {
+  RobotState snapshot;
+  franka_core::toFranka(state, snapshot);
+  return snapshot;
 }
 
 /// What can be assigned of a state, by name, for pickle.
@@ -173,6 +282,12 @@ py::dict attributesOf(const py::object& self) {
   }
   return values;
 }
+
+constexpr const char* kDictDoc =
+    "The values by the names of the fields: the time [s], the name of the mode, the names of the "
+    "errors, numbers, and arrays of their own, which may be written.\n\n>>> values = "
+    "state.to_dict()\n>>> values[\"robot_mode\"], values[\"q\"].shape, values[\"O_T_EE\"].shape"
+    "\n('Idle', (7,), (4, 4))";
 
 }  // namespace
 
@@ -187,16 +302,7 @@ void bindState(py::module_& module) {
       "pyfranka.RobotState()\n>>> state.q.shape, state.O_T_EE.shape\n((7,), (4, 4))");
   state.def(py::init<>(), "All zero, poses the identity; for models without a robot.")
       .def(py::init<const RobotState&>(), py::arg("state"), "A copy.");
-  bindFrames(state);
-  bindLoads(state);
-  bindJoints(state);
-  bindContacts(state);
-  field(state, "current_errors", &RobotState::current_errors, "Errors now.");
-  field(state, "last_motion_errors", &RobotState::last_motion_errors,
-        "Errors that ended the last motion.");
-  field(state, "control_command_success_rate", &RobotState::control_command_success_rate,
-        "Share of the last 100 commands that arrived; 0 when no motion runs.");
-  field(state, "robot_mode", &RobotState::robot_mode, "What the robot is doing.");
+  listAllFields(state);
   state
       .def_property(
           "time", [](const RobotState& self) { return seconds(self.time); },
@@ -208,14 +314,24 @@ void bindState(py::module_& module) {
              text << self;
              return text.str();
            })
-      .def(py::pickle(&attributesOf, [](const py::dict& values) {
-        RobotState kept;
-        const py::object self = py::cast(&kept, py::return_value_policy::reference);
-        for (const auto& [name, value] : values) {
-          py::setattr(self, name, value);
-        }
-        return kept;
-      }));
+      .def(py::pickle(&attributesOf,
+                      [](const py::dict& values) {
+                        RobotState kept;
+                        const py::object self = py::cast(&kept, py::return_value_policy::reference);
+                        for (const auto& [name, value] : values) {
+                          py::setattr(self, name, value);
+                        }
+                        return kept;
+                      }))
+      .def("copy", &copyOf,
+           "A state that stays when this one is assigned to.\n\n>>> state.copy() == state\nTrue")
+      .def("__copy__", &copyOf)
+      .def(
+          "__deepcopy__",
+          [](const py::object& self, const py::object& /* memo */) { return copyOf(self); },
+          py::arg("memo"))
+      .def("__eq__", &isEqual, py::arg("other"), py::is_operator())
+      .def("to_dict", &valuesOf, kDictDoc);
 
   py::class_<franka::Record>(
       module, "Record", py::module_local(),
@@ -266,13 +382,10 @@ void bindSimState(py::module_& module) {
   using State = franka_core::RobotState;
   py::class_<State> state(module, "LiveState", py::module_local(),
                           "Present state of a simulated robot, with the attributes of RobotState. "
-                          "Its arrays are numpy views that cannot be written and show each new "
-                          "tick; copy what is to stay.\n\n>>> state = sim[\"panda\"].state\n>>> "
-                          "numpy.array_equal(state.q, state.copy().q)\nTrue");
-  bindFrames(state);
-  bindLoads(state);
-  bindJoints(state);
-  bindContacts(state);
+                          "Its values and arrays, which are numpy views that cannot be written, "
+                          "change with each step; copy() stays.\n\n>>> live = "
+                          "sim[\"panda\"].live_state\n>>> live == sim[\"panda\"].state\nTrue");
+  listFields<State>(state);
   state
       .def_property_readonly(
           "current_errors", [](const State& self) { return franka::Errors(self.errors); },
@@ -281,29 +394,35 @@ void bindSimState(py::module_& module) {
           "last_motion_errors",
           [](const State& self) { return franka::Errors(self.reflex_reason); },
           "Errors that ended the last motion.")
-      .def_readonly("control_command_success_rate", &State::control_command_success_rate,
-                    "Share of the last 100 commands that arrived; 0 when no motion runs.")
       .def_property_readonly(
           "robot_mode", [](const State& self) { return franka_core::toFranka(self.robot_mode); },
           "What the robot is doing.")
       .def_property_readonly(
           "time", [](const State& self) { return seconds(franka::Duration(self.message_id)); },
           "Since the robot started, a Duration [s].")
+      .def("copy", &snapshotOf,
+           "A RobotState that stays as it is.\n\n>>> type(sim[\"panda\"].live_state.copy())\n"
+           "<class 'pyfranka.RobotState'>")
       .def(
-          "copy",
-          [](const State& self) {
-            RobotState copied;
-            franka_core::toFranka(self, copied);
-            return copied;
+          "__eq__",
+          [](const State& self, const State& other) {
+            return isEqual(snapshotOf(self), snapshotOf(other));
           },
-          "A RobotState that stays as it is.\n\n>>> type(sim[\"panda\"].state.copy())\n<class "
-          "'pyfranka.RobotState'>")
+          py::arg("other"), py::is_operator())
+      .def(
+          "__eq__",
+          [](const State& self, const RobotState& other) {
+            return isEqual(snapshotOf(self), other);
+          },
+          py::arg("other"), py::is_operator())
+      .def(
+          "to_dict", [](const State& self) { return valuesOf(snapshotOf(self)); }, kDictDoc)
       .def(
           "__reduce__",
           [](const py::object& self) {
             return py::make_tuple(py::type::of<RobotState>(), py::make_tuple(self.attr("copy")()));
           },
-          "Pickled, it is a RobotState.")
+          "Pickled or copied, it is a RobotState.")
       .def("__repr__", [](const py::object& self) {
         const State& state = self.cast<const State&>();
         const std::string errors = py::str(self.attr("current_errors"));

@@ -51,4 +51,13 @@ inline auto shown(std::vector<const char*> attributes) {
   };
 }
 
+/// Lets pickle and copy raise TypeError with a sentence that says what to do instead.
+template <typename Class>
+void refuseCopies(Class& type, const char* sentence) {
+  type.def(
+      "__reduce__",
+      [sentence](const py::object& /* self */) -> py::object { throw py::type_error(sentence); },
+      "Raises TypeError.");
+}
+
 }  // namespace pyfranka

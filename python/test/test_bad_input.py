@@ -630,7 +630,7 @@ def all_calls(sim, name):
 # Made once, then only shown.
 CACHED = {"SimulatedRobot.gripper"}
 # Views, which another thread's step changes.
-VIEWS = {"SimulatedRobot.state", "SimulatedRobot.model"}
+VIEWS = {"SimulatedRobot.live_state", "SimulatedRobot.model"}
 
 
 def test_a_closed_simulation_raises_at_each_call(sim, name):

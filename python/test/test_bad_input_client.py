@@ -577,12 +577,34 @@ def test_a_forked_process_can_neither_use_nor_end_the_connections_of_the_other(n
     assert done.returncode == 0, done.stdout + done.stderr
 
 
-def test_a_snapshot_cannot_be_pickled_and_says_what_to_do():
-    with pyfranka.sim.Simulation() as sim, pytest.raises(TypeError, match="restore it in the process"):
-        pickle.dumps(sim.snapshot())
+# What belongs to a process, and what to do elsewhere.
+OF_A_SIMULATION = {
+    "Simulation": (lambda sim: sim, "make one with the same world"),
+    "SimulatedRobot": (lambda sim: sim["panda"], "Make a Simulation with the same world"),
+    "ArmModel": (lambda sim: sim["panda"].model, "Make a Simulation"),
+    "Gripper": (lambda sim: sim["panda"].gripper, "Make a Simulation"),
+    "Action": (lambda sim: sim["panda"].gripper.move(0.05), "Use its outcome"),
+    "Snapshot": (lambda sim: sim.snapshot(), "restore it in the process"),
+    "SimulationBatch": (lambda sim: pyfranka.sim.SimulationBatch(1), "make one with the same arguments"),
+}
+OF_A_CONNECTION = {
+    "Robot": "Connect to its address",
+    "Gripper": "Connect to its address",
+    "VacuumGripper": "Connect to its address",
+    "Model": r"Call load_model\(\)",
+}
+copies = pytest.mark.parametrize("copied", [pickle.dumps, copy.copy, copy.deepcopy])
 
 
-@pytest.mark.parametrize("copies", [pickle.dumps, copy.copy, copy.deepcopy])
-def test_a_simulation_cannot_be_pickled_or_copied_and_says_what_to_do(copies):
-    with pyfranka.sim.Simulation() as sim, pytest.raises(TypeError, match="make one with the same world"):
-        copies(sim)
+@copies
+@pytest.mark.parametrize("make, instead", OF_A_SIMULATION.values(), ids=OF_A_SIMULATION)
+def test_parts_of_a_simulation_refuse_copies_and_say_what_to_do(make, instead, copied):
+    with pyfranka.sim.Simulation() as sim, pytest.raises(TypeError, match=instead):
+        copied(make(sim))
+
+
+@copies
+@pytest.mark.parametrize("kind, instead", OF_A_CONNECTION.items(), ids=OF_A_CONNECTION)
+def test_connections_refuse_copies_and_say_what_to_do(things, kind, instead, copied):
+    with pytest.raises(TypeError, match=instead):
+        copied(things[kind])

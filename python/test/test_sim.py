@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: Apache-2.0
 """pyfranka.sim: robots that a Python program steps in its own process."""
 
+import copy
 import importlib
+import io
+import json
 import math
 import pickle
 import re
@@ -16,6 +19,7 @@ import pyfranka
 import pyfranka.plot
 import pyfranka.sim
 import pytest
+from PIL import Image
 from pyfranka import libfranka
 from pyfranka.desk import DeskRobot
 from pyfranka.franka_sim import SimRobot
@@ -24,6 +28,7 @@ from pyfranka.sim import (
     KINDS,
     GripperOutcome,
     Panda,
+    Picture,
     RequestRefused,
     SimulatedRobot,
     Simulation,
@@ -49,7 +54,7 @@ def arm(sim, name):
 
 def test_each_kind_of_command_moves_the_arm(sim, name):
     robot = sim[name]
-    start = robot.state.copy()
+    start = robot.state
 
     def ramp(k):
         return 0.02 * (1 - math.cos(math.pi * min(k / 500, 1.0))) / 2
@@ -85,7 +90,7 @@ def test_each_kind_of_command_moves_the_arm(sim, name):
 
 def elbow_motion(sim, robot, controller, **command):
     """The elbow turns while the end effector stays; how far joint 3 and the end effector have moved."""
-    state = robot.state
+    state = robot.live_state
     start, pose = state.elbow_d.copy(), state.O_T_EE_d.copy()
     for k in range(1, 1001):
         way = 0.1 * (1 - math.cos(math.pi * k / 1000)) / 2
@@ -303,7 +308,7 @@ def test_everything_shows_itself_in_a_line(sim, arm, name):
     shown = {
         f"<Simulation of '{name}' at 0.6 s>": sim,
         f"<{kind} '{name}': Idle>": arm,
-        r"<LiveState at 0.6\d* s: Idle, q \[.*-0.785[34].*\]>": arm.state,
+        r"<LiveState at 0.6\d* s: Idle, q \[.*-0.785[34].*\]>": arm.live_state,
         "<ArmModel of a simulated robot: .*>": arm.model,
         r"<Gripper: width 0.05\d* of 0.08 m, not grasped>": arm.gripper,
         "<Action move: Running>": arm.gripper.move(0.02),
@@ -347,7 +352,7 @@ def test_the_model_takes_copies_of_states(sim, arm):
     arm.set_load(0.5, [0.01, 0.02, 0.05], np.diag([1e-3, 2e-3, 3e-3]))
     arm.joint_impedance(arm.state.q + 0.1)
     sim.step(100)
-    live, kept, model = arm.state, arm.state.copy(), arm.model
+    live, kept, model = arm.live_state, arm.state, arm.model
     assert np.abs(kept.dq).min() > 0.0 and kept.m_load == 0.5
     for frame in (pyfranka.Frame.Joint4, pyfranka.Frame.Stiffness):
         for function in (model.pose, model.zero_jacobian, model.body_jacobian):
@@ -360,17 +365,89 @@ def test_the_model_takes_copies_of_states(sim, arm):
     )
 
 
-def test_states_can_be_pickled(sim, arm):
+COPIES = {
+    "copy": lambda state: state.copy(),
+    "copy.copy": copy.copy,
+    "copy.deepcopy": copy.deepcopy,
+    "pickle": lambda state: pickle.loads(pickle.dumps(state)),
+}
+FIELDS = [name for name, member in vars(pyfranka.RobotState).items() if isinstance(member, property)]
+
+
+@pytest.fixture
+def stopped_arm(sim, arm):
+    """In a reflex, with errors."""
     arm.command(joint_positions=arm.state.q_d + 0.5)
     sim.step(20)
-    for state in (arm.state, arm.state.copy(), libfranka.RobotState(arm.state.copy())):
-        kept = pickle.loads(pickle.dumps(state))
-        assert type(kept) is (type(state) if state is not arm.state else pyfranka.RobotState)
-        assert repr(kept) == repr(arm.state.copy()) and str(kept.last_motion_errors) != "[]"
-    kept = arm.state.copy()
-    assert (pickle.loads(pickle.dumps(kept)).O_T_EE == kept.O_T_EE).all()
-    errors = arm.state.last_motion_errors
-    assert str(pickle.loads(pickle.dumps(errors))) == str(errors)
+    assert arm.state.last_motion_errors
+    return arm
+
+
+@pytest.mark.parametrize("copied", COPIES.values(), ids=COPIES)
+def test_copies_of_states_are_equal_and_stay(sim, stopped_arm, copied):
+    live = stopped_arm.live_state
+    for state in (live, stopped_arm.state, libfranka.RobotState(stopped_arm.state)):
+        kept = copied(state)
+        assert type(kept) is (pyfranka.RobotState if state is live else type(state))
+        assert kept == state and state == kept and not kept != state
+        before = repr(kept)
+        sim.step()
+        assert kept != live and live != kept and repr(kept) == before
+
+
+def test_states_differ_in_each_field(stopped_arm):
+    state, other = stopped_arm.state, pyfranka.RobotState()
+    for name in FIELDS:
+        changed, value = state.copy(), getattr(state, name)
+        numeric = isinstance(value, (float, np.ndarray))
+        setattr(changed, name, value + 1.0 if numeric else getattr(other, name))
+        assert changed != state, name
+        setattr(changed, name, value)
+        assert changed == state, name
+    assert state != "a state" and state is not None
+    with pytest.raises(TypeError, match="unhashable"):
+        hash(state)
+
+
+def test_errors_compare_by_value(stopped_arm):
+    errors, none = stopped_arm.state.last_motion_errors, pyfranka.Errors()
+    for copied in (copy.copy, copy.deepcopy, COPIES["pickle"]):
+        assert copied(errors) == errors and hash(copied(errors)) == hash(errors)
+    assert errors != none and none == pyfranka.Errors() and errors != str(errors)
+
+
+def test_a_log_of_states_keeps_each_one(sim, arm):
+    arm.joint_impedance(arm.state.q + 0.1, 0.1)
+    log = []
+    for _ in range(5):
+        sim.step()
+        log.append(arm.state)
+    times = [state.time.to_msec() for state in log]
+    assert times == list(range(times[0], times[0] + 5))
+    assert all((one.q != other.q).any() for one, other in zip(log, log[1:]))
+
+
+def test_a_state_is_a_dict_of_plain_values(stopped_arm):
+    state = stopped_arm.state
+    values = state.to_dict()
+    assert values.keys() == {*FIELDS} and stopped_arm.live_state.to_dict().keys() == values.keys()
+    assert values["robot_mode"] == state.robot_mode.name and type(values["time"]) is float
+    assert values["last_motion_errors"] == json.loads(str(state.last_motion_errors))
+    for name, value in values.items():
+        if isinstance(value, np.ndarray):
+            assert (value == getattr(state, name)).all() and value.shape == getattr(state, name).shape
+            value += 1.0  # its own
+            assert (value != getattr(state, name)).all()
+        else:
+            assert type(value) in (float, list, str), name
+    plain = libfranka.RobotState(state).to_dict()
+    assert plain["O_T_EE"] == libfranka.RobotState(state).O_T_EE and type(plain["q"]) is list
+
+
+def test_notebooks_show_pictures():
+    rgb = np.random.default_rng(1).integers(0, 256, (5, 7, 3), dtype=np.uint8)
+    shown = Image.open(io.BytesIO(Picture(rgb, None)._repr_png_()))
+    assert shown.format == "PNG" and (np.asarray(shown) == rgb).all()
 
 
 def test_a_command_to_a_motion_that_ends_is_refused(sim, arm):
@@ -478,8 +555,8 @@ def test_random_joints_are_within_the_limits_and_repeat(name):
         assert (first == seen[0]).all(), "of the same seed"
 
 
-def test_state_arrays_are_live_views_that_cannot_be_written(sim, arm):
-    q, state = arm.state.q, arm.state.copy()
+def test_arrays_of_a_live_state_are_views_that_cannot_be_written(sim, arm):
+    q, state = arm.live_state.q, arm.state
     before = q.copy()
     arm.joint_impedance(q + 0.1, 0.1)
     sim.step(300)
@@ -597,3 +674,10 @@ def test_the_examples_of_the_documentation_run(capsys):
         example.check(capsys.readouterr().out)
     batch.run()
     batch.check(capsys.readouterr().out, tolerance=2e-4)  # of the springs, on another Debian's MuJoCo
+
+
+def test_the_table_of_the_documentation_is_made(capsys):
+    pytest.importorskip("pandas", reason="pandas is not installed")
+    (example,) = page_output.examples("python.md", "## Tables and notebooks")
+    example.run()
+    example.check(capsys.readouterr().out, tolerance=2e-3)

@@ -242,7 +242,7 @@ def condition(robot: SimulatedRobot) -> tuple:
     """All that a robot shows."""
     hand = robot.gripper if robot.setup.hand else None
     fingers = (hand.width, hand.is_grasped, hand.temperature) if hand else ()
-    return robot.moving, robot.brakes_closed, robot.state_hash(), fingers, pickle.dumps(robot.state.copy())
+    return robot.moving, robot.brakes_closed, robot.state_hash(), fingers, pickle.dumps(robot.state)
 
 
 def difference(first: SimulatedRobot, second: SimulatedRobot, several: bool) -> str:

@@ -27,6 +27,8 @@ def _plain(value: typing.Any) -> typing.Any:
         return value.ravel(order="F").tolist()
     if isinstance(value, tuple):
         return tuple(map(_plain, value))
+    if isinstance(value, dict):
+        return {name: _plain(each) for name, each in value.items()}
     convert = _CLASSES.get(type(value))
     return convert(value) if convert else value
 

@@ -110,7 +110,7 @@ class Episode:
         layout = layout_of(type(task), list(sim))
         self.view = View(type(task), layout, bounds_of(type(task), self.robots, dense))
         self.row = numpy.zeros(self.native.size)  # of the last observation
-        self._start = [robot.state.q.copy() for robot in self.robots]
+        self._start = [robot.state.q for robot in self.robots]
         self._openings: list[Action] = []
         if not (like and self._takes_over(like)):
             self._prepare()

@@ -12,6 +12,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy
 from numpy.typing import ArrayLike
 
+from pyfranka import _copies
 from pyfranka._native import _sim
 
 from .arguments import items, seed_of, text, whole
@@ -77,6 +78,11 @@ class SimulationBatch(Sequence[Simulation]):
         self._native = _sim.Batch([one._native for one in self._worlds], threads, observe)
         self._observations: Array = self._native.observations
 
+    __reduce__ = _copies.refused(
+        "A SimulationBatch can be neither pickled nor copied: make one with the same arguments where it is "
+        "used."
+    )
+
     @typing.overload
     def __getitem__(self, index: int) -> Simulation: ...
     @typing.overload
@@ -140,7 +146,7 @@ class SimulationBatch(Sequence[Simulation]):
         self._native.step(ticks)
 
     def observe(self) -> Array:
-        """Brings `observations` up to date after worlds were changed one by one, and returns them.
+        """Brings `observations` up to date after worlds were changed one by one, and returns this view.
 
         >>> batch[0].step(10)
         >>> batch.observe()[:, batch.layout["time"]].tolist()
@@ -155,8 +161,8 @@ class SimulationBatch(Sequence[Simulation]):
         objects: Mapping[str, ArrayLike] | None = None,
         worlds: Iterable[int] | None = None,
     ) -> Array:
-        """Resets all worlds, or those with these numbers, as Simulation.reset() does, and returns the
-        observations. Random poses continue with the random numbers of each world.
+        """Resets all worlds, or those with these numbers, as Simulation.reset() does, and returns
+        `observations`, a view. Random poses continue with the random numbers of each world.
 
         Raises as Simulation.reset(), and no world has changed; if no random pose of a world is free, those
         before it have been reset.

@@ -8,6 +8,7 @@ import numpy
 from _pyfranka._sim import ArmModel, GripperOutcome, LiveState
 from numpy.typing import ArrayLike, NDArray
 
+from pyfranka import RobotState, _copies
 from pyfranka._deprecation import renamed
 from pyfranka._native import _sim
 
@@ -28,6 +29,11 @@ class Action:
     def __init__(self, robot: _sim.SimulatedRobot, ticket: int, what: str):
         self._robot, self._ticket, self._what = robot, ticket, what
         self._outcome = GripperOutcome.Running
+
+    __reduce__ = _copies.refused(
+        "An Action can be neither pickled nor copied: it runs in a simulation of this process. Use its "
+        "outcome."
+    )
 
     def __repr__(self) -> str:
         try:
@@ -66,6 +72,11 @@ class Gripper:
     def __init__(self, robot: _sim.SimulatedRobot):
         self._robot = robot
         robot.hand_state()  # raises without a hand
+
+    __reduce__ = _copies.refused(
+        "A Gripper can be neither pickled nor copied: it is part of a simulation of this process. Make a "
+        "Simulation where it is used, or keep its width and max_width."
+    )
 
     def __repr__(self) -> str:
         try:
@@ -154,10 +165,15 @@ class SimulatedRobot:
 
     def __init__(self, native: _sim.SimulatedRobot, setup: _Setup):
         self._native, self.setup = native, setup
-        self._state, self._model = native.state, native.model
+        self._live_state, self._model = native.live_state, native.model
         self._gripper: Gripper | None = None
         if setup.load is not None:
             native.set_load(*setup.load)
+
+    __reduce__ = _copies.refused(
+        "A SimulatedRobot can be neither pickled nor copied: it is part of a simulation of this process. "
+        "Make a Simulation with the same world, robots and seed where it is used; its state can be pickled."
+    )
 
     def __repr__(self) -> str:
         try:
@@ -167,10 +183,17 @@ class SimulatedRobot:
         return f"<{type(self.setup).__name__} '{self.name}': {mode}>"
 
     @property
-    def state(self) -> LiveState:
-        """The present state. Its arrays are views that show each new tick; state.copy() stays."""
+    def state(self) -> RobotState:
+        """The state of the present tick, which stays as it is, as read_once() of a robot on the network."""
+        state: RobotState = self._native.state
+        return state
+
+    @property
+    def live_state(self) -> LiveState:
+        """The same without a copy, for programs that read it in each tick: its values and arrays change with
+        each step. live_state.copy() stays."""
         self._native.require_open()
-        return self._state
+        return self._live_state
 
     @property
     def model(self) -> ArmModel:

@@ -18,10 +18,12 @@ import numpy
 from _pyfranka._sim import Snapshot
 from numpy.typing import ArrayLike, NDArray
 
+from pyfranka import _copies
 from pyfranka._deprecation import renamed
 from pyfranka._native import _sim
 
 from .arguments import items, mapping, no_robot, numbers, path, seed_of, text
+from .png import png_of
 from .robot import Array, SimulatedRobot
 from .setups import _Setup, described
 
@@ -65,6 +67,10 @@ class Picture(typing.NamedTuple):
 
     rgb: NDArray[numpy.uint8]
     depth: NDArray[numpy.float32] | None
+
+    def _repr_png_(self) -> bytes:
+        """What notebooks show."""
+        return png_of(self.rgb)
 
 
 def _attend(simulation: weakref.ref[Simulation]) -> None:
@@ -120,11 +126,10 @@ class Simulation:
             if overlaps := self._native.overlaps(name):
                 warnings.warn(f"{overlaps} Give it another base.", stacklevel=stacklevel)
 
-    def __reduce__(self) -> str:
-        raise TypeError(
-            "A Simulation can be neither pickled nor copied: make one with the same world, robots and seed "
-            "where it is used."
-        )
+    __reduce__ = _copies.refused(
+        "A Simulation can be neither pickled nor copied: make one with the same world, robots and seed where "
+        "it is used."
+    )
 
     def __repr__(self) -> str:
         robots = ", ".join(f"'{name}'" for name in self) or "no robots"
@@ -333,7 +338,8 @@ class Simulation:
             q = self._random.uniform(*robot.limits)
             robot._native.place(q)
             self._native.try_out(TRIAL)
-            free = not robot.state.current_errors and numpy.abs(robot.state.q - q).max() < MOVED
+            state = robot.live_state
+            free = not state.current_errors and numpy.abs(state.q - q).max() < MOVED
             free = free and not self._touches(robot)
             self.restore(before)
             if free:
