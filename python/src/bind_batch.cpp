@@ -4,6 +4,7 @@
 #include <franka_sim/simulation/batch.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <deque>
 #include <map>
 #include <optional>
@@ -41,14 +42,19 @@ class Batch {
             "A world of the batch is served on the network; step it by itself.");
       }
     }
-    const py::gil_scoped_release free;
-    function(batch_);
+    {
+      const py::gil_scoped_release free;
+      function(batch_);
+    }
+    for (const std::shared_ptr<Shared>& world : worlds_) {
+      world->requireStepped();
+    }
   }
   /// Steps all, warns, and ends at Ctrl-C.
   void step(std::uint64_t ticks) {
     std::map<std::string, std::string> warnings;
     use([&](franka_sim::SimulationBatch& batch) {
-      batch.step(ticks, noSignal);
+      batch.step(ticks, [this] { return !isClosed() && noSignal(); });
       warnings = takeWarnings();
     });
     raiseSignal();
@@ -77,6 +83,11 @@ class Batch {
       result.push_back(&world->simulation());
     }
     return result;
+  }
+
+  bool isClosed() const {
+    return std::any_of(worlds_.begin(), worlds_.end(),
+                       [](const std::shared_ptr<Shared>& world) { return world->closed(); });
   }
 
   // Sentences with the numbers of the worlds that they are about. Call within use().

@@ -3,16 +3,19 @@
 // Worlds with robots in this process; pyfranka/sim gives them their Python interface.
 #include <franka_core/numbers.h>
 #include <franka_sim/robot/realism.h>
+#include <franka_sim/simulation/missing_file.h>
 #include <franka_sim/simulation/robot_setup.h>
 #include <pybind11/stl.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <exception>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "arguments.h"
@@ -39,11 +42,22 @@ void step(Shared& self, std::uint64_t ticks, bool warns) {
     }
     ticks -= next;
     raiseSignal();  // also of a tick that waited for a client
+    self.requireStepped();
   }
   if (warns) {
     for (const std::string& warning : self.simulation().world().takeWarnings()) {
       warnOfStep(warning);
     }
+  }
+}
+
+// Waits until another thread has left its step. Ctrl-C ends the wait.
+void close(Shared& self) {
+  constexpr std::chrono::milliseconds kPause{1};  // chosen here: a tick takes less
+  while (!self.close()) {
+    raiseSignal();
+    const release free;
+    std::this_thread::sleep_for(kPause);
   }
 }
 
@@ -91,21 +105,25 @@ void bindSimulation(py::module_& module) {
       .attr("__doc__") =
       "The robot or its hand cannot do what was requested: its mode does not allow it, or no such "
       "value exists for it.";
-  py::class_<Snapshot>(module, "Snapshot", py::module_local(),
-                       "The state of a world and its robots at a tick.\n\n"
-                       ">>> snapshot = sim.snapshot()\n>>> sim.restore(snapshot)")
-      .def(
-          "__reduce__",
-          [](const Snapshot&) -> py::object {
-            throw py::type_error(
-                "A Snapshot cannot be pickled: restore it in the process that has taken it. "
-                "Elsewhere make a Simulation with the same world, robots and seed, and repeat what "
-                "has been commanded.");
-          },
-          "Raises TypeError.")
-      .def("__repr__", [](const Snapshot& self) {
-        return "<Snapshot at " + franka_core::numberText(1e-3 * double(self.ticks), 9) + " s>";
-      });
+  py::register_local_exception_translator([](std::exception_ptr pointer) {
+    try {
+      if (pointer) {
+        std::rethrow_exception(pointer);
+      }
+    } catch (const franka_sim::MissingFile& error) {
+      PyErr_SetString(PyExc_FileNotFoundError, error.what());
+    }
+  });
+  py::class_<Snapshot> snapshot(module, "Snapshot", py::module_local(),
+                                "The state of a world and its robots at a tick.\n\n"
+                                ">>> snapshot = sim.snapshot()\n>>> sim.restore(snapshot)");
+  snapshot.def("__repr__", [](const Snapshot& self) {
+    return "<Snapshot at " + franka_core::numberText(1e-3 * double(self.ticks), 9) + " s>";
+  });
+  refuseCopies(snapshot,
+               "A Snapshot cannot be pickled: restore it in the process that has taken it. "
+               "Elsewhere make a Simulation with the same world, robots and seed, and repeat what "
+               "has been commanded.");
   py::class_<Simulation::Robot>(module, "RobotSetup", py::module_local(),
                                 "What is needed to add a robot.")
       .def(py::init([](const std::string& robot, const std::string& name, const std::string& urdf,
@@ -168,7 +186,11 @@ void bindSimulation(py::module_& module) {
              return self.use([](Simulation& s) { return s.world().stateHash(); });
            })
       .def("require_open", &Shared::requireOpen, "Raises RuntimeError once it is closed.")
-      .def("close", &Shared::close);
+      .def("take_warnings",
+           [](Shared& self) {
+             return self.use([](Simulation& s) { return s.world().takeWarnings(); });
+           })
+      .def("close", &close);
   bindWorld(simulation);
   bindBatch(module);
   bindEpisode(module);

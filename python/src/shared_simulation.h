@@ -4,6 +4,8 @@
 
 #include <franka_sim/physics/renderer.h>
 #include <franka_sim/simulation/simulation.h>
+#include <sys/types.h>
+#include <unistd.h>
 
 #include <atomic>
 #include <functional>
@@ -11,6 +13,7 @@
 #include <mutex>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -27,19 +30,23 @@ class Shared {
   /// Access for the duration of a call.
   class Use {
    public:
-    explicit Use(Shared& shared) : busy_(shared.busy_) {
+    explicit Use(Shared& shared) : shared_(shared) {
       shared.requireOpen();
-      if (busy_.test_and_set()) {
+      if (!shared.acquire()) {
         throw std::runtime_error(
             "Another thread uses this simulation now; give each thread one of its own.");
       }
+      if (shared.closed()) {  // by another thread, since it was open
+        shared.release();
+        shared.requireOpen();
+      }
     }
-    ~Use() { busy_.clear(); }
+    ~Use() { shared_.release(); }
     Use(const Use&) = delete;
     Use& operator=(const Use&) = delete;
 
    private:
-    std::atomic_flag& busy_;
+    Shared& shared_;
   };
 
   franka_sim::Simulation& simulation() noexcept { return simulation_; }
@@ -65,6 +72,12 @@ class Shared {
       throw std::runtime_error("The simulation is closed.");
     }
   }
+  /// @throws std::runtime_error if it has been closed within the present use
+  void requireStepped() const {
+    if (closed_) {
+      throw std::runtime_error("The simulation was closed while it stepped.");
+    }
+  }
   bool served() const noexcept { return server_ != nullptr; }
   /// Puts a robot on the network; the first call chooses the pace of all robots, and the callback
   /// that ends a wait.
@@ -72,12 +85,16 @@ class Shared {
              const franka_sim::fci::Pace& pace, std::function<bool()> keep_waiting) {
     const Use use(*this);
     franka_sim::SimulatedRobot& served = simulation_.robot(robot);
-    auto server = server_ ? nullptr
-                          : std::make_unique<franka_sim::SimulationServer>(
-                                simulation_, pace,
-                                franka_sim::SimulationServer::Hooks{
-                                    [this](const std::string& what) { keepEvent(what); },
-                                    std::move(keep_waiting)});
+    const auto keep_stepping = [this, keep_waiting = std::move(keep_waiting)] {
+      interrupted_ = closed_ || !keep_waiting();
+      return !interrupted_;
+    };
+    auto server =
+        server_ ? nullptr
+                : std::make_unique<franka_sim::SimulationServer>(
+                      simulation_, pace,
+                      franka_sim::SimulationServer::Hooks{
+                          [this](const std::string& what) { keepEvent(what); }, keep_stepping});
     (server ? *server : *server_).serve(served, address);
     if (server) {
       server_ = std::move(server);
@@ -88,33 +105,59 @@ class Shared {
     const std::lock_guard lock(events_mutex_);
     return std::exchange(events_, {});
   }
-  /// Call with a Use.
+  /// Ends early once the simulation is closed or a wait for a client was ended. Call with a Use.
   void step(std::uint64_t ticks) {
-    if (server_) {
-      server_->step(ticks);
-    } else {
-      simulation_.step(ticks);
+    interrupted_ = false;
+    for (std::uint64_t tick = 0; tick < ticks && !closed_ && !interrupted_; tick++) {
+      if (server_) {
+        server_->step(1);
+      } else {
+        simulation_.step(1);
+      }
     }
   }
   /// Serves clients while the program does not step. @returns false once it is closed
   bool attend() {
-    if (!closed_ && server_ && !busy_.test_and_set()) {
-      server_->attend();
-      busy_.clear();
+    if (!closed_ && acquire()) {
+      if (server_) {
+        server_->attend();
+      }
+      release();
     }
     return !closed_;
   }
-  /// Clients lose their robots.
-  void close() {
-    if (!closed_) {
-      const Use use(*this);
-      closed_ = true;
-      server_.reset();
-      renderer_.reset();
+  /// Clients lose their robots. A use of this thread, which then runs a signal's handler or the
+  /// like, and one of another thread end soon.
+  /// @returns false while another thread uses it: call again
+  bool close() {
+    closed_ = true;
+    if (user_ == std::this_thread::get_id()) {
+      return true;  // what is served ends with that use
     }
+    if (!acquire()) {
+      return user_process_ != getpid();  // before a fork: its thread does not exist here
+    }
+    release();
+    return true;
   }
 
  private:
+  /// @returns false if it is in use
+  bool acquire() noexcept {
+    std::thread::id nobody;
+    const bool acquired = user_.compare_exchange_strong(nobody, std::this_thread::get_id());
+    if (acquired) {
+      user_process_ = getpid();
+    }
+    return acquired;
+  }
+  void release() {
+    if (closed_) {
+      server_.reset();
+      renderer_.reset();
+    }
+    user_ = std::thread::id();
+  }
   void keepEvent(const std::string& what) {
     constexpr std::size_t kMaxEvents =
         100;  // chosen here; the caller fetches them 50 times per second
@@ -129,8 +172,10 @@ class Shared {
   std::vector<std::string> events_;
   std::unique_ptr<franka_sim::SimulationServer> server_;
   std::unique_ptr<franka_sim::Renderer> renderer_;
-  std::atomic_flag busy_ = ATOMIC_FLAG_INIT;
+  std::atomic<std::thread::id> user_{};  ///< none: nobody uses it
+  std::atomic<pid_t> user_process_{0};
   std::atomic<bool> closed_{false};
+  std::atomic<bool> interrupted_{false};  ///< a wait for a client, in the present step
 };
 
 /// @throws as wholeNumber, and std::invalid_argument for a negative number

@@ -569,6 +569,21 @@ def test_bad_input_of_an_episode_keeps_its_random_numbers(name):
         env.close()
 
 
+MISSING_FILES = {
+    "world": lambda file: Simulation(world=file),
+    "world of a batch": lambda file: SimulationBatch(2, world=file),
+    "urdf of a Panda": lambda file: Panda(urdf=file),
+    "urdf of an FR3": lambda file: FR3(urdf=file),
+}
+
+
+@pytest.mark.parametrize("suffix", ["xml", "world", "urdf"])
+@pytest.mark.parametrize("call", MISSING_FILES.values(), ids=MISSING_FILES)
+def test_a_missing_file_is_named(call, suffix):
+    with pytest.raises(FileNotFoundError, match=f"'/nowhere.{suffix}'.*[.]$"):
+        call(f"/nowhere.{suffix}")
+
+
 # ---- closed, and in use by another thread ------------------------------------------------------------------
 
 # What works in any case: names and views.

@@ -11,6 +11,7 @@ import pickle
 import re
 import threading
 import warnings
+from functools import partial
 from pathlib import Path
 
 import numpy as np
@@ -662,8 +663,14 @@ def test_a_rounded_inertia_of_a_description_is_repaired_with_a_warning(tmp_path)
     )
     own = tmp_path / "own.urdf"
     own.write_text((robots / "panda.urdf").read_text().replace("</robot>", disc + "</robot>"))
-    with Simulation("", [Panda(urdf=own)]) as sim, pytest.warns(RuntimeWarning, match="inertia.*disc"):
-        sim.step(1)
+    for make in (Simulation, partial(SimulationBatch, 2)):
+        with pytest.warns(RuntimeWarning, match="inertia.*disc") as caught:
+            made = make("", [Panda(urdf=own)])
+        assert [warning.filename for warning in caught] == [__file__], "once, where it is made"
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            made.step(10)
+        made.close()
 
 
 @pytest.mark.filterwarnings("error")  # of exceptions in threads

@@ -7,7 +7,7 @@ import threading
 
 from waiting import wait_for
 
-ERRORS = (ValueError, TypeError, KeyError, IndexError, RuntimeError)
+ERRORS = (ValueError, TypeError, KeyError, IndexError, RuntimeError, FileNotFoundError)
 # Of pybind11, numpy and Python, which name no argument of the user.
 FOREIGN = re.compile(
     r"incompatible function arguments|could not convert|object cannot be interpreted|has no attribute"

@@ -49,7 +49,7 @@ class SimulationBatch(Sequence[Simulation]):
     shows: "time", "<robot>.<field>" (q, dq, O_T_EE, tau_J, width, robot_mode, ...), "<body>.pose" (x, y, z
     [m] and the quaternion w, x, y, z) and "<body>.twist" [m/s, rad/s]; without it, what is usual.
 
-    Raises ValueError and RuntimeError with a sentence.
+    Raises FileNotFoundError, ValueError and RuntimeError with a sentence.
 
     >>> with pyfranka.sim.SimulationBatch(2, robots=[pyfranka.sim.FR3()], observe=["time"]) as batch:
     ...     batch.step(100)
@@ -74,7 +74,9 @@ class SimulationBatch(Sequence[Simulation]):
         self.seeds = tuple(int(s) for s in sequence.generate_state(number))
         robots = robots if robots is None else items(robots, "robots", "Panda(...), FR3(...) and their kinds")
         self._worlds = _worlds(world, robots, self.seeds, threads)
-        self._worlds[0]._warn_of_overlaps(3)  # all have the same robots at the same places
+        self._worlds[0]._warn(3)  # all have the same robots at the same places
+        for one in self._worlds[1:]:
+            one._native.take_warnings()
         self._native = _sim.Batch([one._native for one in self._worlds], threads, observe)
         self._observations: Array = self._native.observations
 
@@ -112,7 +114,8 @@ class SimulationBatch(Sequence[Simulation]):
         self.close()
 
     def close(self) -> None:
-        """Ends all simulations: further calls raise RuntimeError.
+        """Ends all simulations: further calls raise RuntimeError, and so does a step() of another thread,
+        which ends within about 0.1 s.
 
         >>> pyfranka.sim.SimulationBatch(2).close()
         """

@@ -36,7 +36,7 @@ class _Setup:
     On the network only: protocol: the only version that it speaks; 0: all of its kind. address: where it is
     served; empty: an address of its own. arguments: further options of the program franka_sim.
 
-    All values are checked here. Raises ValueError or TypeError with a sentence.
+    All values are checked here. Raises ValueError, TypeError or FileNotFoundError with a sentence.
 
     >>> robots = [pyfranka.sim.Panda(base=(0, 0.5, 0)), pyfranka.sim.FR3(base=(0, -0.5, 0))]
     >>> [robot.kind for robot in robots]
@@ -66,7 +66,7 @@ class _Setup:
         _sim.check_realism(text(self.realism, "realism"))
         self._set("urdf", path(self.urdf, "urdf"))
         if self.urdf and not os.path.isfile(self.urdf):
-            raise ValueError(f"urdf: there is no file '{self.urdf}'.")
+            raise FileNotFoundError(f"urdf: there is no file '{self.urdf}'.")
         if whole(self.protocol, "protocol") and self.protocol not in self._protocols:
             known = f"{self._protocols[0]} to {self._protocols[-1]}"
             raise ValueError(f"protocol of a {self.kind} must be {known}, or 0 for all, not {self.protocol}.")

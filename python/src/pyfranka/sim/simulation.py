@@ -92,7 +92,8 @@ class Simulation:
     hand_over.xml); empty: an empty world. robots: Panda, FR3 or their kinds. seed: of all
     randomness; the same seed and the same calls give the same bits.
 
-    Raises RuntimeError or ValueError with a sentence for a world or a robot that cannot be used.
+    Raises FileNotFoundError, RuntimeError or ValueError with a sentence for a world or a robot that cannot be
+    used. Warns (RuntimeWarning) of parts of a world that have no effect.
 
     >>> with pyfranka.sim.Simulation("stone.xml", [pyfranka.sim.Panda(base=(-0.5, 0, 0))]) as sim:
     ...     sim.step(100)
@@ -104,7 +105,7 @@ class Simulation:
         self, world: str | os.PathLike[str] = "", robots: Sequence[_Setup | str] | None = None, seed: int = 1
     ):
         self._make(world, robots, seed)
-        self._warn_of_overlaps(3)
+        self._warn(3)
 
     def _make(self, world: str | os.PathLike[str], robots: Sequence[_Setup | str] | None, seed: int) -> None:
         """Any thread may call it."""
@@ -121,7 +122,10 @@ class Simulation:
         self._native = _sim.Simulation(world, [setup._native() for setup in setups])
         self._robots = {setup.name: SimulatedRobot(self._native.robot(setup.name), setup) for setup in setups}
 
-    def _warn_of_overlaps(self, stacklevel: int) -> None:
+    def _warn(self, stacklevel: int) -> None:
+        """Of what the world cannot have, and of robots within other bodies."""
+        for warning in self._native.take_warnings():
+            warnings.warn(warning, RuntimeWarning, stacklevel=stacklevel)
         for name in self:
             if overlaps := self._native.overlaps(name):
                 warnings.warn(f"{overlaps} Give it another base.", stacklevel=stacklevel)
@@ -187,7 +191,8 @@ class Simulation:
         self.close()
 
     def close(self) -> None:
-        """Ends the simulation: all further calls raise RuntimeError. Clients lose their robots.
+        """Ends the simulation: all further calls raise RuntimeError, and so does a step() of another thread,
+        which ends within a tick. Clients lose their robots.
 
         >>> pyfranka.sim.Simulation().close()
         """
@@ -248,8 +253,8 @@ class Simulation:
 
     def step(self, ticks: int = 1) -> None:
         """Advances by so many milliseconds; other Python threads run meanwhile. Raises RuntimeError once the
-        physics has diverged; reset() ends that. Warns once (RuntimeWarning) when there are more contacts than
-        the limit (nconmax).
+        physics has diverged, which reset() ends, and once another thread has closed the simulation. Warns
+        once (RuntimeWarning) when there are more contacts than the limit (nconmax).
 
         >>> sim.step(10)
         >>> sim.ticks

@@ -3,6 +3,7 @@
 #include <dlfcn.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/robot/realism.h>
+#include <franka_sim/simulation/missing_file.h>
 #include <franka_sim/simulation/robot_setup.h>
 #include <tinyxml2.h>
 
@@ -119,8 +120,8 @@ std::string worldFile(const std::string& name) {
   }
   const std::string file = packageFile("franka_sim", "worlds/" + name);
   if (file.empty()) {
-    throw std::runtime_error("There is no world '" + name +
-                             "': neither a file nor one of those that come with franka_sim.");
+    throw MissingFile("There is no world '" + name +
+                      "': neither a file nor one of those that come with franka_sim.");
   }
   return file;
 }

@@ -21,7 +21,7 @@ std::string readFile(const std::string& name);
 std::string packageFile(const std::string& package, const std::string& file);
 
 /// The file of a world: a file's name, or the name of one that is installed with franka_sim
-/// (stone.xml); empty for the empty world. @throws std::runtime_error if there is none
+/// (stone.xml); empty for the empty world. @throws MissingFile if there is none
 std::string worldFile(const std::string& name);
 
 /// Returns the path of a package's file, empty if there is none; `file` is relative to the package.

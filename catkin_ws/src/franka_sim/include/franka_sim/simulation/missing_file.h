@@ -1,0 +1,15 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <stdexcept>
+
+namespace franka_sim {
+
+/// There is no such file. The text is a sentence with its name.
+class MissingFile : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+}  // namespace franka_sim
