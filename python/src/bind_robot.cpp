@@ -40,12 +40,14 @@ std::function<Command(const RobotState&, Duration)> callback(py::function functi
     const py::gil_scoped_acquire acquire;
     const py::object result = (*shared)(state, seconds(period));
     try {
-      return result.cast<Command>();
+      if (!result.is_none()) {  // which pybind11 would report as a wrong argument of this call
+        return result.cast<Command>();
+      }
     } catch (const py::cast_error&) {
-      throw std::invalid_argument(
-          "The callback returned " + std::string(py::str(py::type::of(result))) +
-          "; it must return the command of its motion, for example pyfranka.Torques([...]).");
     }
+    throw std::invalid_argument(
+        "The callback returned " + std::string(py::str(py::type::of(result))) +
+        "; it must return the command of its motion, for example pyfranka.Torques([...]).");
   };
 }
 

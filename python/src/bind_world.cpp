@@ -1,10 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Bodies, contacts and cameras of a world; pyfranka/sim gives them their Python interface.
+#include <franka_core/numbers.h>
 #include <franka_sim/physics/world_properties.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 
+#include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <stdexcept>
@@ -21,6 +24,21 @@ namespace {
 
 franka_sim::Pose poseOf(const py::object& position, const py::object& orientation) {
   return {finite<3>(position, "position"), finite<4>(orientation, "orientation")};
+}
+
+/// Larger ones are other units, or mistakes: an arm withstands about 100 N (chosen here).
+constexpr double kMaxPush = 1000.0;  // [N] or [Nm] along an axis
+
+std::array<double, 3> pushOf(const py::object& values, const char* name, const char* unit) {
+  const auto push = finite<3>(values, name);
+  for (const double value : push) {
+    if (std::abs(value) > kMaxPush) {
+      throw std::invalid_argument(
+          std::string(name) + " must be at most " + franka_core::numberText(kMaxPush) + " " + unit +
+          " along each axis, not " + franka_core::numberText(value) + " " + unit + ".");
+    }
+  }
+  return push;
 }
 
 int pixels(const py::object& side, const char* name) {
@@ -77,9 +95,12 @@ void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation) {
            [](Shared& self, const py::object& body, const py::object& force,
               const py::object& torque, const py::object& ticks) {
              const std::string name = text(body, "body");
-             const auto f = finite<3>(force, "force");
-             const auto t = finite<3>(torque, "torque");
+             const auto f = pushOf(force, "force", "N");
+             const auto t = pushOf(torque, "torque", "Nm");
              const std::uint64_t duration = ticksOf(ticks);
+             if (duration == 0) {
+               throw std::invalid_argument("ticks of a push must be 1 or more, not 0.");
+             }
              self.use([&](Simulation& s) { pushBody(s.world(), name, f, t, duration); });
            })
       .def("contacts",

@@ -108,7 +108,9 @@ REMOTE = {
         "nan": lambda x: x.move([NAN] * 7),
         "'move' takes numbers, not 'fast'": lambda x: x.move([0.0] * 7, "fast"),
         "'move' takes numbers, not 1000": lambda x: x.move([0.0] * 7, HUGE),
-        "not a finite number": lambda x: x.move([0.0, -0.7, 0.0, -2.3, 0.0, 1.5, 0.7], NAN),
+        "above 0 and at most 1, not nan": lambda x: x.move([0.0, -0.7, 0.0, -2.3, 0.0, 1.5, 0.7], NAN),
+        "above 0 and at most 1, not 100": lambda x: x.move([0.0, -0.7, 0.0, -2.3, 0.0, 1.5, 0.7], 100),
+        "above 0 and at most 1, not 0": lambda x: x.move([0.0, -0.7, 0.0, -2.3, 0.0, 1.5, 0.7], 0),
     },
     "end_effector": {
         "'end_effector' takes numbers, not '1'": lambda x: x.end_effector("1", ZERO, np.eye(3), EYE),

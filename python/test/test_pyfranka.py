@@ -394,6 +394,7 @@ def test_an_unfinished_motion_ends_with_its_with_block(robot):
     [
         (lambda state, period: 1 / 0, ZeroDivisionError, "division by zero"),
         (lambda state, period: [0.0] * 7, ValueError, "The callback returned <class 'list'>"),
+        (lambda state, period: None, ValueError, "The callback returned <class 'NoneType'>"),
         (lambda state: None, TypeError, "positional argument"),
         (lambda state, period: pyfranka.Torques([math.nan] * 7), ValueError, "finite|NaN|infinite"),
     ],

@@ -429,14 +429,19 @@ class Remote:
         timeout: float | None = None,
     ) -> None:
         """A motion of Desk, which needs no client: to joint positions, 7 [rad], at a share of the velocity
-        limits; to the pose for packing; or stops one. Returns at its end.
+        limits, above 0 and at most 1; to the pose for packing; or stops one. Returns at its end.
 
         >>> remote.move([0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785], speed=0.3)
         """
         if isinstance(target, str):
             self.send(f"move {words.word(target, 'The target')}", timeout)
         else:
-            self.send(words.line("move", words.numbers(target, 7, "The target"), [speed]), timeout)
+            line = words.line("move", words.numbers(target, 7, "The target"), [speed])
+            if not 0.0 < speed <= 1.0:
+                raise ValueError(
+                    f"speed is a share of the velocity limits, above 0 and at most 1, not {speed}."
+                )
+            self.send(line, timeout)
 
     def end_effector(
         self,

@@ -63,7 +63,8 @@ class Gripper:
     """The hand of a robot. Commands return at once with an Action; a new one interrupts the running one.
 
     What the hand refuses raises RequestRefused, as the arm's requests do: a width beyond max_width, a speed
-    or a force below zero. ValueError or TypeError: what is not a finite number. Nothing has changed then.
+    or a force below zero. ValueError or TypeError: what is not a finite number, a speed above 1 m/s and a
+    force above 1000 N. Nothing has changed then.
 
     >>> arm.gripper.grasp(0.03, 0.1, 20.0)
     <Action grasp: Running>

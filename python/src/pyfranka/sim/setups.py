@@ -17,6 +17,8 @@ from pyfranka._native import _sim
 
 from .arguments import inertia, items, no_robot, numbers, path, text, whole
 
+MAX_POSITION = 100.0  # [m] of a base along an axis (chosen here: a hall)
+MAX_TURN = 2.0 * numpy.pi  # [rad]
 NOT_IN_NAMES = re.compile(r"[\s\"'<>&/:]")  # of XML, and of names in names
 
 
@@ -24,14 +26,14 @@ NOT_IN_NAMES = re.compile(r"[\s\"'<>&/:]")  # of XML, and of names in names
 class _Setup:
     """A robot to simulate, in this process (Simulation) or on the network (FrankaSim).
 
-    name: prefix of its joints and links (its kind). base: x, y, z [m] and, optionally, the turn about the
-    vertical [rad]. hand: True (or "gripper"): the Franka Hand; False (or "none"): an arm without one, whose
-    urdf may have one that is not driven; "vacuum": the vacuum gripper, on the network only. load: mass [kg],
-    center of mass in the flange's frame [m] and, optionally, inertia 3x3 [kg m^2], as entered in Desk; it is
-    not simulated. realism: a profile of docs/sim_to_real.md, such as "real,friction=off"; empty: "ideal" in
-    this process, where programs learn, tune and test against exact physics, and "real" on the network, where
-    programs for a real robot must meet its friction and delays. urdf: another description of this kind of
-    robot.
+    name: prefix of its joints and links (its kind). base: x, y, z [m], each at most 100 m from the origin,
+    and, optionally, the turn about the vertical [rad], at most a whole one. hand: True (or "gripper"): the
+    Franka Hand; False (or "none"): an arm without one, whose urdf may have one that is not driven; "vacuum":
+    the vacuum gripper, on the network only. load: mass [kg], center of mass in the flange's frame [m] and,
+    optionally, inertia 3x3 [kg m^2], as entered in Desk; it is not simulated. realism: a profile of
+    docs/sim_to_real.md, such as "real,friction=off"; empty: "ideal" in this process, where programs learn,
+    tune and test against exact physics, and "real" on the network, where programs for a real robot must meet
+    its friction and delays. urdf: another description of this kind of robot.
 
     On the network only: protocol: the only version that it speaks; 0: all of its kind. address: where it is
     served; empty: an address of its own. arguments: further options of the program franka_sim.
@@ -60,7 +62,7 @@ class _Setup:
         if NOT_IN_NAMES.search(text(self.name, "name")):
             raise ValueError(f"name is the prefix of joints and links; it cannot be {self.name!r}.")
         base = numbers(self.base, "base (x, y, z [m] and, optionally, the turn [rad])", 3, 4)
-        self._set("base", tuple(map(float, base)))
+        self._set("base", _base(tuple(map(float, base))))
         self._set("hand", _hand(self.hand))
         self._set("load", _load(self.load))
         _sim.check_realism(text(self.realism, "realism"))
@@ -129,6 +131,18 @@ class _Setup:
             realism=self.realism,
             hand=self.hand,
         )
+
+
+def _base(base: tuple[float, ...]) -> tuple[float, ...]:
+    """The base; other units than meters and radians show by their size."""
+    position, turn = base[:3], abs(base[3]) if len(base) == 4 else 0.0
+    if max(map(abs, position)) > MAX_POSITION:
+        raise ValueError(
+            f"base must be at most {MAX_POSITION:g} m from the origin along each axis, not {position} m."
+        )
+    if turn > MAX_TURN:
+        raise ValueError(f"The turn of base must be -6.283 to 6.283 rad, not {base[3]:g} rad.")
+    return base
 
 
 def _hand(hand: typing.Any) -> bool | str:

@@ -425,7 +425,8 @@ class Simulation:
         self._native.place_body(body, position, orientation)
 
     def push(self, body: str, force: ArrayLike, torque: ArrayLike = (0.0, 0.0, 0.0), ticks: int = 1) -> None:
-        """A force [N] and a torque [Nm] at a body's origin, world axes, for so many milliseconds from now.
+        """A force [N] and a torque [Nm] at a body's origin, world axes, at most 1000 along each, for so many
+        milliseconds from now.
 
         >>> sim.push("stone", [0.0, 0.0, 1.0], ticks=100)
         >>> sim.step(100)
