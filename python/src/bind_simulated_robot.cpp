@@ -381,7 +381,7 @@ GripperUnit::Ticket accepted(GripperUnit::Ticket ticket, const GripperUnit& hand
 constexpr double kMaxFingerSpeed = 1.0;     // [m/s]
 constexpr double kMaxFingerForce = 1000.0;  // [N]
 
-double atMost(double limit, const py::object& value, const char* name, const char* unit) {
+double numberUpTo(double limit, const py::object& value, const char* name, const char* unit) {
   const double given = number(value, name);
   if (given > limit) {
     throw std::invalid_argument(std::string(name) + " must be 0 to " +
@@ -406,7 +406,7 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
       "hand_move",
       [](Robot& self, const py::object& width, const py::object& speed) {
         const double w = number(width, "width");
-        const double v = atMost(kMaxFingerSpeed, speed, "speed", "m/s");
+        const double v = numberUpTo(kMaxFingerSpeed, speed, "speed", "m/s");
         return self.useHand(
             [&](GripperUnit& hand) { return accepted(hand.move(w, v), hand, "motion", w, v); });
       },
@@ -416,8 +416,8 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
       [](Robot& self, const py::object& width, const py::object& speed, const py::object& force,
          const py::object& inner, const py::object& outer) {
         const double w = number(width, "width");
-        const double v = atMost(kMaxFingerSpeed, speed, "speed", "m/s");
-        const double f = atMost(kMaxFingerForce, force, "force", "N");
+        const double v = numberUpTo(kMaxFingerSpeed, speed, "speed", "m/s");
+        const double f = numberUpTo(kMaxFingerForce, force, "force", "N");
         const double in = number(inner, "epsilon_inner");
         const double out = number(outer, "epsilon_outer");
         return self.useHand([&](GripperUnit& hand) {

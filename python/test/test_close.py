@@ -82,8 +82,7 @@ def test_the_end_of_a_block_ends_the_step_of_a_task_that_was_canceled():
     async def program():
         with Simulation() as sim:
             task = asyncio.create_task(asyncio.to_thread(sim.step, ENDLESS))
-            while not is_stepped(sim):
-                await asyncio.sleep(0.001)
+            await asyncio.to_thread(wait_for, lambda: is_stepped(sim), "The step")
             task.cancel()
             with pytest.raises(asyncio.CancelledError):
                 await task
@@ -94,13 +93,18 @@ def test_the_end_of_a_block_ends_the_step_of_a_task_that_was_canceled():
 def test_a_signals_handler_ends_the_step_that_it_interrupts():
     sim = Simulation()
     before = signal.signal(signal.SIGUSR1, lambda *_: sim.close())
-    timer = threading.Timer(0.3, signal.raise_signal, (signal.SIGUSR1,))
+
+    def interrupt():
+        wait_for(lambda: is_stepped(sim), "The step")
+        signal.raise_signal(signal.SIGUSR1)
+
+    thread = threading.Thread(target=interrupt)
     try:
-        timer.start()
+        thread.start()
         with pytest.raises(RuntimeError, match="closed while it stepped"):
             sim.step(ENDLESS)
     finally:
-        timer.join()
+        thread.join()
         signal.signal(signal.SIGUSR1, before)
     with pytest.raises(RuntimeError, match="is closed"):
         sim.step()

@@ -198,7 +198,9 @@ UNDEFINED_CONSTANT = re.compile(r"^ *U (\S*::(?:k[A-Z]\w*|[A-Z_]+))$", re.M)
 
 
 def source_folders() -> list[Path]:
-    packages = [ROS_CONTROL.parent / name for name in ("franka_control", "franka_gripper", "franka_hw", "libfranka")]
+    packages = [
+        ROS_CONTROL.parent / name for name in ("franka_control", "franka_gripper", "franka_hw", "libfranka")
+    ]
     folders = sorted(ROS_CONTROL.glob("*/include")) + [package / "include" for package in packages]
     return [*folders, ROS_CONTROL / "boost_bind_compat" / "placeholders"]
 
@@ -281,6 +283,8 @@ def test_only_errors_of_the_system_are_excused_and_undefined_constants_found(tmp
     assert own_errors(error.format("/usr/include/log4cxx/logger.h")) == ""
     both = error.format("/usr/include/log4cxx/logger.h") + error.format("/clone/realtime_tools/box.h")
     assert own_errors(both) == both
-    later = "struct Limits {\n  static constexpr int kMax = 1;\n};\nconst int* max() { return &Limits::kMax; }\n"
+    later = (
+        "struct Limits {\n  static constexpr int kMax = 1;\n};\nconst int* max() { return &Limits::kMax; }\n"
+    )
     assert compiler_errors(later, tmp_path) == "Limits::kMax has no definition"
     assert "c++17" in compiler_errors("inline constexpr int kMax = 1;\n", tmp_path).lower()
