@@ -111,9 +111,9 @@ def test_what_is_wrong_with_all_worlds_is_said_once(threads):
     with pytest.warns(UserWarning) as caught, SimulationBatch(4, robots=near, threads=threads):
         assert [str(one.message) for one in caught] == alone
         assert {one.filename for one in caught} == {__file__}
-    with pytest.raises(RuntimeError) as expected:
+    with pytest.raises(FileNotFoundError) as expected:
         Simulation("nowhere.xml")
-    with pytest.raises(RuntimeError) as refused:
+    with pytest.raises(FileNotFoundError) as refused:
         SimulationBatch(4, "nowhere.xml", threads=threads)
     assert str(refused.value) == str(expected.value)
 

@@ -50,17 +50,18 @@ void StatePublisher::handOver() noexcept {
   realtime_tools::detail::PublishingThread::instance().noteHandOver();
 }
 
-std::optional<StatePublisher::Clock::time_point> StatePublisher::sendHandedOver() {
+bool StatePublisher::sendHandedOver(Clock::time_point& handed_over) {
   const std::size_t count = handed_over_.load(std::memory_order_acquire);
   std::size_t sent = sent_.load(std::memory_order_relaxed);
   if (sent == count) {
-    return std::nullopt;
+    return false;
   }
   while (sent != count) {
     publisher_.publish(ring_[sent % kWaiting]);
     sent_.store(++sent, std::memory_order_release);
   }
-  return Clock::now();
+  handed_over = Clock::now();
+  return true;
 }
 
 }  // namespace franka_control

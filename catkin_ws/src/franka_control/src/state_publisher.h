@@ -9,7 +9,6 @@
 
 #include <atomic>
 #include <cstddef>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -41,7 +40,7 @@ class StatePublisher : private realtime_tools::detail::PublishingThread::Sender 
  private:
   using Clock = realtime_tools::detail::PublishingSchedule::Clock;
 
-  std::optional<Clock::time_point> sendHandedOver() override;
+  bool sendHandedOver(Clock::time_point& handed_over) override;
 
   ros::Publisher publisher_;
   std::vector<franka_msgs::FrankaState> ring_;
