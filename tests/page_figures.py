@@ -50,7 +50,7 @@ def constant(file, words):
 
 def arm_limits(name):
     """The fields of a table in franka_core/limits.h that the pages use."""
-    words = f"{name} = [] {{ ArmLimits arm{{}};"
+    words = f"{name[1].lower()}{name[2:]}() {{ ArmLimits arm{{}};"
     for field in ("q_min", "q_max", "dq", "ddq", "dddq", "tau", "dtau"):
         words += f" arm.{field} = {{{{{SEVEN}}}}};"
     numbers = constant(CORE + "limits.h", words + " arm.translation = {#, #, #}; arm.rotation = {#, #, #};")

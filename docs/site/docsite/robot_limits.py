@@ -45,19 +45,20 @@ VELOCITY_ROWS = {
 # Distances from the end of a joint for which a table gives the velocity limit [rad].
 DISTANCES = (0.0, 0.05, 0.1, 0.2, 0.3, 0.5, 0.8, 1.0, 1.5)
 
-TABLE = re.compile(r"constexpr (\w+) (k\w+) = \[\] \{\s*\1 \w+(?: = (k\w+)|\{\});(.*?)return \w+;", re.S)
+# The function that makes a table: ferLimits() that of kFerLimits.
+TABLE = re.compile(r"constexpr (\w+) (\w+)\(\) \{\s*\1 \w+(?: = (k\w+)|\{\});(.*?)return \w+;", re.S)
 FIELD = re.compile(r"\b\w+\.(\w+) = (?:(k\w+)\.(\w+)|\{+([^}]*)\}+|([-\d.]+));")
 
 
 def read_tables(header: str) -> dict[str, dict[str, list[float]]]:
     """The tables of named fields in the header's text; a number is a list of one."""
     tables: dict[str, dict[str, list[float]]] = {}
-    for _, name, base, body in TABLE.findall(header):
+    for _, function, base, body in TABLE.findall(header):
         fields = dict(tables[base]) if base else {}
         for field, other, of_other, numbers, number in FIELD.findall(body):
             values = [float(each) for each in (numbers or number).split(",")] if not other else []
             fields[field] = tables[other][of_other] if other else values
-        tables[name] = fields
+        tables["k" + function[0].upper() + function[1:]] = fields
     return tables
 
 
