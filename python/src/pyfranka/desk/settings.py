@@ -66,9 +66,7 @@ class Limits:
     body: int = 1 << 16  #: [bytes] of a request
     body_time: float = 10.0  #: [s] for a whole body
     request_time: float = 10.0  #: [s] for the first request of a connection
-    rate: float = (
-        500.0  #: requests a second of one address (IPv6: of a network of 64 bits); more of them wait
-    )
+    rate: float = 500.0  #: requests a second of one address (IPv6: of 64 bits); more of them wait
     waiting: int = 200  #: requests of one address that wait; more are refused
     wrong_logins: int = 20  #: of one address at once; further logins wait for one second each
     wrong_logins_of_user: int = 20  #: the same for one user name
