@@ -66,6 +66,9 @@ bool isSame(const Value& one, const Value& other) {
   return one == other;
 }
 
+/// The answer of a comparison with another class, which Python then asks.
+py::object notImplemented() { return py::reinterpret_borrow<py::object>(Py_NotImplemented); }
+
 bool isSame(const franka::Errors& one, const franka::Errors& other) {
   return flagsOf(one) == flagsOf(other);
 }
@@ -137,10 +140,12 @@ void bindErrors(py::module_& module) {
           [](const py::tuple& kept) { return franka::Errors(kept[0].cast<ErrorFlags>()); }))
       .def(
           "__eq__",
-          [](const franka::Errors& self, const franka::Errors& other) {
-            return isSame(self, other);
+          [](const franka::Errors& self, const py::object& other) {
+            return py::isinstance<franka::Errors>(other)
+                       ? py::cast(isSame(self, other.cast<const franka::Errors&>()))
+                       : notImplemented();
           },
-          py::arg("other"), py::is_operator())
+          py::arg("other"))
       .def("__hash__",
            [](const franka::Errors& self) { return py::hash(py::tuple(py::cast(flagsOf(self)))); });
   for (std::size_t i = 0; i < franka_core::kErrorCount; i++) {
@@ -330,7 +335,14 @@ void bindState(py::module_& module) {
           "__deepcopy__",
           [](const py::object& self, const py::object& /* memo */) { return copyOf(self); },
           py::arg("memo"))
-      .def("__eq__", &isEqual, py::arg("other"), py::is_operator())
+      .def(
+          "__eq__",
+          [](const RobotState& self, const py::object& other) {
+            return py::isinstance<RobotState>(other)
+                       ? py::cast(isEqual(self, other.cast<const RobotState&>()))
+                       : notImplemented();
+          },
+          py::arg("other"))
       .def("to_dict", &valuesOf, kDictDoc);
 
   py::class_<franka::Record>(
@@ -405,16 +417,16 @@ void bindSimState(py::module_& module) {
            "<class 'pyfranka.RobotState'>")
       .def(
           "__eq__",
-          [](const State& self, const State& other) {
-            return isEqual(snapshotOf(self), snapshotOf(other));
+          [](const State& self, const py::object& other) {
+            if (py::isinstance<State>(other)) {
+              return py::object(
+                  py::cast(isEqual(snapshotOf(self), snapshotOf(other.cast<const State&>()))));
+            }
+            return py::isinstance<RobotState>(other)
+                       ? py::cast(isEqual(snapshotOf(self), other.cast<const RobotState&>()))
+                       : notImplemented();
           },
-          py::arg("other"), py::is_operator())
-      .def(
-          "__eq__",
-          [](const State& self, const RobotState& other) {
-            return isEqual(snapshotOf(self), other);
-          },
-          py::arg("other"), py::is_operator())
+          py::arg("other"))
       .def(
           "to_dict", [](const State& self) { return valuesOf(snapshotOf(self)); }, kDictDoc)
       .def(

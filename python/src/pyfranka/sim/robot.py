@@ -5,10 +5,11 @@
 from __future__ import annotations
 
 import numpy
+from _pyfranka import RobotState
 from _pyfranka._sim import ArmModel, GripperOutcome, LiveState
 from numpy.typing import ArrayLike, NDArray
 
-from pyfranka import RobotState, _copies
+from pyfranka import _copies
 from pyfranka._deprecation import renamed
 from pyfranka._native import _sim
 
