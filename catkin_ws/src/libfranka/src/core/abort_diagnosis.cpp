@@ -225,8 +225,8 @@ std::string Diagnosis::collision() const {
       "set_full_collision_behavior, collision_config in the node's yaml file).";
   return text.empty() ? "the log does not show where. Check" + advice
                       : "a collision was detected at " + text +
-                            ". These values are filtered: the robot compares a larger one with its "
-                            "thresholds. If nothing was touched, check" +
+                            ". These values are filtered: those that the robot compared with its "
+                            "thresholds may have been larger. If nothing was touched, check" +
                             advice;
 }
 

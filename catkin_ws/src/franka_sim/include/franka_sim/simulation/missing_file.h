@@ -6,7 +6,7 @@
 
 namespace franka_sim {
 
-/// There is no such file. The text is a sentence with its name.
+/// Thrown for a file that does not exist. Its text is a sentence with the file's name.
 class MissingFile : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
