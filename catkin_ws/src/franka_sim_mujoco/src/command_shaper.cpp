@@ -32,6 +32,15 @@ Joints withMargin(Joints limits) noexcept {
   return limits;
 }
 
+// Velocities have the margin of the robot's own client: that of a Panda also keeps what the
+// acceleration adds while packets are lost.
+double velocityWithMargin(const franka_core::MotionLimits& limits, double velocity,
+                          double acceleration) noexcept {
+  const double lost =
+      limits.position_velocity ? 0.0 : franka::kTolNumberPacketsLost * franka::kDeltaT;
+  return velocity - kMargin - lost * (acceleration - kMargin);
+}
+
 bool isFiltered(const ShapingOptions& options) noexcept {
   return options.cutoff_frequency < franka::kMaxCutoffFrequency;
 }
@@ -56,7 +65,9 @@ franka_core::JointVelocityRange rangeOf(const franka_core::MotionLimits& limits,
         q);
   }
   franka_core::JointVelocityRange range{};
-  range.highest = withMargin(limits.arm.dq);
+  for (std::size_t i = 0; i < range.highest.size(); ++i) {
+    range.highest[i] = velocityWithMargin(limits, limits.arm.dq[i], limits.arm.ddq[i]);
+  }
   std::transform(range.highest.begin(), range.highest.end(), range.lowest.begin(), std::negate<>());
   return range;
 }
@@ -105,9 +116,9 @@ std::array<double, 16> shapePose(const ShapingOptions& options, std::array<doubl
   if (options.rate_limiting && franka_core::isHomogeneousTransformation(pose)) {
     const auto& [v, a, j] = limits.arm.translation;
     const auto& [w, dw, ddw] = limits.arm.rotation;
-    pose =
-        franka::limitRate(v - kMargin, a - kMargin, j - kMargin, w - kMargin, dw - kMargin,
-                          ddw - kMargin, pose, state.O_T_EE_c, state.O_dP_EE_c, state.O_ddP_EE_c);
+    pose = franka::limitRate(velocityWithMargin(limits, v, a), a - kMargin, j - kMargin,
+                             velocityWithMargin(limits, w, dw), dw - kMargin, ddw - kMargin, pose,
+                             state.O_T_EE_c, state.O_dP_EE_c, state.O_ddP_EE_c);
   }
   return pose;
 }
@@ -119,8 +130,9 @@ std::array<double, 6> shapeTwist(const ShapingOptions& options, std::array<doubl
   if (options.rate_limiting) {
     const auto& [v, a, j] = limits.arm.translation;
     const auto& [w, dw, ddw] = limits.arm.rotation;
-    twist = franka::limitRate(v - kMargin, a - kMargin, j - kMargin, w - kMargin, dw - kMargin,
-                              ddw - kMargin, twist, state.O_dP_EE_c, state.O_ddP_EE_c);
+    twist = franka::limitRate(velocityWithMargin(limits, v, a), a - kMargin, j - kMargin,
+                              velocityWithMargin(limits, w, dw), dw - kMargin, ddw - kMargin, twist,
+                              state.O_dP_EE_c, state.O_ddP_EE_c);
   }
   return twist;
 }
@@ -142,8 +154,8 @@ void shapeElbow(const ShapingOptions& options, const std::array<double, 2>& elbo
   }
   if (options.rate_limiting) {
     const auto& [v, a, j] = limits.arm.elbow;
-    q3 = franka::limitRate(v - kMargin, a - kMargin, j - kMargin, q3, state.elbow_c[0],
-                           state.delbow_c[0], state.ddelbow_c[0]);
+    q3 = franka::limitRate(velocityWithMargin(limits, v, a), a - kMargin, j - kMargin, q3,
+                           state.elbow_c[0], state.delbow_c[0], state.ddelbow_c[0]);
   }
 }
 

@@ -4,6 +4,7 @@
 /// @file
 /// Commands of controllers on their way to the control unit.
 
+#include <franka/rate_limiting.h>
 #include <franka_sim/robot/plant.h>
 #include <franka_sim_mujoco/command_shaper.h>
 #include <franka_sim_mujoco/sim_arm.h>
@@ -169,6 +170,65 @@ TEST_P(ShapedMotion, IsNeverRefused) {
 }
 
 INSTANTIATE_TEST_SUITE_P(PandaAndFr3, ShapedMotion, testing::Values(5u, 10u));
+
+/// The limiter of the original, joint by joint, as its published formulas have it.
+double limitedAsInTheOriginal(double position, double last, double velocity, double acceleration,
+                              double max_velocity, double max_acceleration, double max_jerk) {
+  constexpr double kT = 0.001;
+  const double jerk = (((position - last) / kT - velocity) / kT - acceleration) / kT;
+  const double free = acceleration + std::clamp(jerk, -max_jerk, max_jerk) * kT;
+  const double highest =
+      std::min(max_jerk / max_acceleration * (max_velocity - velocity), max_acceleration);
+  const double lowest =
+      std::max(max_jerk / max_acceleration * (-max_velocity - velocity), -max_acceleration);
+  return last + (velocity + std::max(std::min(free, highest), lowest) * kT) * kT;
+}
+
+/// A controller whose position setpoints come in steps. Joint 1 of a Panda, whose limits are
+/// constant.
+class ShapedSetpoints : public testing::TestWithParam<double> {};
+
+TEST_P(ShapedSetpoints, MoveTheArmAsTheLimiterOfTheOriginal) {
+  const franka_sim::MotionLimits limits = limitsOf(5);
+  const double cutoff = GetParam();
+  ShapingOptions options;
+  options.cutoff_frequency = cutoff;
+  const double gain = cutoff >= 1000.0 ? 1.0 : 0.001 / (0.001 + 1.0 / (2.0 * M_PI * cutoff));
+  for (const double step : {0.05, 0.5}) {
+    franka_sim::JointMotion motion;
+    franka_core::RobotState state{};
+    state.q_d = {{0.0, -0.8, 0.0, -2.0, 0.0, 1.6, 0.0}};
+    motion.start(state.q_d);
+    ASSERT_FALSE(motion.takePositions(state.q_d, limits));
+    ArmCommands desired;
+    desired.position = state.q_d;
+    desired.position[0] = step;
+    double q = 0.0;
+    double dq = 0.0;
+    double ddq = 0.0;
+    double fastest = 0.0;
+    for (int tick = 0; tick < 3000; ++tick) {
+      const auto command =
+          shapeCommand(options, franka_hw::ControlMode::JointPosition, desired, state, limits);
+      ASSERT_FALSE(motion.takePositions(command.q_c, limits)) << tick;
+      state.q_d = motion.last().q;
+      state.dq_d = motion.last().dq;
+      state.ddq_d = motion.last().ddq;
+      fastest = std::max(fastest, std::abs(state.dq_d[0]));
+      const double next = limitedAsInTheOriginal(
+          gain * step + (1.0 - gain) * q, q, dq, ddq, franka::kMaxJointVelocity[0],
+          franka::kMaxJointAcceleration[0], franka::kMaxJointJerk[0]);
+      ddq = ((next - q) / 0.001 - dq) / 0.001;
+      dq = (next - q) / 0.001;
+      q = next;
+      ASSERT_NEAR(q, state.q_d[0], 1e-6) << tick;
+    }
+    EXPECT_LT(fastest, limits.arm.dq[0]);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(CutoffFrequencies, ShapedSetpoints,
+                         testing::Values(3.0, 10.0, 100.0, 1000.0));
 
 /// An FR3's velocity limits fall towards the joints' ends faster than joints 5 and 7 can brake.
 class ShapedMotionToTheEnds : public testing::TestWithParam<unsigned> {};
