@@ -121,7 +121,7 @@ class CellMachine(state_machines.Machine):
 
     cell = None
     references: dict[int, dict] = {}
-    threads = 0
+    threads = memory = 0
 
     @initialize(formation=st.integers(0, len(FORMATIONS) - 1))
     def start(self, formation):
@@ -143,7 +143,7 @@ class CellMachine(state_machines.Machine):
         }
         self.tolerance = SAME
         self.named, self.stopped, self.apart, self.unrecovered = set(), set(), set(), set()
-        self.check_threads()
+        self.check_growth()
 
     def press_served(self, source: str, on: bool) -> None:
         """Presses or releases a stop of the served robot, by its service or by a line."""
@@ -175,12 +175,14 @@ class CellMachine(state_machines.Machine):
             positions[self.cell.age] = self.cell.positions()
         return positions
 
-    def check_threads(self) -> None:
-        """They may grow in the first sequences, when all that a process uses has been used once."""
-        threads = self.cell.threads
+    def check_growth(self) -> None:
+        """Both may grow in the first sequences, until all that a process uses has been used once."""
+        threads, memory = self.cell.threads, self.cell.memory
         if self.sequences == 10:
-            type(self).threads = threads
-        assert self.sequences <= 10 or threads <= self.threads + 4, "threads grow"
+            type(self).threads, type(self).memory = threads, memory
+        if self.sequences > 10:
+            assert threads <= self.threads + 4, "threads grow"
+            assert memory <= 2 * self.memory, "memory grows"
 
     def name(self, arm: str) -> None:
         """The present step may change the motion of this arm."""

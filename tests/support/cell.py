@@ -189,6 +189,12 @@ class Cell:
         """Of the simulation's process."""
         return len(list(Path(f"/proc/{self.process}/task").iterdir()))
 
+    @property
+    def memory(self) -> int:
+        """Resident bytes of the simulation's process."""
+        pages = int(Path(f"/proc/{self.process}/statm").read_text(encoding="ascii").split()[1])
+        return pages * os.sysconf("SC_PAGE_SIZE")
+
     def step(self, ticks: int) -> None:
         answer = self._step(ticks)
         assert answer.success, answer.error
