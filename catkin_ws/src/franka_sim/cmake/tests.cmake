@@ -101,6 +101,7 @@ sim_test(physics_test
     test/physics/model_agreement_test.cpp
     test/physics/renderer_test.cpp
     test/physics/sdf_meshes_test.cpp
+    test/physics/links_without_gravity_test.cpp
     test/physics/sdf_text_test.cpp
     test/physics/sdf_world_test.cpp
     test/physics/shapes_test.cpp

@@ -129,7 +129,7 @@ void describeLink(Simulation& simulation, const std::string& name,
     const franka_sim::BodyInertia body = bodyInertia(world, GazeboModels(world).body(name));
     response.com.position = toPoint(body.center);
     response.com.orientation.w = 1;
-    response.gravity_mode = true;
+    response.gravity_mode = body.gravity;
     response.mass = body.mass;
     response.ixx = body.inertia[0];
     response.ixy = body.inertia[1];

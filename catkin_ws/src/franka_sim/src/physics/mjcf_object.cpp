@@ -44,6 +44,7 @@ class SceneBuilder {
     result.name = model() + "::" + link.name;
     result.model = model();
     result.is_static = urdf_.is_static;
+    result.gravity = link.gravity;
     result.pose = pose;
     result.inertial = link.inertial.value_or(UrdfInertial{});
     if (result.inertial.mass == 0 && !link.collisions.empty() && !urdf_.is_static) {

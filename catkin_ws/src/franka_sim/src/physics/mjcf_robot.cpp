@@ -8,6 +8,7 @@
 #include <set>
 
 #include "physics/contacts.h"
+#include "physics/links_without_gravity.h"
 #include "physics/mesh_assets.h"
 #include "physics/mjcf_files.h"
 #include "physics/xml_util.h"
@@ -74,6 +75,7 @@ class Writer {
       for (const auto& [link, pose] : segment.links) {
         writeShapes(robot_.urdf.links[link], pose, body);
         writeCameras(robot_.urdf.links[link], pose, body);
+        writeGravity(robot_.urdf.links[link], pose, body);
       }
     }
     writeEqualities();
@@ -91,6 +93,12 @@ class Writer {
   static void writeCameras(const UrdfLink& link, const Eigen::Isometry3d& pose, XMLElement* body) {
     for (const CameraSensor& camera : link.cameras) {
       writeCamera(camera, pose, body);
+    }
+  }
+
+  static void writeGravity(const UrdfLink& link, const Eigen::Isometry3d& pose, XMLElement* body) {
+    if (!link.gravity && link.inertial) {
+      LinksWithoutGravity::write(link.name, link.inertial->mass, pose * link.inertial->com, body);
     }
   }
 

@@ -9,6 +9,7 @@
 #include <stdexcept>
 
 #include "physics/contacts.h"
+#include "physics/links_without_gravity.h"
 #include "physics/meshes.h"
 #include "physics/mjcf_files.h"
 #include "physics/rotations.h"
@@ -135,6 +136,10 @@ class SdfWriter {
       setPose(body, parent < 0 ? frames_[link] : frames_[parent].inverse() * frames_[link]);
       moving_[link] = writeMobility(link, joint, body);
       writeInertial(inBody(scene_.links[link].inertial, in_body), body);
+    }
+    if (!scene_.links[link].gravity) {
+      const UrdfInertial inertial = inBody(scene_.links[link].inertial, in_body);
+      LinksWithoutGravity::write(names_[link], inertial.mass, inertial.com, bodies_[link]);
     }
     int count = 0;
     for (const SdfShape& shape : scene_.links[link].collisions) {

@@ -186,6 +186,7 @@ class Reader {
     }
     result.model = scene_.models.back().name;
     result.is_static = place.is_static;
+    result.gravity = isTrue(link, "gravity", true);
     result.pose = place.pose * place.frames.pose(own_name);
     result.inertial = readInertial(link, result.name);
     forEach(link, "collision", [&](const XMLElement& collision) {
@@ -230,9 +231,6 @@ class Reader {
 
   void noteOfLink(const XMLElement& link, const std::string& name) {
     const std::string what = "link '" + name + "'";
-    if (!isTrue(link, "gravity", true)) {
-      note("<gravity>false</gravity> of " + what);
-    }
     for (const char* setting : {"enable_wind", "kinematic", "self_collide"}) {
       noteTrue(link, setting, what);
     }

@@ -66,6 +66,7 @@ struct SdfLink {
   std::string name;   ///< with its models: "outer::inner::link"
   std::string model;  ///< outermost model
   bool is_static{false};
+  bool gravity{true};
   Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};  ///< in the world
   UrdfInertial inertial;
   std::vector<SdfShape> collisions, visuals;

@@ -281,6 +281,26 @@ void readPlugins(const XMLElement& gazebo, UrdfRobot* robot) {
   }
 }
 
+/// What a <collision> sets has no effect, apart from its friction. ODE's own settings have no
+/// counterpart here, and franka_description has them, too: they are not named.
+void noteCollision(const XMLElement& element, const std::string& what,
+                   std::set<std::string>* notes) {
+  static const std::set<std::string> known{"mu", "max_contacts", "max_vel", "min_depth"};
+  for (auto* e = element.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
+    const std::string name = e->Name();
+    const bool is_same = name == "mu2" && childText(element, "mu2") == childText(element, "mu");
+    if (e->FirstChildElement() != nullptr) {
+      noteCollision(*e, what, notes);
+    } else if (e->GetText() != nullptr && known.count(name) == 0 && !is_same) {
+      notes->insert("<" + name + "> of a collision of " + what);
+    }
+  }
+}
+
+bool hasGravity(const XMLElement& gazebo) {
+  return isTrue(gazebo, "gravity", true) && !isTrue(gazebo, "turnGravityOff", false);
+}
+
 /// Settings of Gazebo that have no effect here, with what they are of.
 void noteUnread(const XMLElement& gazebo, UrdfRobot* robot) {
   const std::string reference = optional(gazebo, "reference");
@@ -289,8 +309,12 @@ void noteUnread(const XMLElement& gazebo, UrdfRobot* robot) {
     robot->notes.insert("<gazebo> of " + what + ", which is neither a link nor a joint");
     return;
   }
-  if (isTrue(gazebo, "turnGravityOff", false) || !isTrue(gazebo, "gravity", true)) {
+  if (!hasGravity(gazebo) && robot->link(reference) < 0) {
     robot->notes.insert("gravity that is off, of " + what);
+  }
+  for (auto* collision = gazebo.FirstChildElement("collision"); collision != nullptr;
+       collision = collision->NextSiblingElement("collision")) {
+    noteCollision(*collision, what, &robot->notes);
   }
   // Fixed joints are always kept; forces of joints can always be read.
   noteUnknown(
@@ -321,6 +345,7 @@ void readExtensions(const XMLElement& root, const std::string& context, UrdfRobo
     UrdfLink* const link = index < 0 ? nullptr : &robot->links[index];
     if (link != nullptr) {
       readFriction(*e, context, link);
+      link->gravity = link->gravity && hasGravity(*e);
     }
     readSensors(*e, robot, link);
     readPlugins(*e, robot);

@@ -38,6 +38,7 @@ struct UrdfLink {
   std::vector<UrdfGeometry> collisions, visuals;
   std::vector<CameraSensor> cameras;  ///< of the <gazebo reference> element
   std::optional<double> friction;     ///< mu of the <gazebo reference> element
+  bool gravity{true};                 ///< of the <gazebo reference> element
   int parent_joint{-1};               ///< index in UrdfRobot::joints, -1 for the root
   std::vector<int> child_joints;      ///< in the order of the file
 };

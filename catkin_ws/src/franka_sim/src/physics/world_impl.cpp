@@ -112,6 +112,7 @@ void World::Impl::index(WorldChange::Content& change) {
   clearance.fit(*model, owners);
   object_rest.fit(*model, owners);
   collisions.fit(*model, owners);
+  without_gravity = physics::LinksWithoutGravity(*model);
   contacts_kept = false;
   objects_held = false;
   kept_contacts.reserve(model->nconmax);
@@ -267,9 +268,13 @@ bool World::Impl::isObject(int body) const noexcept {
   return owners.robot_of_body[body] < 0 && model->body_weldid[body] != 0;
 }
 
+bool World::Impl::isPushed() const noexcept { return !pushes.empty() || !without_gravity.empty(); }
+
 bool World::Impl::pushesObjects() const noexcept {
+  const auto& floating = without_gravity.bodies();
   return std::any_of(pushes.begin(), pushes.end(),
-                     [this](const Push& push) { return isObject(push.body); });
+                     [this](const Push& push) { return isObject(push.body); }) ||
+         std::any_of(floating.begin(), floating.end(), [this](int body) { return isObject(body); });
 }
 
 Eigen::Isometry3d World::Impl::pose(const Frame& frame) {
@@ -301,6 +306,7 @@ void World::Impl::applyPushes() noexcept {
     Eigen::Map<Eigen::Vector3d>(wrench) += push.force;
     Eigen::Map<Eigen::Vector3d>(wrench + 3) += push.torque + (point - com).cross(push.force);
   }
+  without_gravity.push(*model, data.get());
 }
 
 void World::Impl::clearPushes() noexcept {
@@ -368,7 +374,7 @@ void World::Impl::advance() {
   motor_side.startTick(*model, *data);
   object_rest.startSteps(*data, motor_side);
   for (int substep = 0; substep < count; ++substep) {
-    if (!pushes.empty()) {
+    if (isPushed()) {
       applyPushes();
     }
     for (auto& [joint, drive] : drives) {
@@ -384,7 +390,7 @@ void World::Impl::advance() {
   motor_side.finishTick(*model, *data, count, kTick);
   clearance.finishTick();
   object_rest.finishTick(&motor_side);
-  if (!pushes.empty()) {
+  if (isPushed()) {
     retirePushes();
   }
   kinematics_fresh = false;

@@ -19,6 +19,7 @@
 
 #include "physics/contacts.h"
 #include "physics/joint_dynamics.h"
+#include "physics/links_without_gravity.h"
 #include "physics/mjcf_world.h"
 #include "physics/model_compiler.h"
 #include "physics/object_rest.h"
@@ -115,6 +116,7 @@ struct World::Impl {
   physics::RobotClearance clearance;
   physics::ObjectRest object_rest;
   physics::CollisionScope collisions;
+  physics::LinksWithoutGravity without_gravity;
   Substeps substeps{Substeps::kAdaptive};
   // Whether the last step's contacts are kept in kept_contacts, because the data holds those of the
   // next step.
@@ -185,6 +187,7 @@ struct World::Impl {
   void stop(const physics::StepFault& why) noexcept;
   void stop(const physics::EngineError& error) noexcept;
   void advance();
+  bool isPushed() const noexcept;
   bool pushesObjects() const noexcept;
   void applyPushes() noexcept;
   void retirePushes() noexcept;

@@ -168,11 +168,15 @@ TEST(UrdfRobotTest, NamesSettingsOfGazeboThatHaveNoEffect) {
   const auto of = [](const std::string& name, const std::string& settings) {
     return "<gazebo reference='" + name + "'>" + settings + "</gazebo>";
   };
-  EXPECT_EQ(List{"gravity that is off, of 'arm'"}, notesOf(of("arm", "<gravity>0</gravity>")));
-  EXPECT_EQ(List{"gravity that is off, of 'arm'"},
-            notesOf(of("arm", "<turnGravityOff>true</turnGravityOff>")));
+  EXPECT_EQ(List{"gravity that is off, of 'j'"}, notesOf(of("j", "<gravity>0</gravity>")));
   EXPECT_EQ((List{"<kd> of 'arm'", "<kp> of 'arm'", "<mu2> of 'arm'"}),
             notesOf(of("arm", "<mu1>1</mu1><mu2>1</mu2><kp>1e6</kp><kd>1</kd>")));
+  EXPECT_EQ(
+      (List{"<kp> of a collision of 'arm'", "<mu2> of a collision of 'arm'"}),
+      notesOf(of("arm",
+                 "<collision><max_contacts>9</max_contacts><surface><contact><ode><kp>1e6</kp>"
+                 "<min_depth>0.1</min_depth></ode></contact><friction><ode><mu>1</mu>"
+                 "<mu2>2</mu2></ode></friction></surface></collision>")));
   EXPECT_EQ(List{"<selfCollide> of 'arm'"}, notesOf(of("arm", "<selfCollide>true</selfCollide>")));
   EXPECT_EQ(List{"<self_collide> of 'arm'"}, notesOf(of("arm", "<self_collide>1</self_collide>")));
   EXPECT_EQ(List{"<stopKd> of 'j'"}, notesOf(of("j", "<stopKd>1</stopKd>")));
@@ -180,7 +184,7 @@ TEST(UrdfRobotTest, NamesSettingsOfGazeboThatHaveNoEffect) {
             notesOf(of("amr", "<gravity>0</gravity>")));
   EXPECT_EQ(List{"<pose> of the model"}, notesOf("<gazebo><pose>0 0 1 0 0 0</pose></gazebo>"));
   EXPECT_EQ(List{}, notesOf(of("arm",
-                               "<mu1>1</mu1><turnGravityOff>false</turnGravityOff>"
+                               "<mu1>1</mu1><turnGravityOff>true</turnGravityOff>"
                                "<collision><surface/></collision>") +
                             of("j", "<provideFeedback>true</provideFeedback>") +
                             "<gazebo><static>false</static></gazebo>"));

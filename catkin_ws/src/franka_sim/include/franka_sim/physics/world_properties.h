@@ -108,6 +108,7 @@ struct BodyInertia {
   std::array<double, 3> center{};  ///< of mass, in the body's frame [m]
   /// xx, xy, xz, yy, yz, zz about the center of mass, along the body's axes [kg m^2]
   std::array<double, 6> inertia{};
+  bool gravity{true};  ///< false: gravity does not pull this link
 };
 
 /// @throws std::runtime_error with a sentence for an unknown body, and for one that is fixed to
