@@ -94,7 +94,8 @@ def client(robot, operator):
     address, version = ROBOTS[robot]
     with Client(address, version) as client:
         assert client.connect() == (0, version)
-        if client.newest_state().mode == REFLEX:
+        # The motion of a client that has gone may still end.
+        if client.state_until(lambda state: state.mode != MOVE).mode == REFLEX:
             client.recover()
         yield client
 

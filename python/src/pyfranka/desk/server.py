@@ -113,6 +113,7 @@ async def _finish(request: web.Request, handler: Handler) -> web.StreamResponse:
     if not answer.prepared:
         if "Upgrade" in request.headers:  # aiohttp reads no further request of this connection
             answer.force_close()
+            request.protocol._message_tail = b""  # a body, which aiohttp 3.11 reads as a request
         answer.headers.setdefault("Server", "franka_desk")
         answer.headers.setdefault("Cache-Control", "no-store")
         answer.headers.setdefault("X-Content-Type-Options", "nosniff")
