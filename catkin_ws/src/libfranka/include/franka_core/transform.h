@@ -27,6 +27,10 @@ bool isRigidTransform(const std::array<double, 16>& matrix) noexcept;
 
 /// Why a matrix is not a rigid transform, as the end of a sentence that names the matrix: "its
 /// bottom row is 1e-17 0 0 1 and must be exactly 0 0 0 1"; empty if it is one. Not real-time safe.
+/// A translation in the bottom row is reported as a row-major matrix.
 std::string transformFault(const std::array<double, 16>& matrix);
+
+/// Likewise, for a tolerance of its own: of the length of columns, and of the product of two.
+std::string roughTransformFault(const std::array<double, 16>& matrix, double tolerance);
 
 }  // namespace franka_core
