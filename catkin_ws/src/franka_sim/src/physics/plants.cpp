@@ -3,6 +3,7 @@
 #include "physics/plants.h"
 
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace franka_sim::physics {
@@ -10,6 +11,10 @@ namespace {
 
 /// A NaN would make MuJoCo reset the whole world; zero torque is less harmful.
 double finite(double value) noexcept { return std::isfinite(value) ? value : 0.0; }
+
+double positiveOrNone(double limit) noexcept {
+  return limit > 0.0 ? limit : std::numeric_limits<double>::infinity();
+}
 
 /// Closes or opens a joint's brake. The equality holds q - qpos0 at its constant term.
 void writeHold(const PlantView& view, const JointSlot& slot, bool closed,
@@ -125,10 +130,11 @@ void MujocoDrive::applyEffort(double effort) noexcept {
   writeTarget();
 }
 
-bool MujocoDrive::follow(double position) noexcept {
+bool MujocoDrive::follow(double position, const DriveLimits& limits) noexcept {
   if (!std::isfinite(position) || slot_.brake < 0) {
     return false;
   }
+  state_.limits = {positiveOrNone(limits.effort), positiveOrNone(limits.velocity)};
   state_.last_target = state_.follows ? state_.target : view_->data->qpos[slot_.qpos];
   state_.follows = true;
   state_.target = position;
@@ -160,6 +166,7 @@ void MujocoDrive::prepare(int substep, int substeps) noexcept {
   }
   const double way = state_.target - state_.last_target;
   writeHold(*view_, slot_, true, state_.target - way * (substeps - substep) / substeps);
+  view_->hold_limits->set(slot_.brake, {state_.limits.effort, state_.limits.velocity, way / kTick});
   if (substep == substeps) {
     state_.last_target = state_.target;
   }

@@ -8,6 +8,7 @@
 #include <array>
 #include <string>
 
+#include "physics/hold_limits.h"
 #include "physics/joint_dynamics.h"
 #include "physics/step_preparation.h"
 
@@ -24,6 +25,7 @@ struct PlantView {
   mjModel* model{nullptr};
   mjData* data{nullptr};
   MotorSide* motor_side{nullptr};
+  HoldLimits* hold_limits{nullptr};
   /// Must have finished before a hold is written, which a preparation reads; null: there is none.
   PreparationThread* preparation_thread{nullptr};
 };
@@ -94,7 +96,8 @@ class MujocoDrive final : public JointDrive {
 
   JointMeasurement measure() const noexcept override;
   void applyEffort(double effort) noexcept override;
-  bool follow(double position) noexcept override;
+  using JointDrive::follow;
+  bool follow(double position, const DriveLimits& limits) noexcept override;
 
   const std::array<std::string, 1>& joints() const noexcept { return joint_; }
   using Slots = std::array<JointSlot, 1>;
@@ -111,7 +114,8 @@ class MujocoDrive final : public JointDrive {
   struct State {
     bool follows{false};
     double last_target{0},
-        target{0};  ///< followed position at the last tick's end, and at this one's
+        target{0};       ///< followed position at the last tick's end, and at this one's
+    DriveLimits limits;  ///< while it follows
   };
   const State& state() const noexcept { return state_; }
   /// Call after the model's equalities were restored.

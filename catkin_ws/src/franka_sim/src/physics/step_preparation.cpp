@@ -192,10 +192,15 @@ std::optional<StepFault> findFault(const mjModel& model, const mjData& data) noe
 
 // Like mj_step2, but without the reset of a world with wrong accelerations. Merged models use the
 // Euler integrator.
-std::optional<StepFault> StepPreparation::finishStep(const mjModel& model, mjData* data) {
+std::optional<StepFault> StepPreparation::finishStep(const mjModel& model, mjData* data,
+                                                     HoldLimits& hold_limits) {
   mj_fwdActuation(&model, data);
   mj_fwdAcceleration(&model, data);
+  hold_limits.limitReturn(model, data);
   solver_.solve(model, data);
+  while (hold_limits.replaceExceeded(model, data)) {
+    solver_.solve(model, data);
+  }
   mj_sensorAcc(&model, data);
   if (const auto fault = findFault(data->qacc, model.nv, StepFault::Where::kAcceleration)) {
     return fault;
@@ -238,7 +243,7 @@ void StepPreparation::prepare(mjModel* model, mjData* data, CollisionScope& coll
 
 std::optional<StepFault> StepPreparation::step(mjModel* model, mjData* data,
                                                CollisionScope& collisions,
-                                               JointFrictions& frictions) {
+                                               JointFrictions& frictions, HoldLimits& hold_limits) {
   if (isFor(*model, *data)) {
     mj_normalizeQuat(model, data->qpos);
   } else {
@@ -249,7 +254,7 @@ std::optional<StepFault> StepPreparation::step(mjModel* model, mjData* data,
   }
   ready_ = false;
   frictions.apply(*model, data);
-  return finishStep(*model, data);
+  return finishStep(*model, data, hold_limits);
 }
 
 }  // namespace franka_sim::physics

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "physics/hold_limits.h"
 #include "physics/joint_dynamics.h"
 #include "physics/robot_clearance.h"
 
@@ -125,14 +126,14 @@ class StepPreparation {
   void drop() noexcept { ready_ = false; }
   /// Does not change positions and velocities; contacts become those of the next step.
   void prepare(mjModel* model, mjData* data, CollisionScope& collisions);
-  /// One physics step with friction in the joints, or the fault that prevents it: then time,
-  /// positions and velocities are unchanged.
+  /// One physics step with friction in the joints and limited holds, or the fault that prevents it:
+  /// then time, positions and velocities are unchanged.
   std::optional<StepFault> step(mjModel* model, mjData* data, CollisionScope& collisions,
-                                JointFrictions& frictions);
+                                JointFrictions& frictions, HoldLimits& hold_limits);
 
  private:
   bool isFor(const mjModel& model, const mjData& data) const noexcept;
-  std::optional<StepFault> finishStep(const mjModel& model, mjData* data);
+  std::optional<StepFault> finishStep(const mjModel& model, mjData* data, HoldLimits& hold_limits);
 
   EqualitySolver solver_;
   bool ready_{false};

@@ -104,7 +104,7 @@ void World::Impl::orderFrames() {
 void World::Impl::index(WorldChange::Content& change) {
   visual_mjcf.clear();
   warned = {};
-  view = {model.get(), data.get(), &motor_side, preparation_thread.get()};
+  view = {model.get(), data.get(), &motor_side, &hold_limits, preparation_thread.get()};
   kinematics_fresh = false;
   kept_qpos.assign(model->nq, 0.0);
   preparation.fit(*model);
@@ -159,6 +159,7 @@ void World::Impl::index(WorldChange::Content& change) {
       frictions.add(*model, joint, law);
     }
   }
+  hold_limits.fit(*model);
   bindPlants(change);
   const auto gone = [this](const Push& push) {
     return push.joint.empty() ? frames.count(push.body_name) == 0 : !has(push.joint);
@@ -380,7 +381,8 @@ void World::Impl::advance() {
     for (auto& [joint, drive] : drives) {
       drive->prepare(substep + 1, count);
     }
-    if (const auto why = preparation.step(model.get(), data.get(), collisions, frictions)) {
+    if (const auto why =
+            preparation.step(model.get(), data.get(), collisions, frictions, hold_limits)) {
       stop(*why);
       return;
     }

@@ -104,6 +104,7 @@ struct World::Impl {
   physics::DataPtr data;
   physics::MotorSide motor_side;
   physics::JointFrictions frictions;
+  physics::HoldLimits hold_limits;
   physics::PlantView view;
   std::map<std::string, Frame> frames;
   /// All bodies, in MuJoCo's order and some without a name; then the links and bodies in them.

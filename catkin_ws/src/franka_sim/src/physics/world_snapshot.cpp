@@ -8,6 +8,7 @@
 #include <franka_sim/physics/world.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
@@ -180,6 +181,13 @@ std::uint64_t World::Impl::hash() const noexcept {
   for (int e = 0; e < model->neq; ++e) {
     hash.add(static_cast<std::uint64_t>(model->eq_active[e]));
     hash.add(model->eq_data + mjNEQDATA * e, 1);
+  }
+  for (const auto& [joint, drive] : drives) {
+    const DriveLimits& limits = drive->state().limits;
+    if (drive->state().follows && std::isfinite(limits.effort)) {
+      hash.add(&limits.effort, 1);
+      hash.add(&limits.velocity, 1);
+    }
   }
   for (const Push& push : pushes) {
     hash.add(push.ticks_left);

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <source_file.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "test_support.h"
 
@@ -64,6 +66,91 @@ TEST_F(JointDriveTest, FollowsASteadyMotionWithFourMillisecondsLag) {
   }
   EXPECT_NEAR(v, lift_->measure().velocity, 1e-6);
   EXPECT_NEAR(target - v * 0.004, lift_->measure().position, v * 0.001);
+}
+
+TEST_F(JointDriveTest, YieldsBeyondItsMaximumEffortAndReturns) {
+  lift_->follow(0.5, {kWeight + 20, 0.2});
+  step(500);
+  EXPECT_NEAR(0.5, lift_->measure().position, 1e-5);
+  EXPECT_NEAR(kWeight, lift_->measure().effort, 1e-3);
+  pushBody(world_, "platform", {0, 0, -50}, {0, 0, 0}, 100);
+  step(100);
+  EXPECT_NEAR(0.5 - 0.5 * 30.0 / 12.0 * 0.01, lift_->measure().position, 1e-3);
+  EXPECT_NEAR(kWeight + 20, lift_->measure().effort, 1e-6);
+  double highest = 0.0, fastest = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    step(1);
+    highest = std::max(highest, lift_->measure().position);
+    fastest = std::max(fastest, lift_->measure().velocity);
+  }
+  EXPECT_NEAR(0.5, lift_->measure().position, 1e-5);
+  EXPECT_LT(highest, 0.5 + 1e-4);
+  EXPECT_LT(fastest, 0.2 + 1e-3);
+}
+
+TEST_F(JointDriveTest, SinksUnderALoadAboveItsMaximumEffort) {
+  lift_->follow(0.5, {kWeight - 12});
+  step(100);
+  EXPECT_NEAR(0.5 - 0.5 * 1.0 * 0.01, lift_->measure().position, 1e-3);
+}
+
+TEST_F(JointDriveTest, PressesOnAStopWithItsMaximumEffort) {
+  lift_->follow(-0.2, {30, 0.5});
+  step(3000);
+  EXPECT_NEAR(-30, lift_->measure().effort, 1e-6);
+  EXPECT_NEAR(0.0, lift_->measure().velocity, 1e-6);
+  EXPECT_GT(lift_->measure().position, -1e-3);
+  EXPECT_TRUE(lift_->follow(0.1));
+  step(500);
+  EXPECT_NEAR(0.1, lift_->measure().position, 1e-5);
+}
+
+TEST_F(JointDriveTest, NeedsNoMoreThanItsMaximumEffortForARamp) {
+  const DriveLimits limits{kWeight + 30, 0.2};
+  double target = 0.5, highest = 0.0, fastest = 0.0;
+  for (int i = 0; i < 3000; ++i) {
+    target = std::min(0.7, target + 0.2 * World::kTick);
+    lift_->follow(target, limits);
+    step(1);
+    highest = std::max(highest, lift_->measure().position);
+    fastest = std::max(fastest, lift_->measure().velocity);
+    ASSERT_LE(lift_->measure().effort, limits.effort + 1e-6);
+  }
+  EXPECT_NEAR(0.7, lift_->measure().position, 1e-5);
+  EXPECT_LT(highest, 0.7 + 1e-3);
+  EXPECT_LT(fastest, 0.2 + 1e-3);
+}
+
+TEST_F(JointDriveTest, IsTheSameWhereTheMaximumEffortSuffices) {
+  const auto positions = [this](const DriveLimits& limits) {
+    world_.reset();
+    std::vector<double> result;
+    for (int i = 0; i < 500; ++i) {
+      lift_->follow(0.5 + 0.05 * (1 - std::cos(0.01 * i)), limits);
+      step(1);
+      result.push_back(lift_->measure().position);
+    }
+    return result;
+  };
+  const std::vector<double> unlimited = positions({});
+  EXPECT_EQ(unlimited, positions({kWeight + 300, 1.0}));
+  EXPECT_EQ(unlimited, positions({0.0, 0.0})) << "a limit of 0 is none";
+  EXPECT_EQ(unlimited, positions({std::numeric_limits<double>::quiet_NaN()}));
+  EXPECT_NE(unlimited, positions({kWeight + 1, 0.5}));
+}
+
+TEST_F(JointDriveTest, RepeatsALimitedMotionFromASnapshot) {
+  lift_->follow(0.9, {kWeight + 20, 0.2});
+  step(50);
+  const Snapshot snapshot = world_.snapshot();
+  step(50);
+  const double position = lift_->measure().position;
+  lift_->follow(0.9);
+  step(50);
+  EXPECT_NE(position, lift_->measure().position);
+  world_.restore(snapshot);
+  step(50);
+  EXPECT_EQ(position, lift_->measure().position);
 }
 
 TEST_F(JointDriveTest, UsesFrictionAndDampingOfTheUrdf) {

@@ -5,6 +5,7 @@
 #include <franka_core/tick.h>
 
 #include <array>
+#include <limits>
 #include <optional>
 
 namespace franka_sim {
@@ -93,6 +94,14 @@ struct JointMeasurement {
   double position{0}, velocity{0}, effort{0};  ///< [rad|m, rad/s|m/s, Nm|N]
 };
 
+/// What a drive that follows positions can do. Numbers that are not above 0 limit nothing.
+struct DriveLimits {
+  double effort{std::numeric_limits<double>::infinity()};  ///< [Nm|N]
+  /// With a maximum effort only: of a joint that lags behind [rad/s|m/s]. The position's own
+  /// velocity is not limited.
+  double velocity{std::numeric_limits<double>::infinity()};
+};
+
 /// The drive of a single joint of another device, such as a lift, a wheel or another gripper.
 /// Called by the thread that steps the world. No function throws. Real-time safe.
 class JointDrive {
@@ -102,11 +111,14 @@ class JointDrive {
   virtual JointMeasurement measure() const noexcept = 0;
   /// Ends follow(); the effort [Nm] or [N] acts until another one is given.
   virtual void applyEffort(double effort) noexcept = 0;
-  /// Moves the joint to a position [rad] or [m] and holds it there with any effort needed (time
-  /// constant 2 ms, critically damped: it lags a steady motion by 4 ms).
+  /// Moves the joint to a position [rad] or [m] and holds it there (time constant 2 ms, critically
+  /// damped: it lags a steady motion by 4 ms). Where that needs more than the maximum effort, the
+  /// joint yields, and returns when it can.
   /// @returns false if it does nothing: the position is not finite, or the joint follows another
   /// one (mimic) and cannot be held
-  virtual bool follow(double position) noexcept = 0;
+  virtual bool follow(double position, const DriveLimits& limits) noexcept = 0;
+  /// The same with any effort that is needed.
+  bool follow(double position) noexcept { return follow(position, DriveLimits()); }
 };
 
 }  // namespace franka_sim
