@@ -5,6 +5,7 @@
 import os
 import re
 import shutil
+import signal
 import subprocess
 import time
 from contextlib import suppress
@@ -290,6 +291,32 @@ def test_a_shell_has_roscd_and_completion(tmp_path):
     assert "/devel/bin/franka_sim\n" in printed
 
 
+OTHER_WORKSPACE = """
+export CMAKE_PREFIX_PATH={0}/devel ROS_PACKAGE_PATH={0}/src PATH={0}/devel/bin:$PATH ROS_DISTRO=noetic
+export PYTHONPATH={0}/devel/lib/python3/dist-packages PYTHONHOME={0} LD_LIBRARY_PATH={0}/devel/lib
+"""
+OF_WORKSPACE = (
+    "CMAKE_PREFIX_PATH",
+    "ROS_PACKAGE_PATH",
+    "PATH",
+    "PYTHONPATH",
+    "PYTHONHOME",
+    "LD_LIBRARY_PATH",
+)
+
+
+def test_another_workspace_in_bashrc_does_not_replace_ours(tmp_path):
+    (tmp_path / "setup.bash").write_text(OTHER_WORKSPACE.format(tmp_path / "other"))
+    (tmp_path / ".bashrc").write_text(f"source {tmp_path}/setup.bash\nexport ROS_MASTER_URI=http://robot:1\n")
+    values = " ".join(f'"{name}=${{{name}-}}"' for name in OF_WORKSPACE)
+    printed = interactive(
+        f"printf '%s\\n' {values}; echo $ROS_MASTER_URI; rospack find franka_description", tmp_path
+    )
+    assert "/other/" not in printed and f"{TOP}/catkin_ws/src/franka_description\n" in printed
+    assert f"CMAKE_PREFIX_PATH={TOP}/catkin_ws/devel" in printed
+    assert "http://robot:1\n" in printed  # the user's choice
+
+
 @pytest.mark.parametrize(
     ("line", "expected"),
     [
@@ -477,6 +504,46 @@ def test_a_verbose_build_shows_everything(tmp_path):
     assert "FRANKA_VERBOSE" in franka("--help").stdout
 
 
+# ---- compilers at a time ---------------------------------------------------------------------------------
+
+V2 = {"own": "0::/user.slice/job\n"}
+V1 = {"own": "4:memory:/docker/abc\n3:cpu,cpuacct:/docker/abc\n"}
+CPU_V1, UNLIMITED_V1 = "cpu,cpuacct/cpu.cfs_{}_us", "9223372036854771712"
+
+
+@pytest.mark.parametrize(
+    ("files", "jobs"),
+    [
+        ({}, 16),
+        ({"own": None, "meminfo": None}, 16),
+        ({"meminfo": "MemTotal: 99999999 kB\nMemAvailable: 6553600 kB\n"}, 4),
+        ({"meminfo": "MemAvailable: 500000 kB\n"}, 1),
+        (V2 | {"user.slice/job/cpu.max": "max 100000", "user.slice/job/memory.max": "max"}, 16),
+        (V2 | {"user.slice/job/cpu.max": "200000 100000"}, 2),
+        (V2 | {"user.slice/job/cpu.max": "max 100000", "user.slice/cpu.max": "250000 100000"}, 3),
+        (V2 | {"user.slice/job/cpu.max": "10000 100000"}, 1),
+        (V2 | {"cpu.max": "500000 100000"}, 5),  # in a container the root has the container's
+        (V2 | {"user.slice/memory.max": str(5 << 30), "user.slice/job/memory.max": "max"}, 3),
+        (V1 | {CPU_V1.format("quota"): "-1", CPU_V1.format("period"): "100000"}, 16),
+        (V1 | {CPU_V1.format("quota"): "350000", CPU_V1.format("period"): "100000"}, 4),
+        (V1 | {"memory/docker/abc/memory.limit_in_bytes": str(3 << 30)}, 2),
+        (V1 | {"memory/memory.limit_in_bytes": UNLIMITED_V1}, 16),
+    ],
+)
+def test_jobs_follow_processors_quota_and_memory(files, jobs, tmp_path):
+    default = {"own": "0::/\n", "meminfo": "MemAvailable: 99999999 kB\n"}
+    for name, text in (default | files).items():
+        if text is not None:
+            (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
+            (tmp_path / name).write_text(f"{text}\n")
+    code = f"cgroups={tmp_path} own_cgroups={tmp_path}/own meminfo={tmp_path}/meminfo; nproc() {{ echo 16; }}"
+    assert in_script(f"{code}; default_jobs") == f"{jobs}\n"
+
+
+def test_the_users_number_of_jobs_is_taken():
+    assert in_script("echo $jobs", FRANKA_JOBS="7") == "7\n"
+
+
 # ---- steps that fail, two commands at once ---------------------------------------------------------------
 
 
@@ -566,19 +633,100 @@ def test_a_step_that_failed_in_its_middle_has_failed(code, tmp_path):
     assert "Begin failed" in result.stderr
 
 
-def test_two_commands_wait_for_each_other(tmp_path):
-    def begun() -> subprocess.Popen:
-        """A command that has begun, or waits for the other one."""
-        code = f"source {FRANKA}; top={tmp_path}; begin_alone; echo begun; read -r; echo done"
-        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
-        return subprocess.Popen(["bash", "-c", code], **pipes)
+class Begun:
+    """A command of that folder in a process of its own, which goes on when it is told to."""
 
-    with begun() as first:
-        assert first.stdout.readline() == "begun\n"
-        with begun() as second:
-            assert "Waiting until another ./franka" in second.stdout.readline()
-            assert first.communicate("\n", timeout=60)[0] == "done\n"
-            assert second.communicate("\n", timeout=60)[0] == "begun\ndone\n"
+    def __init__(self, folder: Path, code: str, name: str = "build"):
+        code = f"source {FRANKA}; {of(folder)} command={name}; {code}; echo begun; read -r; echo done"
+        pipes = {"stdin": subprocess.PIPE, "stdout": subprocess.PIPE, "text": True}
+        self.process = subprocess.Popen(["bash", "-c", code], process_group=0, **pipes)
+
+    def __enter__(self):
+        return self
+
+    def __exit__(self, *_):
+        with suppress(ProcessLookupError):  # also what waits for the lock
+            os.killpg(self.process.pid, signal.SIGKILL)
+        self.process.communicate()
+
+    def line(self) -> str:
+        return self.process.stdout.readline()
+
+    def finish(self) -> str:
+        return self.process.communicate("\n", timeout=60)[0]
+
+
+def of(folder: Path) -> str:
+    return f"top={folder} workspace={folder} venv={folder}/.venv"
+
+
+BUILDS = "replaces=build begin_alone"
+USES = f"{BUILDS}; end_build"
+
+
+def test_two_commands_wait_for_each_other(tmp_path):
+    with Begun(tmp_path, "begin_alone", "wheel") as first:
+        assert first.line() == "begun\n"
+        with Begun(tmp_path, "begin_alone") as second:
+            assert f"./franka wheel (process {first.process.pid})" in second.line()
+            assert first.finish() == "done\n"
+            assert second.finish() == "begun\ndone\n"
+
+
+@pytest.mark.parametrize("name", ["build", "clean", "demo", "test"])
+def test_nothing_is_replaced_while_a_command_uses_the_build(name, tmp_path):
+    """The user is another program by then, as after `exec`."""
+    use = f"{USES}; exec bash -c 'echo begun; read -r; echo done'"
+    with Begun(tmp_path, use, "bench") as user:
+        assert user.line() == "begun\n"
+        with Begun(tmp_path, BUILDS, name) as builder:
+            assert f"./franka bench (process {user.process.pid})" in builder.line()
+            assert user.finish() == "done\n"
+            assert builder.finish() == "begun\ndone\n"
+
+
+@pytest.mark.parametrize("use", ["begin_alone", BUILDS])
+def test_what_runs_in_the_tests_may_build(use, tmp_path):
+    with Begun(tmp_path, USES, "test") as user:
+        assert user.line() == "begun\n"
+        # another one waits meanwhile
+        with Begun(tmp_path, BUILDS, "demo") as other:
+            assert "./franka test" in other.line()
+            printed = in_script(f"{of(tmp_path)}; {use}; echo begun", FRANKA_IN_USE=str(tmp_path))
+            assert printed == "begun\n"
+            assert in_script(f"{of(tmp_path)}; begin_alone; echo begun") == "begun\n"
+
+
+def test_a_lock_that_clean_has_removed_is_taken_again(tmp_path):
+    with Begun(tmp_path, f"{BUILDS}; rm -rf {tmp_path}/out", "clean") as first:
+        assert first.line() == "begun\n"
+    with Begun(tmp_path, BUILDS, "clean") as first:
+        assert first.line() == "begun\n"
+        with Begun(tmp_path, BUILDS) as second:
+            assert "Waiting" in second.line()
+            shutil.rmtree(tmp_path / "out")
+            first.finish()
+            assert second.line() == "begun\n"
+            with Begun(tmp_path, BUILDS) as third:
+                assert "Waiting" in third.line()
+
+
+@pytest.mark.parametrize(
+    ("command", "replaces"),
+    [
+        *((command, "build") for command in ("build", "demo", "docs", "test", "bench")),
+        *((command, "") for command in ("wheel", "deb", "test --style")),
+    ],
+)
+def test_commands_that_replace_the_build_wait_for_its_users(command, replaces, tmp_path):
+    code = f'top={tmp_path} workspace=$top; cmd_install() {{ echo "${{replaces:-}}"; exit; }}; cmd_{command}'
+    assert in_script(code) == f"{replaces}\n"
+
+
+@pytest.mark.parametrize("there", [True, False])
+def test_another_environment_of_python_waits_for_the_users_of_this_one(there, tmp_path):
+    stubs = f'python_groups() {{ {str(there).lower()}; }}; begin_alone() {{ echo "<$replaces>"; exit; }}'
+    assert in_script(f"check_folder() {{ :; }}; {stubs}; cmd_install") == f"<{'' if there else 'build'}>\n"
 
 
 def test_a_folder_that_cannot_be_written_is_named(tmp_path):
