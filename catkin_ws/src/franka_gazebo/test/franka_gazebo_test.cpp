@@ -30,7 +30,9 @@ class FakeDrive : public franka_sim::JointDrive {
  public:
   franka_sim::JointMeasurement measure() const noexcept override { return measured; }
   void applyEffort(double /*effort*/) noexcept override {}
-  bool follow(double /*position*/) noexcept override { return true; }
+  bool follow(double /*position*/, const franka_sim::DriveLimits& /*limits*/) noexcept override {
+    return true;
+  }
   franka_sim::JointMeasurement measured;
 };
 

@@ -26,7 +26,7 @@ bool DefaultRobotHWSim::initSim(
                        robot.name.c_str(), transmission.name_.c_str(), transmission.type_.c_str());
       }
     }
-    joints_->registerHandles(states_, efforts_, positions_, velocities_);
+    joints_->registerHandles(states_, efforts_, positions_, velocities_, effort_limits_);
   } catch (...) {
     failure_ = exceptionText();
     return false;
@@ -35,6 +35,7 @@ bool DefaultRobotHWSim::initSim(
   registerInterface(&efforts_);
   registerInterface(&positions_);
   registerInterface(&velocities_);
+  registerInterface(&effort_limits_);
   return true;
 }
 

@@ -128,7 +128,8 @@ void DeviceJoints::readGains(Joint* joint) const {
 void DeviceJoints::registerHandles(hardware_interface::JointStateInterface& states,
                                    hardware_interface::EffortJointInterface& efforts,
                                    hardware_interface::PositionJointInterface& positions,
-                                   hardware_interface::VelocityJointInterface& velocities) {
+                                   hardware_interface::VelocityJointInterface& velocities,
+                                   hardware_interface::JointEffortLimitInterface& effort_limits) {
   for (Joint& joint : joints_) {
     franka_sim::JointMeasurement& measured = joint.measured;
     states.registerHandle(hardware_interface::JointStateHandle(
@@ -143,6 +144,8 @@ void DeviceJoints::registerHandles(hardware_interface::JointStateInterface& stat
     }
     if (joint.takes_position) {
       offer(&positions, &joint.commands.position, Method::kPosition);
+      effort_limits.registerHandle(
+          hardware_interface::JointEffortLimitHandle(joint.name, &joint.max_effort));
     }
     if (joint.takes_velocity) {
       offer(&velocities, &joint.commands.velocity, Method::kVelocity);
@@ -206,7 +209,7 @@ void DeviceJoints::write(Joint* joint, const ros::Duration& period) {
         joint->drive->applyEffort(
             limited(*joint, joint->pid->computeCommand(positionError(*joint), period)));
       } else {
-        joint->drive->follow(joint->applied.position);
+        joint->drive->follow(joint->applied.position, limitsOf(*joint, joint->max_effort));
       }
       return;
     case Method::kVelocity:
@@ -218,7 +221,7 @@ void DeviceJoints::write(Joint* joint, const ros::Duration& period) {
         joint->followed =
             std::clamp(joint->followed + joint->applied.velocity * period.toSec(),
                        joint->measured.position - lead, joint->measured.position + lead);
-        joint->drive->follow(joint->followed);
+        joint->drive->follow(joint->followed, limitsOf(*joint));
       }
       return;
   }
@@ -230,10 +233,24 @@ double DeviceJoints::positionError(const Joint& joint) noexcept {
                                                           : error;
 }
 
-double DeviceJoints::limited(const Joint& joint, double effort) noexcept {
+franka_sim::DriveLimits DeviceJoints::limitsOf(const Joint& joint, double max_effort) noexcept {
+  franka_sim::DriveLimits result;
   const auto& limits = joint.described->limits;
-  return limits && limits->effort > 0 ? std::clamp(effort, -limits->effort, limits->effort)
-                                      : effort;
+  if (limits && limits->effort > 0) {
+    result.effort = limits->effort;
+  }
+  if (limits && limits->velocity > 0) {
+    result.velocity = limits->velocity;
+  }
+  if (max_effort > 0.0) {
+    result.effort = std::min(result.effort, max_effort);
+  }
+  return result;
+}
+
+double DeviceJoints::limited(const Joint& joint, double effort) noexcept {
+  const double most = limitsOf(joint).effort;
+  return std::clamp(effort, -most, most);
 }
 
 // --- switching of controllers --------------------------------------------------------------------
@@ -270,7 +287,7 @@ void DeviceJoints::choose(Joint* joint, Method method) noexcept {
     joint->pid->reset();
   }
   if (method == Method::kNone && (joint->takes_position || joint->takes_velocity)) {
-    joint->drive->follow(joint->measured.position);
+    joint->drive->follow(joint->measured.position, limitsOf(*joint));
   } else if (method == Method::kNone) {
     joint->drive->applyEffort(0.0);
   }

@@ -151,11 +151,12 @@ void FrankaHWSim::registerAll() {
     }
   }
   registerCartesian();
-  devices_->registerHandles(joint_states_, efforts_, positions_, velocities_);
+  devices_->registerHandles(joint_states_, efforts_, positions_, velocities_, effort_limits_);
   registerInterface(&joint_states_);
   registerInterface(&efforts_);
   registerInterface(&positions_);
   registerInterface(&velocities_);
+  registerInterface(&effort_limits_);
   registerInterface(&franka_states_);
   registerInterface(&franka_models_);
   registerInterface(&poses_);

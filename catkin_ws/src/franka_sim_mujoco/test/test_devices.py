@@ -6,9 +6,11 @@ import re
 import xml.etree.ElementTree as ElementTree
 from pathlib import Path
 
+import actionlib
 import numpy as np
 import pytest
 import rospy
+from control_msgs.msg import GripperCommand, GripperCommandAction, GripperCommandGoal
 from franka_msgs.msg import FrankaState
 from franka_sim_mujoco.srv import DeleteRobot, GetBodyPose, SpawnRobot
 from geometry_msgs.msg import Pose, Quaternion
@@ -206,6 +208,22 @@ def test_a_machine_without_an_arm(machine):
     states = machine.when(lambda state: abs(state["slide"][0] - 0.25) < 1e-4, "The slide's motion")
     assert max(state["slide"][1] for state in states) < 1.01
     machine.when(lambda state: abs(state["follower"][0] + 0.25) < 1e-3, "Its mirror's")
+
+
+@pytest.mark.parametrize(("max_effort", "effort"), [(5.0, 5.0), (0.0, 10.0), (50.0, 10.0)])
+def test_a_position_drive_presses_with_the_lower_of_its_limits(devices, max_effort, effort):
+    press = Joints("/press")
+    press.controllers.wait_for("grip", "joint_state_controller")
+    client = actionlib.SimpleActionClient("/press/grip/gripper_cmd", GripperCommandAction)
+    assert client.wait_for_server(rospy.Duration(WAIT))
+    client.send_goal(GripperCommandGoal(GripperCommand(0.08, max_effort)))
+    press.when(lambda state: abs(state["press"][2] - effort) < 1e-3, f"A force of {effort} N")
+    assert client.wait_for_result(rospy.Duration(WAIT))
+    result = client.get_result()
+    assert result.stalled and not result.reached_goal
+    assert result.position == pytest.approx(0.05, abs=1e-3)  # the ground
+    client.send_goal(GripperCommandGoal(GripperCommand(0.02, 0.0)))
+    press.when(lambda state: abs(state["press"][0] - 0.02) < 1e-4, "The way back")
 
 
 def test_fingers_with_position_interfaces_are_joints_as_others(machine):

@@ -34,6 +34,7 @@ class DefaultRobotHWSim : public RobotHWSim {
   hardware_interface::EffortJointInterface efforts_;
   hardware_interface::PositionJointInterface positions_;
   hardware_interface::VelocityJointInterface velocities_;
+  hardware_interface::JointEffortLimitInterface effort_limits_;
 };
 
 }  // namespace franka_sim_mujoco

@@ -6,6 +6,7 @@
 #include <franka_sim/robot/plant.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 #include <hardware_interface/joint_command_interface.h>
+#include <hardware_interface/joint_effort_limit_interface.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <joint_limits_interface/joint_limits_interface.h>
 
@@ -24,8 +25,10 @@ namespace franka_sim_mujoco {
 ///   positions:   the joint moves to the position and holds it, or a PID does;
 ///   velocities:  the joint moves at the velocity, or a PID does.
 /// A PID is used if the parameters <namespace>/gazebo_ros_control/pid_gains/<joint>/{p,i,d,...} are
-/// set; its output is limited to the URDF's effort. Without a controller, joints with position or
-/// velocity commands hold their position, and joints with only effort commands move freely.
+/// set. With and without a PID the effort is limited to the URDF's (none, or 0: it is not limited),
+/// and for commanded positions without a PID to that of a controller, too
+/// (JointEffortLimitInterface). Without a controller, joints with position or velocity commands
+/// hold their position, and joints with only effort commands move freely.
 ///
 /// Set up by any thread; read, write and doSwitch are called by the stepping thread and do not
 /// throw. Real-time safe. Exceptions: the constructor, `add` and `registerHandles`; PIDs also
@@ -46,7 +49,8 @@ class DeviceJoints {
   void registerHandles(hardware_interface::JointStateInterface& states,
                        hardware_interface::EffortJointInterface& efforts,
                        hardware_interface::PositionJointInterface& positions,
-                       hardware_interface::VelocityJointInterface& velocities);
+                       hardware_interface::VelocityJointInterface& velocities,
+                       hardware_interface::JointEffortLimitInterface& effort_limits);
 
   void read() noexcept;
   void write(const ros::Duration& period);
@@ -71,7 +75,8 @@ class DeviceJoints {
     bool takes_effort{false}, takes_position{false}, takes_velocity{false};
     std::optional<control_toolbox::Pid> pid;
     Method method{Method::kNone};
-    double followed{0};  ///< position that a commanded velocity has reached
+    double followed{0};    ///< position that a commanded velocity has reached
+    double max_effort{0};  ///< a controller's, for positions; 0: none
   };
 
   void readInterfaces(const transmission_interface::JointInfo& info, Joint* joint) const;
@@ -81,6 +86,8 @@ class DeviceJoints {
   void choose(Joint* joint, Method method) noexcept;
   void write(Joint* joint, const ros::Duration& period);
   static double positionError(const Joint& joint) noexcept;
+  /// The URDF's, and a controller's maximum effort (0: none).
+  static franka_sim::DriveLimits limitsOf(const Joint& joint, double max_effort = 0.0) noexcept;
   static double limited(const Joint& joint, double effort) noexcept;
 
   ros::NodeHandle node_;

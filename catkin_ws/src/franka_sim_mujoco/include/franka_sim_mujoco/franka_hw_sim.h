@@ -112,6 +112,7 @@ class FrankaHWSim : public RobotHWSim {
   hardware_interface::EffortJointInterface efforts_;
   hardware_interface::PositionJointInterface positions_;
   hardware_interface::VelocityJointInterface velocities_;
+  hardware_interface::JointEffortLimitInterface effort_limits_;  ///< of devices
   joint_limits_interface::PositionJointSoftLimitsInterface position_limits_;
   joint_limits_interface::VelocityJointSoftLimitsInterface velocity_limits_;
   franka_hw::FrankaStateInterface franka_states_;

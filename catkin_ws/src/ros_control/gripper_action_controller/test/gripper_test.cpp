@@ -6,6 +6,7 @@
 #include <control_msgs/GripperCommandAction.h>
 #include <gtest/gtest.h>
 #include <hardware_interface/joint_command_interface.h>
+#include <hardware_interface/joint_effort_limit_interface.h>
 #include <hardware_interface/robot_hw.h>
 #include <ros/ros.h>
 #include <ros_test/controller_loop.h>
@@ -30,7 +31,10 @@ class Gripper : public hardware_interface::RobotHW {
     position_interface_.registerHandle(hardware_interface::JointHandle(state, &position_command_));
     effort_interface_.registerHandle(hardware_interface::JointHandle(state, &effort_command_));
     registerInterface(&position_interface_);
+    limit_interface_.registerHandle(
+        hardware_interface::JointEffortLimitHandle("finger", &max_effort_));
     registerInterface(&effort_interface_);
+    registerInterface(&limit_interface_);
   }
 
   void move(double dt) {
@@ -51,12 +55,14 @@ class Gripper : public hardware_interface::RobotHW {
   double effort_{0.0};
   double position_command_{0.04};
   double effort_command_{0.0};
+  double max_effort_{0.0};
   double obstacle_{-1.0};
   bool by_effort_{false};
 
  private:
   hardware_interface::PositionJointInterface position_interface_;
   hardware_interface::EffortJointInterface effort_interface_;
+  hardware_interface::JointEffortLimitInterface limit_interface_;
 };
 
 class GripperTest : public ros_test::ControllerLoop<Gripper>,
@@ -142,6 +148,25 @@ TEST_P(GripperTest, StallsAtAnObstacleAndKeepsPressing) {
   } else {
     EXPECT_DOUBLE_EQ(0.0, robot_.position_command_);
   }
+}
+
+/// Only for positions: the hardware has no other way to learn it.
+TEST_P(GripperTest, GivesTheMaximumEffortOfAGoalToTheHardware) {
+  start();
+  robot_.obstacle_ = 0.02;
+  Client::GoalHandle handle = send(0.0, 5.0);
+  end(handle);
+  steps(1);
+  EXPECT_DOUBLE_EQ(robot_.by_effort_ ? 0.0 : 5.0, robot_.max_effort_);
+  Client::GoalHandle unlimited = send(0.03, 0.0);
+  end(unlimited);
+  steps(1);
+  EXPECT_DOUBLE_EQ(0.0, robot_.max_effort_);
+  Client::GoalHandle last = send(0.0, 7.0);
+  untilActive(last);
+  steps(1);
+  ASSERT_TRUE(doSwitch({}, {"gripper"}));
+  EXPECT_DOUBLE_EQ(0.0, robot_.max_effort_);
 }
 
 TEST_P(GripperTest, CancelHolds) {

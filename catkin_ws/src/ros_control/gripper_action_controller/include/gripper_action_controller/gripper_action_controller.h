@@ -6,6 +6,7 @@
 #include <control_msgs/GripperCommandAction.h>
 #include <controller_interface/controller.h>
 #include <gripper_action_controller/hardware_interface_adapter.h>
+#include <hardware_interface/joint_effort_limit_interface.h>
 #include <joint_trajectory_controller/internal/command_exchange.h>
 #include <joint_trajectory_controller/internal/realtime_goal.h>
 #include <realtime_tools/latest_value.h>
@@ -28,6 +29,10 @@ namespace gripper_action_controller {
 /// controller): `joint` (required), `action_monitor_rate` 20 [Hz], `goal_tolerance` 0.01 [m or
 /// rad], `max_effort` 0 [N or Nm], `stall_velocity_threshold` 0.001 [m/s or rad/s], `stall_timeout`
 /// 1 [s].
+///
+/// `max_effort`, of a goal or of the parameters, limits the effort. Position commands have no place
+/// for it: hardware with a JointEffortLimitInterface heeds it, where 0 means without a limit; other
+/// hardware does not.
 ///
 /// The control loop calls update(), starting(), stopping(), waiting() and aborting(): they neither
 /// allocate nor lock. All others run in callbacks under one mutex that the loop never takes.
@@ -90,9 +95,14 @@ class GripperActionController : public controller_interface::Controller<Hardware
     bool stalled{false};
   };
 
+  bool initRequest(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& root_nh,
+                   ros::NodeHandle& controller_nh,
+                   controller_interface::ControllerBase::ClaimedResources& claims) override;
   bool readParameters(ros::NodeHandle& controller_nh);
 
   // In the control loop.
+  /// Without effect if the hardware takes no limit.
+  void limitEffort(double max_effort);
   void takeOrder();
   void hold();
   void checkGoal(double error_position);
@@ -115,6 +125,8 @@ class GripperActionController : public controller_interface::Controller<Hardware
   Order* order_{nullptr};  ///< the present one; owned
   Commands commands_;
   double computed_effort_{0.0};
+  hardware_interface::JointEffortLimitHandle effort_limit_;
+  bool has_effort_limit_{false};
   double still_for_{0.0};  ///< time of standstill [s]
 
   // Shared.

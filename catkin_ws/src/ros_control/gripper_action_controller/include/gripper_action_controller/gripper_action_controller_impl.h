@@ -10,6 +10,8 @@
 #include <cmath>
 #include <exception>
 #include <thread>
+#include <type_traits>
+#include <vector>
 
 namespace gripper_action_controller {
 
@@ -54,6 +56,27 @@ bool GripperActionController<HardwareInterface>::readParameters(ros::NodeHandle&
                                    << action_monitor_rate_
                                    << " Hz: clients would never learn how their goals end.");
     return false;
+  }
+  return true;
+}
+
+template <class HardwareInterface>
+bool GripperActionController<HardwareInterface>::initRequest(
+    hardware_interface::RobotHW* robot_hw, ros::NodeHandle& root_nh, ros::NodeHandle& controller_nh,
+    controller_interface::ControllerBase::ClaimedResources& claims) {
+  if (!controller_interface::Controller<HardwareInterface>::initRequest(robot_hw, root_nh,
+                                                                        controller_nh, claims)) {
+    return false;
+  }
+  // Efforts are limited by the adapter.
+  if (std::is_same<HardwareInterface, hardware_interface::PositionJointInterface>::value) {
+    auto* const limits = robot_hw->get<hardware_interface::JointEffortLimitInterface>();
+    const std::vector<std::string> names =
+        limits != nullptr ? limits->getNames() : std::vector<std::string>();
+    if (std::find(names.begin(), names.end(), joint_name_) != names.end()) {
+      effort_limit_ = limits->getHandle(joint_name_);
+      has_effort_limit_ = true;
+    }
   }
   return true;
 }
@@ -105,6 +128,7 @@ template <class HardwareInterface>
 void GripperActionController<HardwareInterface>::stopping(const ros::Time& time) {
   running_.store(false);
   session_.fetch_add(1);
+  limitEffort(0.0);
   hw_iface_adapter_.stopping(time);
 }
 
@@ -117,9 +141,17 @@ void GripperActionController<HardwareInterface>::update(const ros::Time& time,
   const bool still = std::abs(velocity) <= stall_velocity_threshold_;
   still_for_ = still ? still_for_ + period.toSec() : 0.0;
   checkGoal(error_position);
+  limitEffort(commands_.max_effort_);
   computed_effort_ = hw_iface_adapter_.updateCommand(
       time, period, commands_.position_, 0.0, error_position, -velocity, commands_.max_effort_);
   publishSnapshot(still_for_ > stall_timeout_ && !(std::abs(error_position) < goal_tolerance_));
+}
+
+template <class HardwareInterface>
+void GripperActionController<HardwareInterface>::limitEffort(double max_effort) {
+  if (has_effort_limit_) {
+    effort_limit_.setMaxEffort(max_effort);
+  }
 }
 
 template <class HardwareInterface>
