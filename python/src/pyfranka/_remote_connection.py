@@ -55,7 +55,8 @@ class Connection:
         except TimeoutError:
             raise TimeoutError(
                 f"The robot at {self._place} has not answered '{line}' within {limit:g} s. The line may "
-                "still take effect."
+                "still take effect. If a control callback has called this, it blocks itself: in lock-step "
+                "time waits for the callback. Call it from another thread."
             ) from None
         except EOFError:
             raise ConnectionError(

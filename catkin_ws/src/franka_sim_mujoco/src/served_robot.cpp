@@ -78,6 +78,7 @@ ServedRobot::ServedRobot(const RobotPlan& plan, const RobotHandle& robot,
   };
   robot_.onCollision(warn);
   robot_.onRefusal(warn);
+  robot_.onSilence(warn);
   if (plan.locked) {
     robot_.whole().start(franka_sim::SafetyRules::kDesk);
     robot_.serve(true);  // closes its ports before a client can connect

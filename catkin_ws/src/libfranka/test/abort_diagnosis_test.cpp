@@ -275,6 +275,17 @@ TEST(AbortDiagnosis, LostPackets) {
   expectIn(text, "97 % of the commands");
 }
 
+TEST(AbortDiagnosis, ABlockedCallbackIsTheCauseOfLostPackets) {
+  auto log = jointLog(25, {});
+  log[1].answer_time = 33.0;
+  const std::string text = only(diagnoseAbort(log, 5));
+  expectIn(text, "33 s");
+  expectIn(text, "blocks");
+  EXPECT_EQ(std::string::npos, text.find("network")) << text;
+  log[1].answer_time = 0.001;
+  expectIn(only(diagnoseAbort(log, 5)), "network");
+}
+
 TEST(AbortDiagnosis, StartsAtAnotherPosition) {
   auto log = jointLog(11, {});
   log[1].command.q_c[4] = 0.9;

@@ -300,6 +300,7 @@ std::unique_ptr<Arm> addArm(const ArmOptions& options, bool locked, World& world
   };
   arm->robot.onCollision(report);
   arm->robot.onRefusal(report);
+  arm->robot.onSilence(report);
   if (locked) {
     arm->robot.whole().start(SafetyRules::kDesk);
     arm->robot.serve(true);  // closes its ports before a client can connect

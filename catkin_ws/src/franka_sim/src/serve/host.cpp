@@ -36,6 +36,10 @@ constexpr std::chrono::microseconds kMinTimeToAnswer{400};
 /// Interval of the calls of keep_waiting (chosen here: fast enough for Ctrl-C).
 constexpr std::chrono::milliseconds kKeepWaitingPeriod{50};
 
+/// Silence of a client that is reported. Chosen here: late clients on a busy machine are quicker,
+/// and users begin to wonder.
+constexpr std::chrono::seconds kLongSilence{1};
+
 timespec toTimespec(std::chrono::nanoseconds duration) noexcept {
   constexpr std::int64_t kNanoseconds = 1000000000;
   return {static_cast<time_t>(duration.count() / kNanoseconds),
@@ -366,8 +370,11 @@ bool Host::waitForClients() {
     turn_->giveForSilence(now);
     requestQuickWakeUps(false);
   }
+  if (waited_ >= kLongSilence) {
+    robots_->reportSilentClients();
+  }
   if (hasTimedOut(now)) {
-    robots_->dropSilentClients();
+    robots_->dropSilentClients(waited_ >= pace_.patience);
     return true;
   }
   robots_->publishWhileWaiting(now);

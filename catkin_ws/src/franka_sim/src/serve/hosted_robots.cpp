@@ -178,7 +178,7 @@ bool HostedRobots::receiveCommands() {
   for (Entry& entry : entries_) {
     const bool here = entry.robot->receiveCommand();
     if (here) {
-      entry.given_up = false;
+      entry.given_up = entry.silence_reported = false;
     }
     all = all && (here || !entry.isDue());
   }
@@ -211,16 +211,29 @@ void HostedRobots::beginWait() {
   }
 }
 
-void HostedRobots::dropSilentClients() {
+void HostedRobots::dropSilentClients(bool report) {
   for (Entry& entry : entries_) {
-    entry.given_up = entry.given_up || (entry.isDue() && !entry.robot->receiveCommand());
+    if (entry.isMissing()) {
+      entry.given_up = true;
+      if (report) {
+        entry.robot->reportSilence(Silence::kGivenUp);
+      }
+    }
+  }
+}
+
+void HostedRobots::reportSilentClients() {
+  for (Entry& entry : entries_) {
+    if (!entry.silence_reported && entry.isMissing()) {
+      entry.silence_reported = true;
+      entry.robot->reportSilence(Silence::kLong);
+    }
   }
 }
 
 bool HostedRobots::isAnswerMissing() const {
-  return std::any_of(entries_.begin(), entries_.end(), [](const Entry& entry) {
-    return entry.isDue() && !entry.given_up && !entry.robot->receiveCommand();
-  });
+  return std::any_of(entries_.begin(), entries_.end(),
+                     [](const Entry& entry) { return entry.isMissing(); });
 }
 
 bool HostedRobots::isIdle() const {

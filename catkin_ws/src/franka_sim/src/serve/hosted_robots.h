@@ -53,8 +53,10 @@ class HostedRobots {
   /// Waits until a socket is ready, until `deadline` at most.
   void pollUntil(Clock::time_point deadline);
 
-  void beginWait();              ///< of a tick, for the clients of motions
-  void dropSilentClients();      ///< the wait is over for clients whose answer is missing
+  void beginWait();  ///< of a tick, for the clients of motions
+  /// The wait is over for clients whose answer is missing. @param report whether to report it
+  void dropSilentClients(bool report);
+  void reportSilentClients();    ///< each once, until it answers
   bool isAnswerMissing() const;  ///< of a client that has not been given up
 
   /// Whether nothing has to be done until a poll reports something.
@@ -68,13 +70,16 @@ class HostedRobots {
   struct Entry {
     HostedRobot* robot;
     bool given_up{false};  // silent for too long in lock-step
-    int starts_shown{0};   // states sent to a client that has not sent its first command
+    bool silence_reported{false};
+    int starts_shown{0};  // states sent to a client that has not sent its first command
     Clock::time_point shown_at{};
     std::optional<Clock::time_point> ended_at{};  // first shown without a motion
     std::uint64_t unpublished_ticks{1};
 
     bool isDue() const { return robot->expectsCommand() && !robot->asynchronous(); }
     bool isStarting() const { return isDue() && !robot->motionHasBegun() && !given_up; }
+    /// Whether the tick waits for its answer.
+    bool isMissing() const { return isDue() && !given_up && !robot->receiveCommand(); }
   };
 
   void publish(Entry& entry, bool same_tick, Clock::time_point now);

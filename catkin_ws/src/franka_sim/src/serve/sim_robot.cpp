@@ -94,6 +94,24 @@ bool SimRobot::hasPendingState() const { return servers_->arm.hasPendingState();
 
 bool SimRobot::receiveCommand() { return servers_->arm.receiveCommand(); }
 
+void SimRobot::reportSilence(Silence silence) {
+  if (!report_silence_) {
+    return;
+  }
+  const std::string what =
+      silence == Silence::kLong
+          ? "time stands still until the client of the motion sends its next command, which has "
+            "not come for 1 s."
+          : "the client of the motion has sent no command for as long as the patience; time goes "
+            "on, and the motion ends unless the client commands it again.";
+  const std::string why =
+      handBusy() ? "A command of the hand waits for the time as well: if the control callback has "
+                   "sent it, it blocks the callback. Send it from another thread."
+                 : "Probably something blocks the client's control callback (a command of the hand "
+                   "or of the arm, a service, input, a lock), or a debugger has stopped it.";
+  report_silence_(what + " " + why);
+}
+
 bool SimRobot::expectsCommand() const { return servers_->arm.expectsCommands(); }
 
 bool SimRobot::clientIsLocal() const { return servers_->arm.clientIsLocal(); }

@@ -200,6 +200,7 @@ void SimulationServer::serve(SimulatedRobot& robot, const std::string& address) 
                             const std::string& what) { hooks_.report(name + ": " + what); };
     fronts_.back().onCollision(report);
     fronts_.back().onRefusal(report);
+    fronts_.back().onSilence(report);
   }
 }
 

@@ -90,6 +90,9 @@ class CountingRobot : public HostedRobot {
   void addDescriptors(std::vector<pollfd>& /*fds*/) const override {}
   bool idle() const override { return is_idle; }
 
+  void reportSilence(Silence silence) override { silences.push_back(silence); }
+
+  std::vector<Silence> silences;
   bool is_idle{false}, moving{false}, has_asynchronous_motion{false}, never_settles{false};
   bool answers{true}, is_local{false};
   bool moves_when_served{false}, begun{true}, seen{true};
@@ -294,6 +297,31 @@ TEST_F(HostRules, PatientPaceGivesUpASilentClientUntilItAnswersAgain) {
   timeOf(2);
   robot.delay = milliseconds(10);
   EXPECT_GE(timeOf(3), milliseconds(30));
+}
+
+TEST_F(HostRules, ReportsEachSilenceOfAClientOnce) {
+  Pace pace = waiting(PaceMode::kLockStep);
+  pace.patience = milliseconds(5000);
+  use(pace);
+  robot.moving = true;
+  robot.delay = milliseconds(900);
+  timeOf(2);
+  EXPECT_EQ(std::vector<Silence>(), robot.silences);
+  robot.delay = milliseconds(3000);
+  timeOf(1);
+  EXPECT_EQ(std::vector<Silence>({Silence::kLong}), robot.silences);
+  robot.answers = false;
+  timeOf(50);
+  EXPECT_EQ(std::vector<Silence>({Silence::kLong, Silence::kLong, Silence::kGivenUp}),
+            robot.silences);
+}
+
+TEST_F(HostRules, ReportsNoSilenceWhereNobodyIsAwaited) {
+  use(waiting(PaceMode::kRealTime));
+  robot.moving = true;
+  robot.answers = false;
+  timeOf(3000);
+  EXPECT_EQ(std::vector<Silence>(), robot.silences);
 }
 
 TEST_F(HostRules, AGivenUpClientDoesNotSlowOthers) {

@@ -304,6 +304,29 @@ TEST(Aborts, LookTheSameToTheirClientInLockStep) {
 
 constexpr std::chrono::milliseconds kLonger{1300};  // than the client's timeout for states
 
+TEST(BlockedCallback, IsNamedByTheClientAndByTheRobot) {
+  SimulatedRobots simulated({{5}}, std::chrono::milliseconds(50));
+  std::vector<std::string> reports;  // of the host's thread
+  simulated.between([&](SimRobot& robot, World&, Host&) {
+    robot.onSilence([&](const std::string& what) { reports.push_back(what); });
+  });
+  franka::Robot robot(simulated.address(), franka::RealtimeConfig::kIgnore);
+  franka::Gripper hand(simulated.gripperAddress());
+  int calls = 0;
+  const auto control = [&] {
+    robot.control([&](const franka::RobotState&, franka::Duration) {
+      if (++calls == 100) {
+        hand.move(0.03, 0.1);
+      }
+      return franka::Torques({0, 0, 0, 0, 0, 0, 0});
+    });
+  };
+  test::expectSentence(control, {"communication_constraints_violation", "Gripper"});
+  simulated.finish();
+  ASSERT_EQ(1u, reports.size());
+  EXPECT_NE(std::string::npos, reports[0].find("callback")) << reports[0];
+}
+
 TEST(StarvedMachine, ClientAndRobotWaitForEachOther) {
   SimulatedRobots simulated(std::vector<Place>{{5}});
   franka::Robot robot(simulated.address(), franka::RealtimeConfig::kIgnore);

@@ -13,6 +13,9 @@ namespace franka_core {
 struct AbortRecord {
   RobotState state;      ///< that the client received
   RobotCommand command;  ///< that answered it
+  /// How long the client took for that command, from the arrival of the state that it answered [s];
+  /// 0: unknown.
+  double answer_time{0.0};
 };
 
 /// Explains to the user why a motion was aborted: for each flag of the last state's reflex_reason

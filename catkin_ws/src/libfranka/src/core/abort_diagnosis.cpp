@@ -57,6 +57,8 @@ std::string distance(const std::array<double, 16>& one, const std::array<double,
 constexpr const char* kSolvedAdvice =
     " The step that the robot refused is not in the log; the ones before lead there. Move more "
     "slowly, or keep away from singular poses such as a stretched elbow.";
+/// The robot ends a motion after 20 ms without a command.
+constexpr double kLongAnswer = 0.02;  // [s]
 constexpr const char* kNoFirstCommand = "the log does not hold the first command.";
 
 std::string commanded(const std::optional<Excess>& excess, const char* what, int order) {
@@ -237,6 +239,18 @@ std::string Diagnosis::deviation() const {
 }
 
 std::string Diagnosis::lostPackets() const {
+  double answer_time = 0.0;
+  for (const AbortRecord& record : log_) {
+    answer_time = std::max(answer_time, record.answer_time);
+  }
+  if (answer_time > kLongAnswer) {
+    return "20 commands in a row came too late or not at all, because this program took " +
+           number(answer_time) +
+           " s to answer one state. Probably its control callback (or loop) calls something that "
+           "blocks: a command of the hand (Gripper) or of the arm, a service, input and output, a "
+           "lock. Call that from another thread. If it calls nothing of the kind, other programs "
+           "had the processor: give the program a higher priority.";
+  }
   const std::uint64_t lost = statesLost(log_);
   const double rate =
       log_.size() >= 2 ? log_[log_.size() - 2].state.control_command_success_rate : 0.0;

@@ -8,12 +8,13 @@
 
 namespace franka {
 
-void MotionLog::add(const franka_core::RobotState& state,
-                    const franka_core::RobotCommand& command) noexcept {
+void MotionLog::add(const franka_core::RobotState& state, const franka_core::RobotCommand& command,
+                    double answer_time) noexcept {
   if (!ring_.empty()) {
     Entry& entry = ring_[count_ % ring_.size()];
     entry.state = state;
     entry.command = command;
+    entry.answer_time = answer_time;
     count_++;
   }
 }

@@ -21,7 +21,9 @@ class MotionLog {
   explicit MotionLog(std::size_t size) : ring_(size) {}
 
   /// Adds an entry, replacing the oldest. Real-time safe.
-  void add(const franka_core::RobotState& state, const franka_core::RobotCommand& command) noexcept;
+  /// @param answer_time of the command [s]
+  void add(const franka_core::RobotState& state, const franka_core::RobotCommand& command,
+           double answer_time) noexcept;
   /// All entries, oldest first.
   std::vector<Entry> entries() const;
 

@@ -5,6 +5,7 @@
 #include <franka/errors.h>
 #include <franka_core/fci/texts.h>
 
+#include <chrono>
 #include <locale>
 #include <sstream>
 
@@ -51,6 +52,7 @@ RunningMotion::RunningMotion(Robot::Impl& robot, const fci::MoveRequest& request
   robot_.keepModeChanges();
   try {
     start();
+    received_at_ = Robot::Impl::Clock::now();
   } catch (const NetworkException&) {
     connection_lost_ = true;
     cancelStart();
@@ -131,6 +133,7 @@ bool RunningMotion::isShown() const noexcept {
 void RunningMotion::send(const franka_core::RobotCommand& command) {
   requireRunning();
   sent_ = command;
+  answer_time_ = Robot::Impl::Clock::now() - received_at_;
   robot_.sendCommand(sent_);
 }
 
@@ -141,7 +144,8 @@ void RunningMotion::receiveState() {
     connection_lost_ = true;
     throw;
   }
-  log_.add(robot_.state(), sent_);
+  log_.add(robot_.state(), sent_, std::chrono::duration<double>(answer_time_).count());
+  received_at_ = Robot::Impl::Clock::now();
 }
 
 const franka_core::RobotState& RunningMotion::receive() {

@@ -66,6 +66,8 @@ class RunningMotion {
   std::optional<Reply> early_end_;  // the second reply, if it came before a state showed the motion
   std::exception_ptr end_;          // the exception that ended the motion
   franka_core::RobotCommand sent_;
+  Robot::Impl::Clock::time_point received_at_{};  // the newest state
+  Robot::Impl::Clock::duration answer_time_{};    // of the last command
   bool connection_lost_{false};
 };
 

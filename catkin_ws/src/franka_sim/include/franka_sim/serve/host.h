@@ -75,6 +75,12 @@ struct HostClock {
   std::function<std::shared_ptr<LockStepTurn>()> make_turn{makeTurn};
 };
 
+/// How long a motion's client has not answered a state.
+enum class Silence {
+  kLong,     ///< a second: the tick still waits
+  kGivenUp,  ///< the patience is over: time goes on
+};
+
 /// One robot as the host drives it: a control unit on a plant, with its servers. Called by one
 /// thread.
 class HostedRobot {
@@ -102,6 +108,9 @@ class HostedRobot {
 
   /// Reads commands. @returns whether the answer to the last state has arrived.
   virtual bool receiveCommand() = 0;
+  /// Reports that a tick waits, or no longer waits, for the motion's client. Called once for each
+  /// silence of the client, and once more if it is given up.
+  virtual void reportSilence(Silence /*silence*/) {}
   /// Whether a motion runs for a client, which commands it.
   virtual bool expectsCommand() const = 0;
   /// Whether the client is on this machine, as far as its address shows.

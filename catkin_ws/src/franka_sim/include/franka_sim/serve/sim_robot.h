@@ -83,6 +83,13 @@ class SimRobot : public HostedRobot {
   /// `serve`.
   void onRefusal(const std::function<void(const std::string&)>& report);
 
+  /// Sets the function that reports that time stands still because the client of a motion is
+  /// silent, and that it is given up (HostedRobot::reportSilence). Its argument is the text after
+  /// the robot's name and a colon.
+  void onSilence(std::function<void(const std::string&)> report) {
+    report_silence_ = std::move(report);
+  }
+
   void observe() override;
   void actuate() override;
   void serve(bool stops_only) override;
@@ -91,6 +98,7 @@ class SimRobot : public HostedRobot {
   void repeat() override;
   bool hasPendingState() const override;
   bool receiveCommand() override;
+  void reportSilence(Silence silence) override;
   bool expectsCommand() const override;
   bool clientIsLocal() const override;
   bool asynchronous() const override;
@@ -118,7 +126,7 @@ class SimRobot : public HostedRobot {
   std::unique_ptr<WholeRobot> owned_;  ///< null if the units are another one's
   WholeRobot& units_;
   std::unique_ptr<Servers> servers_;
-  std::function<void(const std::string&)> report_;
+  std::function<void(const std::string&)> report_, report_silence_;
 };
 
 }  // namespace franka_sim::fci
