@@ -5,6 +5,7 @@
 #include <franka_core/motion_limits.h>
 #include <franka_core/numbers.h>
 #include <franka_core/to_franka.h>
+#include <franka_core/typed_transform.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <pybind11/stl.h>
 
@@ -173,6 +174,25 @@ std::array<double, 16> frameOf(const py::object& values, const char* name) {
   return frame;
 }
 
+/// The frame of a matrix that a user typed; warns of its correction.
+std::array<double, 16> typedFrameOf(const py::object& values, const char* name) {
+  constexpr int kCallerOfSetter = 2;
+  const franka_core::TypedTransform typed =
+      franka_core::readTypedTransform(arrayOf<16>(values, name));
+  const std::string fault =
+      typed.fault.empty() ? franka_sim::frameFault(typed.matrix) : typed.fault;
+  if (!fault.empty()) {
+    throw std::invalid_argument(std::string(name) + " cannot be used: " + fault + ".");
+  }
+  if (!typed.warning.empty()) {
+    const std::string warning = std::string(name) + ": " + typed.warning + ".";
+    if (PyErr_WarnEx(PyExc_RuntimeWarning, warning.c_str(), kCallerOfSetter) != 0) {
+      throw py::error_already_set();
+    }
+  }
+  return typed.matrix;
+}
+
 void bindCommands(py::class_<Robot>& robot) {
   robot
       .def("command_torques", &commandTorques, py::arg("torques"), py::arg("limit_rate"),
@@ -332,13 +352,13 @@ void bindRequests(py::class_<Robot>& robot) {
       .def(
           "set_EE",
           [](Robot& self, const py::object& NE_T_EE) {
-            self.request(SetNEToEERequest{frameOf(NE_T_EE, "NE_T_EE")}, "The end effector");
+            self.request(SetNEToEERequest{typedFrameOf(NE_T_EE, "NE_T_EE")}, "The end effector");
           },
           py::arg("NE_T_EE"), "Pose of the end effector in NE, 4x4.")
       .def(
           "set_K",
           [](Robot& self, const py::object& EE_T_K) {
-            self.request(SetEEToKRequest{frameOf(EE_T_K, "EE_T_K")}, "The stiffness frame");
+            self.request(SetEEToKRequest{typedFrameOf(EE_T_K, "EE_T_K")}, "The stiffness frame");
           },
           py::arg("EE_T_K"), "Pose of the stiffness frame in EE, 4x4.")
       .def(

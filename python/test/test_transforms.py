@@ -230,6 +230,50 @@ def test_a_matrix_and_its_columns_set_the_same_frame_in_a_simulation(simulation,
         np.testing.assert_allclose(getattr(simulated.state, field), TURNED, atol=1e-12)
 
 
+def turned_by(degrees, digits):
+    """A rotation about z with the digits that a person types, 4x4."""
+    angle = np.radians(degrees)
+    typed = np.array(FRAME)
+    typed[:2, :2] = [[np.cos(angle), -np.sin(angle)], [np.sin(angle), np.cos(angle)]]
+    return np.round(typed, digits)
+
+
+@pytest.mark.parametrize("setter, field", [("set_EE", "NE_T_EE"), ("set_K", "EE_T_K")])
+@pytest.mark.parametrize("degrees", [30, 45, 190])
+def test_typed_rotations_become_exact_in_a_simulation(simulation, simulated, setter, field, degrees):
+    for digits in (3, 4):
+        with pytest.warns(RuntimeWarning, match=field):
+            getattr(simulated, setter)(turned_by(degrees, digits))
+        simulation.step(1)
+        rotation = getattr(simulated.state, field)[:3, :3]
+        np.testing.assert_allclose(rotation.T @ rotation, np.eye(3), atol=1e-14)
+        np.testing.assert_allclose(rotation, turned_by(degrees, 15)[:3, :3], atol=0.5 * 10.0**-digits)
+    with pytest.raises(ValueError, match="row-major"):
+        getattr(simulated, setter)(turned_by(degrees, 15).T)
+
+
+@pytest.mark.parametrize("setter, field", [("set_EE", "NE_T_EE"), ("set_K", "EE_T_K")])
+def test_typed_rotations_of_a_client_become_exact(robot, setter, field):
+    getattr(robot, setter)(turned_by(45, 3))
+    rotation = getattr(robot.read_once(), field)[:3, :3]
+    np.testing.assert_allclose(rotation.T @ rotation, np.eye(3), atol=1e-6)  # states of FR3 are float32
+    with pytest.raises(pyfranka.CommandException, match="row-major"):
+        getattr(robot, setter)(turned_by(45, 15).T)
+    getattr(robot, setter)(np.eye(4))
+
+
+def test_a_typed_rotation_of_the_end_effector_becomes_exact(robot, served, name):
+    before = robot.read_once()
+    body = (0.5, [0.0, 0.0, 0.03], 1e-3 * np.eye(3))
+    with pytest.warns(RuntimeWarning, match="F_T_NE"):
+        served[name].remote.end_effector(*body, turned_by(30, 3))
+    rotation = robot.read_once().F_T_NE[:3, :3]
+    np.testing.assert_allclose(rotation.T @ rotation, np.eye(3), atol=1e-6)
+    with pytest.raises(LineRefused, match="row-major"):
+        served[name].remote.end_effector(*body, turned_by(30, 15).T)
+    served[name].remote.end_effector(before.m_ee, before.F_x_Cee, before.I_ee, before.F_T_NE)
+
+
 def test_impedance_targets_in_a_simulation(simulation, simulated):
     def refusal(perturbed):
         return raised(lambda: simulated.cartesian_impedance(perturbed.matrix, 0.1), ValueError)

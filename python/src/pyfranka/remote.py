@@ -18,6 +18,7 @@ import json
 import re
 import time
 import typing
+import warnings
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 
@@ -458,9 +459,10 @@ class Remote:
         >>> remote.end_effector(0.73, (-0.01, 0.0, 0.03), inertia, numpy.eye(4))
         """
         parts = [words.numbers(center, 3, "The center of mass"), words.matrix(inertia, 3, "The inertia")]
-        self.send(
-            words.line("end_effector", [mass], *parts, words.matrix(F_T_NE, 4, "The transform")), timeout
-        )
+        frame = words.matrix(F_T_NE, 4, "The transform")
+        warning = self.send(words.line("end_effector", [mass], *parts, frame), timeout)
+        if warning:
+            warnings.warn(warning, RuntimeWarning, stacklevel=2)
 
     def set_end_effector_power(self, on: bool, timeout: float | None = None) -> None:
         """Off: the hand is not reachable.

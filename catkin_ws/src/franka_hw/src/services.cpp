@@ -37,7 +37,7 @@ void offerSetters(franka::Robot& robot, const Take& take, ros::NodeHandle& node_
         node_handle, setter.name,
         [&robot, take](const typename Service::Request& request, const auto& /*response*/) {
           const std::unique_lock<std::mutex> lock = take();
-          configure(robot, request);
+          configure(robot, checkedRequest(request));
         });
   });
 }
@@ -73,12 +73,12 @@ void setJointImpedance(franka::Robot& robot, const franka_msgs::SetJointImpedanc
 
 void setEEFrame(franka::Robot& robot, const franka_msgs::SetEEFrame::Request& req,
                 franka_msgs::SetEEFrame::Response& /*res*/) {
-  configure(robot, req);
+  configure(robot, checkedRequest(req));
 }
 
 void setKFrame(franka::Robot& robot, const franka_msgs::SetKFrame::Request& req,
                franka_msgs::SetKFrame::Response& /*res*/) {
-  configure(robot, req);
+  configure(robot, checkedRequest(req));
 }
 
 void setForceTorqueCollisionBehavior(

@@ -1,9 +1,11 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/exception.h>
 #include <franka_hw/setters.h>
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -56,6 +58,21 @@ TEST(Setters, CallTheSetterOfTheirName) {
             recordOf(franka_msgs::SetCartesianImpedance::Request()).called);
   EXPECT_EQ("setEE", recordOf(franka_msgs::SetEEFrame::Request()).called);
   EXPECT_EQ("setK", recordOf(franka_msgs::SetKFrame::Request()).called);
+}
+
+TEST(CheckedRequest, HasTheExactRotationOfATypedOne) {
+  franka_msgs::SetEEFrame::Request end_effector;
+  end_effector.NE_T_EE = {0.707, 0.707, 0, 0, -0.707, 0.707, 0, 0, 0, 0, 1, 0, 0, 0, 0.1, 1};
+  EXPECT_NEAR(M_SQRT1_2, checkedRequest(end_effector).NE_T_EE[0], 1e-15);
+  franka_msgs::SetKFrame::Request stiffness;
+  stiffness.EE_T_K = end_effector.NE_T_EE;
+  EXPECT_NEAR(M_SQRT1_2, checkedRequest(stiffness).EE_T_K[0], 1e-15);
+}
+
+TEST(CheckedRequest, RefusesMatricesThatAreNotTransforms) {
+  EXPECT_THROW(checkedRequest(franka_msgs::SetEEFrame::Request()), franka::CommandException);
+  EXPECT_THROW(checkedRequest(franka_msgs::SetKFrame::Request()), franka::CommandException);
+  EXPECT_NO_THROW(checkedRequest(franka_msgs::SetLoad::Request()));
 }
 
 TEST(Setters, PassTheLoadOn) {

@@ -4,6 +4,7 @@
 
 #include <franka_core/limits.h>
 #include <franka_core/numbers.h>
+#include <franka_core/typed_transform.h>
 #include <franka_hw/robot_mismatch.h>
 #include <franka_sim/physics/world_properties.h>
 #include <franka_sim/robot/control_unit_parameters.h>
@@ -22,32 +23,20 @@ namespace franka_sim_mujoco {
 
 namespace {
 
-/// For rotations typed with three or four digits: scales the columns to length one, which restores
-/// cos(45 deg) and keeps exact matrices.
-std::array<double, 16> withUnitColumns(std::array<double, 16> transform) {
-  for (std::size_t column = 0; column < 3; ++column) {
-    double* entry = transform.data() + 4 * column;
-    const double length =
-        std::sqrt(entry[0] * entry[0] + entry[1] * entry[1] + entry[2] * entry[2]);
-    // Corrects rounding only; other matrices are refused by the check.
-    if (std::abs(length - 1.0) < 1e-3) {
-      for (std::size_t row = 0; row < 3; ++row) {
-        entry[row] /= length;
-      }
-    }
-  }
-  return transform;
-}
-
 void readTransform(const ros::NodeHandle& node, const std::string& name,
                    std::array<double, 16>& transform) {
   readArray(node, name, transform);
-  transform = withUnitColumns(transform);
-  const std::string fault = franka_sim::frameFault(transform);
+  const franka_core::TypedTransform typed = franka_core::readTypedTransform(transform);
+  transform = typed.matrix;
+  const std::string fault = typed.fault.empty() ? franka_sim::frameFault(transform) : typed.fault;
   if (!fault.empty()) {
     throw std::invalid_argument(
         "The parameter " + node.resolveName(name) +
         " is not a column-major 4x4 transform to a frame on the arm: " + fault + ".");
+  }
+  if (!typed.warning.empty()) {
+    ROS_WARN_STREAM_NAMED("franka_hw_sim", "The parameter " << node.resolveName(name) << ": "
+                                                            << typed.warning << ".");
   }
 }
 

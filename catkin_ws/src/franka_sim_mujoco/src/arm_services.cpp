@@ -183,7 +183,7 @@ void ArmServices::offerSetters() {
     using Service = typename decltype(setter)::Service;
     offerBetweenTicks<Service>(setter.name, [this](const typename Service::Request& request) {
       UnitSetters setters(arm_.unit());
-      franka_hw::configure(setters, request);
+      franka_hw::configure(setters, franka_hw::checkedRequest(request));
     });
   });
 }

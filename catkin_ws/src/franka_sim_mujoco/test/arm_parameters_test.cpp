@@ -14,6 +14,7 @@
 #include <transform_sweep.h>
 
 #include <array>
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,24 @@ TEST_F(ArmParameters, AgreeWithEveryOtherInputOnRoundedMatrices) {
                   (contains(refusal, name) && contains(refusal, "exactly 0 0 0 1")))
           << refusal;
     }
+    node_.deleteParam(name);
+  }
+}
+
+TEST_F(ArmParameters, MakeTypedRotationsExactWithAWarning) {
+  for (const std::string name : {"NE_T_EE", "EE_T_K", "F_T_NE"}) {
+    const ros_test::LogCatcher log;
+    set(name,
+        std::array<double, 16>{0.866, 0.5, 0, 0, -0.5, 0.866, 0, 0, 0, 0, 1, 0, 0, 0, 0.1, 1});
+    const franka_sim::ControlUnitParameters parameters = read();
+    EXPECT_TRUE(contains(log.text(ros::console::levels::Warn), name));
+    const std::array<double, 16>& frame = name == "NE_T_EE"  ? parameters.NE_T_EE
+                                          : name == "EE_T_K" ? parameters.EE_T_K
+                                                             : parameters.F_T_NE;
+    EXPECT_NEAR(std::sqrt(0.75), frame[0], 1e-4);
+    EXPECT_NEAR(1.0, std::hypot(frame[0], frame[1]), 1e-15);
+    set(name, std::array<double, 16>{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.1, 0, 0, 0, 1});
+    EXPECT_TRUE(contains(sentence([this] { read(); }), "row-major"));
     node_.deleteParam(name);
   }
 }

@@ -5,6 +5,7 @@
 #include <franka_core/fci/reply_codec.h>
 
 #include <atomic>
+#include <cmath>
 #include <thread>
 
 #include "robot_fixture.h"
@@ -161,6 +162,43 @@ TEST_P(Commands, TransmitTheirArguments) {
     EXPECT_EQ(100.0, filters.joint_position);
     EXPECT_EQ(500.0, filters.controller);
   }
+}
+
+TEST_P(Commands, SendTypedFramesAsExactOnes) {
+  const auto robot = connect(fake);
+  const std::size_t before = fake.requests().size();
+  const std::array<double, 16> typed{0.707, 0.707, 0, 0, -0.707, 0.707, 0,   0,
+                                     0,     0,     1, 0, 0.1,    0.2,   0.3, 1};
+  robot->setEE(typed);
+  robot->setK(typed);
+  const auto requests = fake.requests();
+  const auto& end_effector = std::get<franka_core::fci::SetNEToEERequest>(requests[before]).NE_T_EE;
+  EXPECT_NEAR(M_SQRT1_2, end_effector[0], 1e-15);
+  EXPECT_NEAR(-M_SQRT1_2, end_effector[4], 1e-15);
+  EXPECT_EQ(0.3, end_effector[14]);
+  EXPECT_EQ(end_effector, std::get<franka_core::fci::SetEEToKRequest>(requests[before + 1]).EE_T_K);
+}
+
+TEST_P(Commands, DoNotSendFramesThatAreNotTransforms) {
+  const auto robot = connect(fake);
+  const std::size_t before = fake.requests().size();
+  const std::array<double, 16> row_major{0, -1, 0, 0.1, 1, 0, 0, 0.2, 0, 0, 1, 0.3, 0, 0, 0, 1};
+  std::array<double, 16> scaled{kPose};
+  scaled[10] = 1000.0;
+  for (const auto& [frame, fault] :
+       {std::make_pair(row_major, "row-major"), std::make_pair(scaled, "column 3")}) {
+    const std::string end_effector =
+        textOf<CommandException>([&robot, frame = frame] { robot->setEE(frame); });
+    EXPECT_TRUE(startsWith(end_effector,
+                           "libfranka: Set NE to EE command rejected: invalid argument! NE_T_EE"));
+    EXPECT_NE(std::string::npos, end_effector.find(fault)) << end_effector;
+    const std::string stiffness =
+        textOf<CommandException>([&robot, frame = frame] { robot->setK(frame); });
+    EXPECT_TRUE(
+        startsWith(stiffness, "libfranka: Set EE to K command rejected: invalid argument! EE_T_K"));
+    EXPECT_NE(std::string::npos, stiffness.find(fault)) << stiffness;
+  }
+  EXPECT_EQ(before, fake.requests().size());
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Commands, ::testing::ValuesIn(kVersions), versionName);

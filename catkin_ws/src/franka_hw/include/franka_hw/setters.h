@@ -47,6 +47,19 @@ std::array<double, size> arrayOf(const Source& source) {
   return values;
 }
 
+/// @name The request that is sent to the robot
+/// Of a frame: with the transform of the matrix that a user typed (franka_core/typed_transform.h);
+/// logs the correction. Other requests are unchanged.
+/// @throws franka::CommandException if the matrix is not a transform
+/// @{
+franka_msgs::SetEEFrame::Request checkedRequest(franka_msgs::SetEEFrame::Request request);
+franka_msgs::SetKFrame::Request checkedRequest(franka_msgs::SetKFrame::Request request);
+template <typename Request>
+const Request& checkedRequest(const Request& request) {
+  return request;
+}
+/// @}
+
 /// @name Implementation of the services
 /// Robot has the setters of franka::Robot, whose exceptions have texts for the user.
 /// @{

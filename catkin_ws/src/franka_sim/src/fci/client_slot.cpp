@@ -26,6 +26,10 @@ constexpr int kFew = 8;
 /// Limits log messages to one per kind in this period.
 constexpr std::chrono::seconds kReportPeriod{10};
 
+/// The most refused requests that are reported in this period. Chosen here: more than a person
+/// tries.
+constexpr unsigned kMaxRequestReports = 20;
+
 bool sameAddress(const sockaddr_in& one, const sockaddr_in& other) noexcept {
   return one.sin_addr.s_addr == other.sin_addr.s_addr;
 }
@@ -258,6 +262,18 @@ void ClientSlot::reportRefusal(const sockaddr_in& peer, Reason reason) {
     report_("a connection from " + textOf(peer) + " to port " + std::to_string(port()) +
             " was closed: " + kTexts[reason] +
             (silent > 0 ? "; so were " + std::to_string(silent) + " more before it." : "."));
+  }
+}
+
+void ClientSlot::reportRequest(const std::string& fault) {
+  const Clock::time_point now = Clock::now();
+  if (request_reports_ == 0 || now - first_request_report_ >= kReportPeriod) {
+    first_request_report_ = now;
+    request_reports_ = 0;
+  }
+  if (report_ && request_reports_ < kMaxRequestReports) {
+    request_reports_++;
+    report_("a request of the client at " + textOf(peer()) + " was refused: " + fault);
   }
 }
 

@@ -86,6 +86,9 @@ class ClientSlot {
   /// Sets the receiver of reasons why connections were closed: a sentence, of each kind at most one
   /// in ten seconds.
   void onRefusal(Report report) { report_ = std::move(report); }
+  /// Reports to the same receiver why a request of the connection that is being served was refused;
+  /// at most twenty in ten seconds.
+  void reportRequest(const std::string& fault);
 
   /// Accepts, reads and answers.
   /// @param serve_one serves the first request in a connection's buffer.
@@ -128,6 +131,8 @@ class ClientSlot {
   Listener listener_;
   SlotRules rules_;
   Report report_;
+  Clock::time_point first_request_report_{};  // of the present ten seconds
+  unsigned request_reports_{0};               // since then
   std::optional<Entry> client_;
   std::vector<Entry> pending_;  // oldest first
   std::vector<pollfd> polled_;  // what poll() reports of them

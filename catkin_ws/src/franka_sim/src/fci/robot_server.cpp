@@ -3,7 +3,9 @@
 #include "fci/robot_server.h"
 
 #include <arpa/inet.h>
+#include <franka_sim/robot/control_unit_parameters.h>
 
+#include <array>
 #include <iterator>
 #include <type_traits>
 #include <utility>
@@ -172,6 +174,9 @@ bool RobotServer::answer(const codec::Header& header, const codec::Request& requ
       break;
   }
   const std::optional<Status> status = handler_.handle(request);
+  if (status == Status::kInvalidArgumentRejected) {
+    reportFault(request);
+  }
   if (pending.command == Command::kMove && status == Status::kMotionStarted) {
     move_ = pending;
     motion_end_.reset();
@@ -189,6 +194,13 @@ bool RobotServer::answer(const codec::Header& header, const codec::Request& requ
     return true;
   }
   return reply(pending, *status);
+}
+
+void RobotServer::reportFault(const codec::Request& request) {
+  const std::string fault = handler_.faultOf(request);
+  if (!fault.empty()) {
+    slot_.reportRequest(fault);
+  }
 }
 
 bool RobotServer::replyToSetters() {
@@ -427,6 +439,26 @@ std::optional<Status> UnitRequestHandler::handle(const codec::Request& request) 
   // Clients send StopMove after every failed motion, in any mode, and wait for the answer.
   return std::holds_alternative<codec::StopMoveRequest>(request) && status ? Status::kSuccess
                                                                            : status;
+}
+
+std::string UnitRequestHandler::faultOf(const codec::Request& request) const {
+  const auto of_frame = [](const std::string& name, const std::array<double, 16>& frame) {
+    const std::string fault = frameFault(frame);
+    return fault.empty()
+               ? ""
+               : name + " is not a column-major 4x4 transform to a frame on the arm: " + fault +
+                     ".";
+  };
+  if (const auto* end_effector = std::get_if<codec::SetNEToEERequest>(&request)) {
+    return of_frame("NE_T_EE", end_effector->NE_T_EE);
+  }
+  if (const auto* stiffness = std::get_if<codec::SetEEToKRequest>(&request)) {
+    return of_frame("EE_T_K", stiffness->EE_T_K);
+  }
+  if (const auto* load = std::get_if<codec::SetLoadRequest>(&request)) {
+    return payloadFault({load->mass, load->F_x_Cload, load->inertia});
+  }
+  return "";
 }
 
 std::optional<codec::CartesianLimit> UnitRequestHandler::wall(std::int32_t id) const noexcept {

@@ -45,6 +45,9 @@ class ArmRequestHandler {
   /// the reason for its refusal. StopMove and AutomaticErrorRecovery may return nothing now and the
   /// answer later through takeAnswer.
   virtual std::optional<Status> handle(const franka_core::fci::Request& request) noexcept = 0;
+  /// Why the arguments of a setter are invalid, as a sentence, for the robot's own log: the answer
+  /// has only a status. Empty if there is no more to say.
+  virtual std::string faultOf(const franka_core::fci::Request& /*request*/) const { return ""; }
   /// The virtual wall with that number; nothing if there is no such number.
   virtual std::optional<franka_core::fci::CartesianLimit> wall(std::int32_t id) const noexcept = 0;
 
@@ -74,8 +77,9 @@ struct RobotServerParameters {
 /// as lost commands. When the interface is switched off (see ArmRequestHandler::active), the client
 /// is dropped after its pending answers, and no client can connect.
 ///
-/// Called by one thread. serve allocates only when connections begin or end, or when a client reads
-/// more slowly than its answers arrive; publish only in the second case.
+/// Called by one thread. serve allocates only when connections begin or end, when a client reads
+/// more slowly than its answers arrive, or when it reports an invalid argument; publish only in the
+/// second case.
 class RobotServer {
  public:
   /// @throws std::runtime_error if the port cannot be opened.
@@ -169,6 +173,7 @@ class RobotServer {
   bool answersAState(std::uint64_t message_id) const noexcept;
   bool readsCommands() const noexcept;
   void keep(const franka_core::RobotCommand& command) noexcept;
+  void reportFault(const franka_core::fci::Request& request);
   void collectEnds() noexcept;
   bool replyToSetters();
   void replyTo(std::optional<Pending>& pending, std::optional<franka_core::fci::Status>& status);
@@ -214,6 +219,7 @@ class UnitRequestHandler final : public ArmRequestHandler {
   bool active() const noexcept override { return unit_.status().fci_active; }
   bool measured() const noexcept override { return unit_.status().measured; }
   std::optional<Status> handle(const franka_core::fci::Request& request) noexcept override;
+  std::string faultOf(const franka_core::fci::Request& request) const override;
   std::optional<franka_core::fci::CartesianLimit> wall(std::int32_t id) const noexcept override;
   std::optional<Status> takeAnswer(PendingAnswer which) noexcept override;
 

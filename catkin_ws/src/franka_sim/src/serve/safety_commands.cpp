@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/motion_limits.h>
 #include <franka_core/numbers.h>
+#include <franka_core/typed_transform.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/serve/operator_commands.h>
 
@@ -241,16 +242,21 @@ void addPower(LineServer& lines, fci::SimRobot& robot, fci::Host& host) {
 
 void addEndEffector(LineServer& lines, fci::SimRobot& robot) {
   lines.add("end_effector MASS X Y Z INERTIA(9) F_T_NE(16)", [&](const Words& words) {
+    const franka_core::TypedTransform frame =
+        franka_core::readTypedTransform(toNumbers<16>(words, 13));
     const SetEndEffector request{
-        {toNumber(words.at(0)), toNumbers<3>(words, 1), toNumbers<9>(words, 4)},
-        toNumbers<16>(words, 13)};
+        {toNumber(words.at(0)), toNumbers<3>(words, 1), toNumbers<9>(words, 4)}, frame.matrix};
+    const std::string fault = frame.fault.empty() ? frameFault(frame.matrix) : frame.fault;
     const std::optional<Status> answer = robot.unit().request(request);
     if (answer == Status::kInvalidArgumentRejected) {
-      throw std::invalid_argument("The end effector was refused. " +
-                                  (isPayload(request.payload) ? frameFault(request.F_T_NE)
-                                                              : payloadFault(request.payload)));
+      throw std::invalid_argument(
+          "The end effector was refused. " +
+          (isPayload(request.payload)
+               ? "F_T_NE is not a column-major 4x4 transform to a frame on the arm: " + fault + "."
+               : payloadFault(request.payload)));
     }
-    return require(answer == Status::kSuccess ? Refusal::kNone : Refusal::kMotionActive);
+    require(answer == Status::kSuccess ? Refusal::kNone : Refusal::kMotionActive);
+    return frame.warning.empty() ? "" : "F_T_NE: " + frame.warning + ".";
   });
   lines.add("end_effector_power on|off", [&](const Words& words) {
     setEndEffectorPower(robot, toSwitch(words.at(0)));

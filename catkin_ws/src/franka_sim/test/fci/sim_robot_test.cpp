@@ -137,6 +137,41 @@ TEST_F(Panda, StartsAMotionWithoutDelayedCommandsOfTheLast) {
   }
 }
 
+TEST_F(SimRobotTest, ReportsWhyFramesAndLoadsOfAClientAreRefused) {
+  std::vector<std::string> reports;
+  robot.onRefusal([&](const std::string& what) { reports.push_back(what); });
+  TestClient client(robot.server().port());
+  connect(client, 10);
+  codec::SetNEToEERequest end_effector{franka_core::kIdentityTransform};
+  end_effector.NE_T_EE[0] = 0.999;
+  codec::SetEEToKRequest stiffness{franka_core::kIdentityTransform};
+  stiffness.EE_T_K[3] = 0.1;
+  const std::vector<std::pair<codec::Request, std::string>> cases{
+      {end_effector, "NE_T_EE"},
+      {stiffness, "row-major"},
+      {codec::SetLoadRequest{50.0, {}, {}}, "kg"}};
+  for (const auto& [request, word] : cases) {
+    reports.clear();
+    client.request(request);
+    robot.serve(false);
+    tick();
+    const auto answer = client.answer(codec::commandOf(request), 1000);
+    ASSERT_TRUE(answer) << word;
+    EXPECT_EQ(answer->reply.status, Status::kInvalidArgumentRejected);
+    ASSERT_EQ(reports.size(), 1U) << word;
+    EXPECT_NE(reports[0].find(word), std::string::npos) << reports[0];
+  }
+  reports.clear();
+  for (int i = 0; i < 200; i++) {
+    client.request(end_effector);
+    do {
+      robot.serve(false);
+      tick();
+    } while (!client.answer(Command::kSetNEToEE, 1));  // after several at once one has to wait
+  }
+  EXPECT_LT(reports.size(), 100U);  // a client cannot fill the log
+}
+
 TEST_F(SimRobotTest, ReachesATargetSentOnceAndEndsAfterADisconnect) {
   TestClient client(robot.server().port());
   connect(client, 10);

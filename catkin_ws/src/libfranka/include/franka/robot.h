@@ -198,9 +198,9 @@ class Robot {
   void setCartesianImpedance(const std::array<double, 6>& K_x);
   /// @param guiding_mode whether the hand may move (x, y, z, R, P, Y). @param elbow and the elbow.
   void setGuidingMode(const std::array<bool, 6>& guiding_mode, bool elbow);
-  /// @param EE_T_K pose of the stiffness frame in EE, 4x4 column-major.
+  /// @param EE_T_K pose of K in EE, 4x4 column-major; corrected or refused by typed_transform.h.
   void setK(const std::array<double, 16>& EE_T_K);
-  /// @param NE_T_EE pose of EE in the nominal end effector frame, 4x4 column-major.
+  /// @param NE_T_EE pose of EE in the nominal end effector frame, 4x4 column-major; likewise.
   void setEE(const std::array<double, 16>& NE_T_EE);
   /// Sets the mass that the robot carries besides the end effector.
   /// @param load_mass [kg]. @param F_x_Cload center of mass in F [m].

@@ -156,8 +156,8 @@ std::string transformFault(const Matrix& matrix) {
 }
 
 std::string roughTransformFault(const Matrix& matrix, double tolerance) {
-  return firstOf({entryFault(matrix), columnFault(matrix, tolerance),
-                  angleFault(matrix, tolerance), mirrorFault(matrix)});
+  return firstOf({entryFault(matrix), columnFault(matrix, tolerance), angleFault(matrix, tolerance),
+                  mirrorFault(matrix)});
 }
 
 }  // namespace franka_core

@@ -1,13 +1,38 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka/exception.h>
 #include <franka/robot.h>
+#include <franka_core/fci/texts.h>
+#include <franka_core/typed_transform.h>
 
 #include "franka/control_loop.h"
 #include "franka/robot_impl.h"
+#include "franka/warning.h"
 
 namespace franka {
 
 namespace fci = franka_core::fci;
+
+namespace {
+
+/// The transform of a matrix that a user typed; logs its correction.
+/// @throws CommandException with the robot's text if it is not a transform
+std::array<double, 16> readFrame(fci::Command command, const std::string& name,
+                                 const std::array<double, 16>& matrix) {
+  const franka_core::TypedTransform typed = franka_core::readTypedTransform(matrix);
+  if (!typed.fault.empty()) {
+    throw CommandException(fci::statusText(command, fci::Status::kInvalidArgumentRejected,
+                                           franka_core::RobotMode::kIdle) +
+                           " " + name + " is not a column-major 4x4 transform: " + typed.fault +
+                           ".");
+  }
+  if (!typed.warning.empty()) {
+    logging::warn("libfranka: " + name + ": " + typed.warning + ".");
+  }
+  return typed.matrix;
+}
+
+}  // namespace
 
 Robot::Robot(const std::string& franka_address, RealtimeConfig realtime_config, size_t log_size)
     : impl_(std::make_shared<Impl>(franka_address, realtime_config, log_size)) {}
@@ -130,11 +155,11 @@ void Robot::setGuidingMode(const std::array<bool, 6>& guiding_mode, bool elbow) 
 }
 
 void Robot::setK(const std::array<double, 16>& EE_T_K) {
-  impl_->execute(fci::SetEEToKRequest{EE_T_K});
+  impl_->execute(fci::SetEEToKRequest{readFrame(fci::Command::kSetEEToK, "EE_T_K", EE_T_K)});
 }
 
 void Robot::setEE(const std::array<double, 16>& NE_T_EE) {
-  impl_->execute(fci::SetNEToEERequest{NE_T_EE});
+  impl_->execute(fci::SetNEToEERequest{readFrame(fci::Command::kSetNEToEE, "NE_T_EE", NE_T_EE)});
 }
 
 void Robot::setLoad(double load_mass, const std::array<double, 3>& F_x_Cload,
