@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/exception.h>
+#include <franka_core/fci/texts.h>
 #include <franka_hw/abort_reporter.h>
 #include <franka_hw/arm_connection.h>
 #include <franka_hw/goal_server.h>
@@ -195,6 +196,28 @@ bool ArmConnection::needsRecovery() const noexcept {
   const franka::RobotMode mode = owner_.robotMode();
   return hasOwnError() || mode == franka::RobotMode::kReflex ||
          mode == franka::RobotMode::kUserStopped;
+}
+
+std::string ArmConnection::reasonWithoutEffect() const {
+  const bool own = needsRecovery();
+  if (!own && !hasError()) {
+    return "";
+  }
+  const franka::RobotMode mode = owner_.robotMode();
+  const std::string arm = offer_ ? "'" + offer_->arm_id + "'" : "the robot";
+  const std::string recovery = offer_ ? offer_->nh.resolveName("error_recovery") : "error_recovery";
+  const std::string has_no_effect =
+      arm + " is in the mode " +
+      franka_core::fci::modeName(static_cast<franka_core::RobotMode>(mode)) +
+      (own ? ", with an error" : ", and waits for another arm, which has an error") +
+      ": the controllers start, but have no effect before ";
+  if (!own) {
+    return has_no_effect + "that arm has recovered (action error_recovery).";
+  }
+  return has_no_effect +
+         (mode == franka::RobotMode::kUserStopped ? "the user stop is released and the action "
+                                                  : "the action ") +
+         recovery + " is called.";
 }
 
 void ArmConnection::recover() {

@@ -120,6 +120,12 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
     takePreparationBack();
     return true;
   }
+  if (start_mode != ControlMode::None) {
+    const std::string reason = connection_.reasonWithoutEffect();
+    if (!reason.empty()) {
+      ROS_WARN_STREAM("FrankaHW: " << reason);
+    }
+  }
   preparation_pending_ = false;
   const ControlMode mode = (current_control_mode_ & ~stop_mode) | start_mode;
   const RunSettings settings{mode, get_limit_rate_(), get_cutoff_frequency_(),

@@ -155,6 +155,9 @@ void CameraPublisher::follow(const std::vector<franka_sim::WorldCamera>& cameras
     topics.info = node_.advertise<sensor_msgs::CameraInfo>(topic + "/camera_info", 2);
     topics.depth = node_.advertise<sensor_msgs::Image>(topic + "/depth/image_raw", 2);
     topics.depth_info = node_.advertise<sensor_msgs::CameraInfo>(topic + "/depth/camera_info", 2);
+    ROS_INFO_STREAM_NAMED(kLog, "The pictures of camera '" << camera.name << "' are published on "
+                                                           << topics.image.getTopic() << " and "
+                                                           << topics.depth.getTopic() << ".");
   }
   cameras_.swap(present);
 }

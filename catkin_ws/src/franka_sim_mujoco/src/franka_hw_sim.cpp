@@ -308,13 +308,13 @@ bool FrankaHWSim::prepareSwitch(const std::list<hardware_interface::ControllerIn
     return false;
   }
   if (arm_->userStopped() || arm_->needsRecovery()) {
-    ROS_WARN_NAMED(
-        kHardwareLog,
-        "%s: %s: the controller starts but has no effect before %sfranka_control/"
-        "error_recovery is called.",
-        arm_id_.c_str(),
-        arm_->userStopped() ? "the user stop is pressed" : "an error has stopped the arm",
-        arm_->userStopped() ? "the stop is released and " : "");
+    ROS_WARN_NAMED(kHardwareLog,
+                   "%s: %s: the controller starts but has no effect before %sfranka_control/"
+                   "error_recovery is called.",
+                   arm_id_.c_str(),
+                   arm_->userStopped() ? "the user stop is pressed (mode User stopped)"
+                                       : "an error has stopped the arm (mode Reflex)",
+                   arm_->userStopped() ? "the stop is released and " : "");
   }
   return !refusesAtSingularPose(starts, claimedMode(stop_list, arm_id_));
 }

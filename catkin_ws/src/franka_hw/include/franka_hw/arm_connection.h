@@ -93,6 +93,9 @@ class ArmConnection {
   /// Whether there is an own error, or the robot stopped while no controller moved it.
   /// Real-time safe. Thread-safe.
   bool needsRecovery() const noexcept;
+  /// Why controllers that start now have no effect, and what ends that: a sentence with the arm,
+  /// its mode and the action; empty if they have one. Thread-safe. Not real-time safe.
+  std::string reasonWithoutEffect() const;
   /// Clears the robot's error and ends the own one. A robot that is Idle has no error. If there is
   /// nothing to recover, only a warning is logged. Thread-safe. Not real-time safe.
   /// @throws franka::Exception if the robot refuses or is not connected; nothing has changed then

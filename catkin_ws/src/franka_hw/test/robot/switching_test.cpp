@@ -271,5 +271,22 @@ TEST_F(Switching, AReflexIsReportedAndAfterItTheControllerGoesOn) {
   expectRuns("JT");
 }
 
+TEST_F(Switching, AStartInReflexIsAcceptedWithAWarning) {
+  const LogCatcher log;
+  const auto warns = [&log](const char* word) {
+    return log.text(ros::console::levels::Warn).find(word) != std::string::npos;
+  };
+  ASSERT_TRUE(loop_->switchTo({"JP"}, {}));
+  expectRuns("JP");
+  EXPECT_FALSE(warns("error_recovery"));
+  ASSERT_TRUE(loop_->switchTo({}, {"JP"}));
+  arm_.robot.change([](auto& state) { state.robot_mode = franka_core::RobotMode::kReflex; });
+  ASSERT_TRUE(eventually([&] { return robot_.robotMode() == franka::RobotMode::kReflex; }));
+  ASSERT_TRUE(loop_->switchTo({"looks"}, {}));
+  EXPECT_FALSE(warns("error_recovery")) << "a controller that only reads needs no recovery";
+  EXPECT_TRUE(loop_->switchTo({"JT"}, {}));
+  EXPECT_TRUE(warns("Reflex") && warns("error_recovery")) << log.text(ros::console::levels::Warn);
+}
+
 }  // namespace
 }  // namespace franka_hw_test

@@ -73,7 +73,8 @@ std::vector<CameraSensor> readCameras(const XMLElement& sensor, const Eigen::Iso
   }
   for (auto* plugin = sensor.FirstChildElement("plugin"); plugin != nullptr;
        plugin = plugin->NextSiblingElement("plugin")) {
-    const std::string title = "plugin '" + optional(*plugin, "name") + "' of sensor '" + name + "'";
+    const std::string title = "plugin '" + optional(*plugin, "name") + "' (" +
+                              optional(*plugin, "filename") + ") of sensor '" + name + "'";
     notes->insert(cameras.empty() ? title : title + " (its pictures have topics of their own)");
   }
   return cameras;

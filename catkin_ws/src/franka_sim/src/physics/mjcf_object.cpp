@@ -26,7 +26,10 @@ class SceneBuilder {
   SceneBuilder(const UrdfRobot& urdf, const std::string& name, const ResourceResolver& resolve)
       : urdf_(urdf), resolve_(resolve) {
     scene_.unsupported = urdf.notes;
-    scene_.models.push_back({name, Eigen::Isometry3d::Identity(), {}, urdf.self_collide});
+    scene_.models.push_back({name,
+                             Eigen::Isometry3d::Identity(),
+                             {},
+                             urdf.describes_self_collide && urdf.self_collide});
   }
 
   SdfScene build() {
@@ -45,6 +48,7 @@ class SceneBuilder {
     result.model = model();
     result.is_static = urdf_.is_static;
     result.gravity = link.gravity;
+    result.self_collide = link.self_collide;
     result.pose = pose;
     result.inertial = link.inertial.value_or(UrdfInertial{});
     if (result.inertial.mass == 0 && !link.collisions.empty() && !urdf_.is_static) {

@@ -297,7 +297,17 @@ class Writer {
 
   /// Neighbors overlap by construction, and the convex hulls of link5 and link7 do too (their
   /// joint stops, not their shapes, keep them apart). So the fingers of a hand meet at their stop.
-  bool mayCollide(int a, int b) const { return robot_.urdf.self_collide && distance(a, b) > 2; }
+  bool mayCollide(int a, int b) const { return selfCollide(a, b) && distance(a, b) > 2; }
+
+  /// As in Gazebo, one of two links decides.
+  bool selfCollide(int a, int b) const { return selfCollides(a) || selfCollides(b); }
+
+  bool selfCollides(int segment) const {
+    const auto& links = robot_.segments[segment].links;
+    return std::any_of(links.begin(), links.end(), [this](const auto& link) {
+      return robot_.urdf.links[link.first].self_collide.value_or(robot_.urdf.self_collide);
+    });
+  }
 
   void writeExcludes() {
     const int count = static_cast<int>(robot_.segments.size());
@@ -308,7 +318,7 @@ class Writer {
           e->SetAttribute("body1", nameOf(robot_.segments[a]).c_str());
           e->SetAttribute("body2", nameOf(robot_.segments[b]).c_str());
         }
-        if (robot_.urdf.self_collide && distance(a, b) == 2) {
+        if (selfCollide(a, b) && distance(a, b) == 2) {
           writeAttachedPairs(robot_.segments[a], robot_.segments[b]);
           writeAttachedPairs(robot_.segments[b], robot_.segments[a]);
         }

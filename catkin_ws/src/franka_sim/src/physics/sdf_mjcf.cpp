@@ -342,10 +342,17 @@ class SdfWriter {
     geom->SetAttribute("mesh", known->second.c_str());
   }
 
-  /// Links of a model do not collide with each other unless it has <self_collide>.
+  /// Links of a model do not collide with each other unless one of them, or the model, has
+  /// <self_collide>.
   void writeExcludes(const SdfModel& model) {
-    for (std::size_t a = 0; !model.self_collide && a < model.links.size(); ++a) {
+    const auto collides = [&](int link) {
+      return scene_.links[link].self_collide.value_or(model.self_collide);
+    };
+    for (std::size_t a = 0; a < model.links.size(); ++a) {
       for (std::size_t b = a + 1; b < model.links.size(); ++b) {
+        if (collides(model.links[a]) || collides(model.links[b])) {
+          continue;
+        }
         if (moving_[model.links[a]] || moving_[model.links[b]]) {
           XMLElement* e = append(contact_, "exclude");
           e->SetAttribute("body1", names_[model.links[a]].c_str());

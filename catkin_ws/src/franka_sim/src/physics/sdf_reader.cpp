@@ -216,6 +216,9 @@ class Reader {
                    "meta", "visibility_flags"},
                   &scene_.unsupported);
     });
+    if (link.FirstChildElement("self_collide") != nullptr) {
+      result.self_collide = isTrue(link, "self_collide");
+    }
     const int index = static_cast<int>(scene_.links.size());
     scene_.links.push_back(result);
     scene_.models.back().links.push_back(index);
@@ -231,7 +234,7 @@ class Reader {
 
   void noteOfLink(const XMLElement& link, const std::string& name) {
     const std::string what = "link '" + name + "'";
-    for (const char* setting : {"enable_wind", "kinematic", "self_collide"}) {
+    for (const char* setting : {"enable_wind", "kinematic"}) {
       noteTrue(link, setting, what);
     }
     if (const XMLElement* decay = link.FirstChildElement("velocity_decay")) {

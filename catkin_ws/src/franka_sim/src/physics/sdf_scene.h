@@ -67,6 +67,7 @@ struct SdfLink {
   std::string model;  ///< outermost model
   bool is_static{false};
   bool gravity{true};
+  std::optional<bool> self_collide;                       ///< without it the model's
   Eigen::Isometry3d pose{Eigen::Isometry3d::Identity()};  ///< in the world
   UrdfInertial inertial;
   std::vector<SdfShape> collisions, visuals;

@@ -272,6 +272,10 @@ void readPlugins(const XMLElement& gazebo, UrdfRobot* robot) {
   for (auto* plugin = gazebo.FirstChildElement("plugin"); plugin != nullptr;
        plugin = plugin->NextSiblingElement("plugin")) {
     const std::string library = optional(*plugin, "filename");
+    const int follower = robot->joint(childText(*plugin, "mimicJoint"));
+    if (follower >= 0 && !robot->joints[follower].mimic.empty()) {
+      continue;  // this simulation follows <mimic> itself
+    }
     if (plugin->FirstChildElement("robotSimType") != nullptr ||
         library.find("gazebo_ros_control") != std::string::npos) {
       robot->has_control_plugin = true;
@@ -301,6 +305,20 @@ bool hasGravity(const XMLElement& gazebo) {
   return isTrue(gazebo, "gravity", true) && !isTrue(gazebo, "turnGravityOff", false);
 }
 
+/// <self_collide> or <selfCollide>; nothing without them.
+std::optional<bool> selfCollideOf(const XMLElement& gazebo, const std::string& context) {
+  for (const char* name : {"self_collide", "selfCollide"}) {
+    if (const XMLElement* element = gazebo.FirstChildElement(name)) {
+      bool collides = false;
+      if (element->QueryBoolText(&collides) != tinyxml2::XML_SUCCESS) {
+        fail(context, "<" + std::string(name) + "> must say true or false.");
+      }
+      return collides;
+    }
+  }
+  return std::nullopt;
+}
+
 /// Settings of Gazebo that have no effect here, with what they are of.
 void noteUnread(const XMLElement& gazebo, UrdfRobot* robot) {
   const std::string reference = optional(gazebo, "reference");
@@ -317,15 +335,16 @@ void noteUnread(const XMLElement& gazebo, UrdfRobot* robot) {
     noteCollision(*collision, what, &robot->notes);
   }
   // Fixed joints are always kept; forces of joints can always be read.
-  noteUnknown(
-      gazebo, what,
-      {"sensor", "plugin", "static", "self_collide", "collision", "mu", "mu1", "gravity",
-       "turnGravityOff", "provideFeedback", "preserveFixedJoint", "disableFixedJointLumping"},
-      &robot->notes);
-  for (const char* of_models : {"static", "self_collide"}) {
-    if (!reference.empty() && gazebo.FirstChildElement(of_models) != nullptr) {
-      robot->notes.insert("<" + std::string(of_models) + "> of " + what);
-    }
+  noteUnknown(gazebo, what,
+              {"sensor", "plugin", "static", "self_collide", "selfCollide", "collision", "mu",
+               "mu1", "gravity", "turnGravityOff", "provideFeedback", "preserveFixedJoint",
+               "disableFixedJointLumping"},
+              &robot->notes);
+  if (!reference.empty() && gazebo.FirstChildElement("static") != nullptr) {
+    robot->notes.insert("<static> of " + what);
+  }
+  if (robot->link(reference) < 0 && robot->joint(reference) >= 0 && selfCollideOf(gazebo, "")) {
+    robot->notes.insert("<self_collide> of " + what);
   }
 }
 
@@ -333,11 +352,11 @@ void noteUnread(const XMLElement& gazebo, UrdfRobot* robot) {
 void readExtensions(const XMLElement& root, const std::string& context, UrdfRobot* robot) {
   for (auto* e = root.FirstChildElement("gazebo"); e != nullptr;
        e = e->NextSiblingElement("gazebo")) {
-    const XMLElement* self_collide = e->FirstChildElement("self_collide");
+    const std::optional<bool> self_collide = selfCollideOf(*e, context);
     if (e->Attribute("reference") == nullptr) {
-      if (self_collide != nullptr &&
-          self_collide->QueryBoolText(&robot->self_collide) != tinyxml2::XML_SUCCESS) {
-        fail(context, "<self_collide> must say true or false.");
+      if (self_collide) {
+        robot->self_collide = *self_collide;
+        robot->describes_self_collide = true;
       }
       robot->is_static = isTrue(*e, "static", robot->is_static);
     }
@@ -346,10 +365,14 @@ void readExtensions(const XMLElement& root, const std::string& context, UrdfRobo
     if (link != nullptr) {
       readFriction(*e, context, link);
       link->gravity = link->gravity && hasGravity(*e);
+      link->self_collide = self_collide ? self_collide : link->self_collide;
     }
     readSensors(*e, robot, link);
     readPlugins(*e, robot);
     noteUnread(*e, robot);
+  }
+  if (!robot->describes_self_collide) {
+    robot->self_collide = !robot->has_control_plugin;
   }
 }
 

@@ -39,6 +39,7 @@ struct UrdfLink {
   std::vector<CameraSensor> cameras;  ///< of the <gazebo reference> element
   std::optional<double> friction;     ///< mu of the <gazebo reference> element
   bool gravity{true};                 ///< of the <gazebo reference> element
+  std::optional<bool> self_collide;   ///< likewise; without it the robot's
   int parent_joint{-1};               ///< index in UrdfRobot::joints, -1 for the root
   std::vector<int> child_joints;      ///< in the order of the file
 };
@@ -65,7 +66,11 @@ struct UrdfRobot {
   std::set<std::string> notes;     ///< elements that are not simulated as written
   bool is_static{false};           ///< <static> of a <gazebo> element without a reference
   bool has_control_plugin{false};  ///< of ros_control
-  bool self_collide{true};         ///< <self_collide> of the <gazebo> element without a reference
+  /// Whether links that are not neighbors collide: <self_collide> or <selfCollide> of the <gazebo>
+  /// element without a reference. Without it, Gazebo's default (false) for descriptions that were
+  /// written for Gazebo, which have its plugin of ros_control; true for all others.
+  bool self_collide{true};
+  bool describes_self_collide{false};  ///< whether the description has it
 
   /// Index of a link or joint, -1 if unknown.
   int link(const std::string& link_name) const noexcept;

@@ -199,12 +199,17 @@ std::string World::unsupported(const std::string& name) const {
     }
   }
   std::string list;
+  bool has_plugins = false;
   for (const std::string& note : notes) {
+    has_plugins = has_plugins || note.rfind("plugin ", 0) == 0;
     const bool ends = !note.empty() && note.back() == '.';  // the text of an error
     list += (list.empty() ? "" : "; ") + note.substr(0, note.size() - ends);
   }
-  return list.empty() ? list
-                      : subject + " has elements that are not simulated as written: " + list + ".";
+  const std::string instead =
+      has_plugins ? " What replaces plugins: docs/tutorials/porting_from_noetic.md." : "";
+  return list.empty()
+             ? list
+             : subject + " has elements that are not simulated as written: " + list + "." + instead;
 }
 
 std::vector<std::string> World::bodies() const {

@@ -5,6 +5,7 @@
 #include <source_file.h>
 
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
 
 #include "sdf_test.h"
@@ -283,6 +284,27 @@ TEST_F(SdfWorldTest, ReadsSelfCollideOfAUrdf) {
           touches || (contact.body1.rfind("panda", 0) == 0 && contact.body2.rfind("panda", 0) == 0);
     }
     EXPECT_EQ(touches, collides);
+  }
+}
+
+/// As in Gazebo, one of two links decides: here the link of the hand.
+TEST_F(SdfWorldTest, ReadsSelfCollideOfALink) {
+  for (const std::string link : {"panda_hand", "panda_link1"}) {
+    World world;
+    RobotDescription arm = robot("panda");
+    arm.urdf = replaceAll(arm.urdf, "</robot>",
+                          "<gazebo><self_collide>false</self_collide></gazebo>"
+                          "<gazebo reference='" +
+                              link + "'><selfCollide>true</selfCollide></gazebo></robot>");
+    arm.initial_positions["panda_joint6"] = -0.5;
+    arm.initial_positions["panda_joint4"] = -3.0;
+    world.addRobot(arm);
+    world.step();
+    const auto touching = contacts(world);
+    EXPECT_EQ(link == "panda_hand",
+              std::any_of(touching.begin(), touching.end(), [](const Contact& contact) {
+                return contact.body1.rfind("panda", 0) == 0 && contact.body2.rfind("panda", 0) == 0;
+              }));
   }
 }
 

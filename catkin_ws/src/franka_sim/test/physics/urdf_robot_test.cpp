@@ -124,6 +124,17 @@ TEST(UrdfRobotTest, HoldsTheFollowerOfAHeldJoint) {
   EXPECT_NEAR(0.5, robot.joints[0].origin.translation().x(), 1e-15);
 }
 
+TEST(UrdfRobotTest, NamesNoPluginThatFollowsAMimic) {
+  const auto robot = physics::readUrdf(
+      "<robot name='r'><link name='a'/><link name='b'/><link name='c'/>"
+      "<joint name='k' type='prismatic'><parent link='b'/><child link='c'/><limit lower='-1' "
+      "upper='1'/><mimic joint='j'/></joint><joint name='j' type='revolute'><parent link='a'/>"
+      "<child link='b'/><limit lower='0' upper='1'/></joint><gazebo><plugin name='m' "
+      "filename='libmimic.so'><joint>j</joint><mimicJoint>k</mimicJoint></plugin></gazebo></robot>",
+      "rob");
+  EXPECT_EQ(std::set<std::string>(), robot.notes);
+}
+
 TEST(UrdfRobotTest, RepairsRoundedInertiasWithANote) {
   const auto moments = [](double xx, double yy, double zz) {
     return "<inertial><mass value='1'/><inertia ixx='" + franka_core::numberText(xx) + "' iyy='" +
@@ -177,17 +188,43 @@ TEST(UrdfRobotTest, NamesSettingsOfGazeboThatHaveNoEffect) {
                  "<collision><max_contacts>9</max_contacts><surface><contact><ode><kp>1e6</kp>"
                  "<min_depth>0.1</min_depth></ode></contact><friction><ode><mu>1</mu>"
                  "<mu2>2</mu2></ode></friction></surface></collision>")));
-  EXPECT_EQ(List{"<selfCollide> of 'arm'"}, notesOf(of("arm", "<selfCollide>true</selfCollide>")));
-  EXPECT_EQ(List{"<self_collide> of 'arm'"}, notesOf(of("arm", "<self_collide>1</self_collide>")));
+  EXPECT_EQ(List{}, notesOf(of("arm", "<selfCollide>true</selfCollide>")));
+  EXPECT_EQ(List{"<self_collide> of 'j'"}, notesOf(of("j", "<self_collide>1</self_collide>")));
   EXPECT_EQ(List{"<stopKd> of 'j'"}, notesOf(of("j", "<stopKd>1</stopKd>")));
   EXPECT_EQ(List{"<gazebo> of 'amr', which is neither a link nor a joint"},
             notesOf(of("amr", "<gravity>0</gravity>")));
+  const std::string follows =
+      "<gazebo><plugin name='m' filename='libroboticsgroup_gazebo_mimic_joint_plugin.so'>"
+      "<joint>j</joint><mimicJoint>j</mimicJoint></plugin></gazebo>";
+  EXPECT_EQ(List{"plugin 'm' (libroboticsgroup_gazebo_mimic_joint_plugin.so)"}, notesOf(follows));
   EXPECT_EQ(List{"<pose> of the model"}, notesOf("<gazebo><pose>0 0 1 0 0 0</pose></gazebo>"));
   EXPECT_EQ(List{}, notesOf(of("arm",
                                "<mu1>1</mu1><turnGravityOff>true</turnGravityOff>"
                                "<collision><surface/></collision>") +
                             of("j", "<provideFeedback>true</provideFeedback>") +
                             "<gazebo><static>false</static></gazebo>"));
+}
+
+TEST(UrdfRobotTest, HasGazebosDefaultOfSelfCollisionIfItWasWrittenForGazebo) {
+  const auto of = [](const std::string& settings) {
+    return physics::readUrdf(twoLinks(hinge() + settings), "rob");
+  };
+  const std::string plugin =
+      "<gazebo><plugin name='control' filename='libgazebo_ros_control.so'/></gazebo>";
+  EXPECT_TRUE(of("").self_collide);
+  EXPECT_FALSE(of(plugin).self_collide);
+  for (const std::string name : {"self_collide", "selfCollide"}) {
+    const auto setting = [&name](const std::string& value) {
+      return "<" + name + ">" + value + "</" + name + "></gazebo>";
+    };
+    EXPECT_TRUE(of(plugin + "<gazebo>" + setting("true")).self_collide);
+    EXPECT_TRUE(of("<gazebo>" + setting("1") + plugin).self_collide);
+    EXPECT_FALSE(of("<gazebo>" + setting("false")).self_collide);
+    const physics::UrdfRobot robot = of(plugin + "<gazebo reference='arm'>" + setting("true"));
+    EXPECT_TRUE(robot.links[robot.link("arm")].self_collide.value_or(false));
+    EXPECT_FALSE(robot.self_collide);
+    refuses(twoLinks(hinge() + "<gazebo>" + setting("maybe")), {name.c_str(), "true or false"});
+  }
 }
 
 TEST(UrdfRobotTest, RefusesLoopsAndTwoParents) {
