@@ -226,6 +226,7 @@ class SpawnerTest(unittest.TestCase):
         switch_waits = self.manager.halt_loop()
         with Running("spawner", "a") as spawner:
             wait_for(switch_waits, "The switch")
+            wait_for(lambda: "stands still" in spawner.output, "The reason for the wait")
             status, output = spawner.interrupt()
         self.assertEqual(0, status, output)
         self.assertIn("Failed to unload controller: a", output)

@@ -49,8 +49,15 @@ class Ending:
         self._done.set()
         rospy.signal_shutdown("the program has ended")
 
-    def call(self, service: Callable[[Any], Any], request: Any) -> Any:
-        """The answer of a service that may never come. Raises Ended on a request to exit."""
+    def call(
+        self, service: Callable[[Any], Any], request: Any, waits: Callable[[], None] = lambda: None
+    ) -> Any:
+        """The answer of a service that may never come. Raises Ended on a request to exit.
+
+        Args:
+            service: called in a thread of its own.
+            waits: called again and again while there is no answer.
+        """
         outcome: dict[str, Any] = {}
 
         def work() -> None:
@@ -63,6 +70,7 @@ class Ending:
         worker.start()
         while worker.is_alive():
             worker.join(POLL_PERIOD)
+            waits()
             if self.is_requested() and worker.is_alive():
                 raise Ended
         if "error" in outcome:

@@ -39,6 +39,7 @@ PAUSE_AFTER_FAILED_LOAD = 1.0  # [s]
 # Time until a wait for a topic is first reported, and then the period.
 FIRST_REPORT = 10.0  # [s]
 REPORT_PERIOD = 60.0  # [s]
+LONG_SWITCH = 3.0  # [s] after which a switch without an answer is reported; it takes two cycles of the loop
 RESUBSCRIBE_TIME = 3.0  # [s] after which a subscriber without a publisher is replaced
 # roslaunch ends all its nodes at once: time until a manager that broke a call off has exited.
 END_OF_MANAGER = 2.0  # [s]
@@ -254,6 +255,28 @@ def controller_names(arguments: Iterable[str]) -> list[str]:
     return list(dict.fromkeys(names))
 
 
+class SwitchReport:
+    """Says once that a switch is waited for: the control loop makes it."""
+
+    def __init__(self, service: str):
+        self._service = service
+        self._due: float | None = time.monotonic() + LONG_SWITCH
+
+    def __call__(self) -> None:
+        if self._due is None or time.monotonic() < self._due:
+            return
+        self._due = None
+        hint = ""
+        if rospy.get_param("/use_sim_time", False):
+            hint = " A paused simulation starts no controllers: rosservice call /gazebo/unpause_physics"
+        rospy.logwarn(
+            "Controller Spawner: %s has not answered for %.0f s: its control loop stands still.%s",
+            rospy.resolve_name(self._service),
+            LONG_SWITCH,
+            hint,
+        )
+
+
 class Spawner:
     """The controllers this program has loaded into one controller manager."""
 
@@ -283,17 +306,24 @@ class Spawner:
     def _is_loaded(self, name: str) -> bool:
         return name in self._controllers()
 
-    def _ask(self, name: str, kind: Any, request: Any, is_done: Callable[[], bool]) -> bool:
+    def _ask(
+        self,
+        name: str,
+        kind: Any,
+        request: Any,
+        is_done: Callable[[], bool],
+        waits: Callable[[], None] = lambda: None,
+    ) -> bool:
         """Calls a service of the manager, and once more if the connection breaks while the manager goes on.
         Returns whether it was done, by either request."""
         service = self._service(name, kind)
         try:
-            return bool(self._ending.call(service, request).ok)
+            return bool(self._ending.call(service, request, waits).ok)
         except rospy.ServiceException as error:
             if not is_offered(self._prefix + name):
                 raise
             rospy.logwarn("Controller Spawner: %s is asked again: %s", self._prefix + name, error)
-        return bool(self._ending.call(service, request).ok) or is_done()
+        return bool(self._ending.call(service, request, waits).ok) or is_done()
 
     def load(self, names: Iterable[str]) -> None:
         for name in names:
@@ -315,7 +345,8 @@ class Spawner:
             states = self._controllers()
             return all(states.get(name) == "running" for name in self.loaded)
 
-        started = self._ask("switch_controller", SwitchController, request, all_run)
+        report = SwitchReport(self._prefix + "switch_controller")
+        started = self._ask("switch_controller", SwitchController, request, all_run, report)
         names = ", ".join(self.loaded)
         if started:
             rospy.loginfo("Started controllers: %s", names)
