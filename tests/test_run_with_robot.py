@@ -3,17 +3,22 @@
 """pyfranka-run, and the forms for continuous integration that call it: a command runs with a robot."""
 
 import os
+import pty
 import re
 import secrets
+import select
 import shutil
 import signal
+import socket
 import subprocess
 import sys
 from contextlib import suppress
 from pathlib import Path
+from xmlrpc.server import SimpleXMLRPCServer
 
 import pytest
 import yaml
+from pyfranka.run import reserve_port
 
 TOP = Path(__file__).resolve().parent.parent
 DEVEL = TOP / "catkin_ws" / "devel"
@@ -156,6 +161,55 @@ def test_a_signal_while_the_command_starts_ends_it():
     assert done.returncode == 128 + signal.SIGTERM
 
 
+class Terminal:
+    """pyfranka-run as the first program of a terminal of its own."""
+
+    def __init__(self, *words: str | Path):
+        self.pid, self._master = pty.fork()
+        if self.pid == 0:
+            os.execv(RUN, [RUN, *words])
+        self.printed = ""
+
+    def wait_for(self, text: str):
+        while text not in self.printed:
+            readable, _, _ = select.select([self._master], [], [], 120)
+            assert readable, self.printed
+            self.printed += os.read(self._master, 4096).decode(errors="replace")
+
+    def type(self, text: str):
+        os.write(self._master, text.encode())
+
+    def status(self) -> int:
+        with suppress(OSError):  # its other side is closed
+            while part := os.read(self._master, 4096):
+                self.printed += part.decode(errors="replace")
+        os.close(self._master)
+        return os.waitstatus_to_exitcode(os.waitpid(self.pid, 0)[1])
+
+
+def test_a_debugger_reads_what_is_typed(tmp_path):
+    file = tmp_path / "test_mine.py"
+    file.write_text("def test_mine():\n    value = 6\n    assert value == 7\n")
+    terminal = Terminal("--", sys.executable, "-m", "pytest", "-p", "no:cacheprovider", "--pdb", file)
+    terminal.wait_for("(Pdb)")
+    terminal.type("p 1000 * value + 1\n")
+    terminal.wait_for("6001")
+    terminal.type("q\n")
+    assert terminal.status() == 2, terminal.printed  # pytest's for an interruption
+
+
+def test_ctrl_c_ends_the_command_and_nothing_is_left():
+    terminal = Terminal("--", "bash", "-c", "sleep 1000 & echo started; read -r line")
+    terminal.wait_for("started")
+    terminal.type("\x03")
+    assert terminal.status() == 128 + signal.SIGINT, terminal.printed
+
+
+def test_the_command_reads_standard_input():
+    done = subprocess.run([RUN, "--", "cat"], input="mine", text=True, capture_output=True, timeout=200)
+    assert (done.returncode, done.stdout) == (0, "mine"), done.stderr
+
+
 # ---- roslaunch -------------------------------------------------------------------------------------------
 
 
@@ -171,6 +225,15 @@ def test_a_launch_without_a_robot_is_reported(tmp_path):
     done = run(f"--launch={file}", "--start-timeout=1", "--", "echo", "mine")
     assert (done.returncode, done.stdout) == (125, "")
     assert "states had no message within 1 s" in done.stderr
+
+
+def test_nobody_but_the_master_gets_the_reserved_port():
+    with reserve_port() as reserved:
+        port = reserved.getsockname()[1]
+        with socket.socket() as other, pytest.raises(OSError, match="in use"):
+            other.bind(("localhost", port))
+        with SimpleXMLRPCServer(("localhost", port)) as master:  # what rosmaster listens with
+            assert master.server_address[1] == port
 
 
 def test_nodes_that_roslaunch_leaves_are_ended(tmp_path):

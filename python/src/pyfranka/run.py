@@ -117,7 +117,8 @@ class LaunchedRobot:
                     f"There is no program {program} on PATH: source the setup.bash of a workspace or of "
                     "the installed packages."
                 )
-        port = free_port()
+        self._reserved = reserve_port()
+        port = self._reserved.getsockname()[1]
         self.variables = {
             "ROS_MASTER_URI": f"http://localhost:{port}",
             "ROS_HOSTNAME": os.environ.get("ROS_HOSTNAME", "localhost"),
@@ -153,6 +154,7 @@ class LaunchedRobot:
         # Its own way to end its nodes. Those that it starts meanwhile can remain, in groups of their own.
         end_group(self._process, signal.SIGINT)
         end_marked(f"{MARK}={self._mark}")
+        self._reserved.close()
 
     def _wait_for(self, topic: str, seconds: float) -> None:
         deadline = time.monotonic() + seconds
@@ -187,10 +189,52 @@ class LaunchedRobot:
         )
 
 
-def free_port() -> int:
-    with socket.socket() as probe:
-        probe.bind(("localhost", 0))
-        return int(probe.getsockname()[1])
+def reserve_port() -> socket.socket:
+    """A socket with a port that the system gives to no other program while it is open. The ROS master listens
+    there nevertheless: its server has SO_REUSEADDR, too, and this socket does not listen."""
+    reserved = socket.socket()
+    reserved.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    reserved.bind(("", 0))
+    return reserved
+
+
+@contextmanager
+def terminal_of(group: int) -> Iterator[None]:
+    """Inside, the process group of a child has the terminal of our standard input, if we have it: it reads
+    what is typed, Ctrl-C ends it, and Ctrl-Z stops it and us. Our own group gets the terminal back."""
+    ours = os.getpgrp()
+    if not os.isatty(0) or os.tcgetpgrp(0) != ours:
+        yield
+        return
+
+    def give(other: int) -> None:
+        with suppress(OSError):  # the group has ended already, or the terminal has gone
+            os.tcsetpgrp(0, other)
+
+    def resume() -> None:
+        if os.tcgetpgrp(0) == ours:  # not after `bg` of the shell
+            give(group)
+        with suppress(ProcessLookupError):
+            os.killpg(group, signal.SIGCONT)  # it may have read too early
+
+    def child_changed(*_: object) -> None:
+        with suppress(ChildProcessError):  # it has been waited for
+            if os.waitid(os.P_PID, group, os.WSTOPPED | os.WNOHANG):
+                give(ours)
+                os.kill(os.getpid(), signal.SIGSTOP)
+                resume()
+
+    before = signal.signal(
+        signal.SIGTTOU, signal.SIG_IGN
+    )  # else a process stops that gives its terminal back
+    children = signal.signal(signal.SIGCHLD, child_changed)
+    try:
+        resume()
+        yield
+    finally:
+        signal.signal(signal.SIGCHLD, children)
+        give(ours)
+        signal.signal(signal.SIGTTOU, before)
 
 
 def end_group(process: subprocess.Popen[bytes], number: int) -> None:
@@ -234,10 +278,9 @@ def run_command(words: Sequence[str], variables: dict[str, str], seconds: float)
     process = None
     try:
         with held():
-            process = subprocess.Popen(
-                words, env={**os.environ, **variables}, stdin=subprocess.DEVNULL, process_group=0
-            )
-        code = process.wait(seconds or None)
+            process = subprocess.Popen(words, env={**os.environ, **variables}, process_group=0)
+        with terminal_of(process.pid):
+            code = process.wait(seconds or None)
     except FileNotFoundError:
         print_line(f"there is no program {words[0]}.")
         return NOT_FOUND
