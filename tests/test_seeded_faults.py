@@ -28,10 +28,8 @@ OF_THIS_RUN = re.compile(
     r"PYTEST_|ROS_|CMAKE_PREFIX_PATH|PYTHONPATH|LD_LIBRARY_PATH|PKG_CONFIG_PATH|FRANKA_TEST_"
 )
 
-pytestmark = [
-    pytest.mark.long_form("builds what has a fault once for each of them"),
-    pytest.mark.timeout(7200),
-]
+builds = pytest.mark.long_form("builds what has a fault once for each of them")
+pytestmark = pytest.mark.timeout(7200)
 
 
 def patches(*sources: str) -> list:
@@ -42,6 +40,11 @@ def patches(*sources: str) -> list:
         for path in found
         if any(f"+++ b/{source}/" in path.read_text(encoding="utf-8") for source in sources)
     ]
+
+
+@pytest.mark.parametrize("patch", patches(UNIT, *MACHINES))
+def test_a_fault_fits_the_sources(patch):
+    run("patch", "--dry-run", "--force", "-p1", "-i", patch, cwd=TOP)
 
 
 def run(*command, check=True, **options):
@@ -71,6 +74,7 @@ def unit(tmp_path_factory):
     return top
 
 
+@builds
 @pytest.mark.parametrize("patch", patches(UNIT))
 def test_a_fault_of_the_control_unit_is_found(unit, patch, monkeypatch):
     monkeypatch.setenv("RC_PARAMS", "seed=1 max_success=2000 max_size=40")  # those of the gate
@@ -101,6 +105,7 @@ def workspace(tmp_path_factory):
     return top
 
 
+@builds
 @pytest.mark.parametrize("patch", patches(*MACHINES))
 def test_a_fault_of_the_workspace_is_found(workspace, patch):
     text = patch.read_text(encoding="utf-8")
