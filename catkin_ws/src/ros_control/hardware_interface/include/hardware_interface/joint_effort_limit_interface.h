@@ -32,10 +32,6 @@ class JointEffortLimitHandle {
     assert(max_effort_);
     *max_effort_ = max_effort;
   }
-  double getMaxEffort() const {
-    assert(max_effort_);
-    return *max_effort_;
-  }
 
  private:
   std::string name_;
