@@ -284,7 +284,7 @@ class SpawnerTest(unittest.TestCase):
         for broken in ("request", "answer"):
             faults = [broken, "", broken, ""]  # of the load and of the switch, and of their repetitions
 
-            def call(service, request, faults=faults):
+            def call(service, request, _waits=None, faults=faults):
                 fault = faults.pop(0)
                 answer = service(request) if fault != "request" else None
                 if fault:
@@ -301,7 +301,7 @@ class SpawnerTest(unittest.TestCase):
             self.assertEqual({}, self.manager.states())
 
     def test_does_not_wait_for_a_loop_that_stands_still(self):
-        one = spawner.Spawner("", mock.Mock(call=lambda service, request: service(request)))
+        one = spawner.Spawner("", mock.Mock(call=lambda service, request, *_: service(request)))
         one.load(["a"])
         one.start()
         self.assertEqual({"a": "running"}, self.manager.states())
