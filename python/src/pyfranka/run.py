@@ -224,9 +224,8 @@ def terminal_of(group: int) -> Iterator[None]:
                 os.kill(os.getpid(), signal.SIGSTOP)
                 resume()
 
-    before = signal.signal(
-        signal.SIGTTOU, signal.SIG_IGN
-    )  # else a process stops that gives its terminal back
+    # Otherwise the system would stop us when we take the terminal back.
+    before = signal.signal(signal.SIGTTOU, signal.SIG_IGN)
     children = signal.signal(signal.SIGCHLD, child_changed)
     try:
         resume()

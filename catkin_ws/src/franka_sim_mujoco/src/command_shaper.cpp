@@ -36,9 +36,9 @@ Joints withMargin(Joints limits) noexcept {
 // acceleration adds while packets are lost.
 double velocityWithMargin(const franka_core::MotionLimits& limits, double velocity,
                           double acceleration) noexcept {
-  const double lost =
-      limits.position_velocity ? 0.0 : franka::kTolNumberPacketsLost * franka::kDeltaT;
-  return velocity - kMargin - lost * (acceleration - kMargin);
+  return limits.position_velocity
+             ? velocity - kMargin
+             : franka::rate_limiting_detail::withMargin(velocity, acceleration);
 }
 
 bool isFiltered(const ShapingOptions& options) noexcept {

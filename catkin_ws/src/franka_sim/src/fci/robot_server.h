@@ -45,8 +45,8 @@ class ArmRequestHandler {
   /// the reason for its refusal. StopMove and AutomaticErrorRecovery may return nothing now and the
   /// answer later through takeAnswer.
   virtual std::optional<Status> handle(const franka_core::fci::Request& request) noexcept = 0;
-  /// Why the arguments of a setter are invalid, as a sentence, for the robot's own log: the answer
-  /// has only a status. Empty if there is no more to say.
+  /// Why the arguments of a setter are invalid: a sentence for the robot's own log, because the
+  /// answer has only a status. Empty if the reason is not known.
   virtual std::string faultOf(const franka_core::fci::Request& /*request*/) const { return ""; }
   /// The virtual wall with that number; nothing if there is no such number.
   virtual std::optional<franka_core::fci::CartesianLimit> wall(std::int32_t id) const noexcept = 0;

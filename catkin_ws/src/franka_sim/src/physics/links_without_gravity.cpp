@@ -25,8 +25,10 @@ void LinksWithoutGravity::write(const std::string& link, double mass, const Eige
   site->SetAttribute("group", 5);  // never drawn
 }
 
-bool LinksWithoutGravity::has(const mjModel& model, const std::string& link) noexcept {
-  return mj_name2id(&model, mjOBJ_SITE, (link + kEnding).c_str()) >= 0;
+bool LinksWithoutGravity::has(const mjModel& model, int body) {
+  const char* link = mj_id2name(&model, mjOBJ_BODY, body);
+  return link != nullptr &&
+         mj_name2id(&model, mjOBJ_SITE, (std::string(link) + kEnding).c_str()) >= 0;
 }
 
 LinksWithoutGravity::LinksWithoutGravity(const mjModel& model) {

@@ -19,7 +19,8 @@ class LinksWithoutGravity {
   /// Writes one into the body that it belongs to, alone or with others. @param com in the body [m]
   static void write(const std::string& link, double mass, const Eigen::Vector3d& com,
                     tinyxml2::XMLElement* body);
-  static bool has(const mjModel& model, const std::string& link) noexcept;
+  /// Whether the link is one from which a body has its name.
+  static bool has(const mjModel& model, int body);
 
   LinksWithoutGravity() = default;
   /// Those of a model.

@@ -264,7 +264,7 @@ BodyInertia bodyInertia(const World& world, const std::string& body) {
       model.body_mass[frame.body],
       {center[0], center[1], center[2]},
       {inertia(0, 0), inertia(0, 1), inertia(0, 2), inertia(1, 1), inertia(1, 2), inertia(2, 2)},
-      !physics::LinksWithoutGravity::has(model, mj_id2name(&model, mjOBJ_BODY, frame.body))};
+      !physics::LinksWithoutGravity::has(model, frame.body)};
 }
 
 void endPushes(World& world, const std::string& body) {

@@ -102,8 +102,8 @@ void SimRobot::reportSilence(Silence silence) {
       silence == Silence::kLong
           ? "time stands still until the client of the motion sends its next command, which has "
             "not come for 1 s."
-          : "the client of the motion has sent no command for as long as the patience; time goes "
-            "on, and the motion ends unless the client commands it again.";
+          : "the client of the motion has sent no command within the patience. Time goes on, and "
+            "the motion ends unless a command comes.";
   const std::string why =
       handBusy() ? "A command of the hand waits for the time as well: if the control callback has "
                    "sent it, it blocks the callback. Send it from another thread."

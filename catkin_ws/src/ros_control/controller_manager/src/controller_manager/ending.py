@@ -56,7 +56,7 @@ class Ending:
 
         Args:
             service: called in a thread of its own.
-            waits: called again and again while there is no answer.
+            waits: called every POLL_PERIOD until the answer comes.
         """
         outcome: dict[str, Any] = {}
 
