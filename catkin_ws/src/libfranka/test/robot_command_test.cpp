@@ -213,8 +213,9 @@ TEST(CommandText, NamesTheModeAndMentionsTheBrakes) {
       {franka_core::RobotMode::kOther, "(\"Other\")! Did you open the brakes?"},
       {franka_core::RobotMode::kMove, "(\"Move\")!"},
       {franka_core::RobotMode::kGuiding, "(\"Guiding\")!"},
-      {franka_core::RobotMode::kReflex, "(\"Reflex\")!"},
-      {franka_core::RobotMode::kUserStopped, "(\"User stopped\")!"},
+      {franka_core::RobotMode::kReflex,
+       "(\"Reflex\")! Recover first: automaticErrorRecovery, in ROS the action error_recovery."},
+      {franka_core::RobotMode::kUserStopped, "(\"User stopped\")! Release the user stop first."},
       {franka_core::RobotMode::kAutomaticErrorRecovery, "(\"Automatic error recovery\")!"},
   };
   for (const auto& [mode, ending] : modes) {

@@ -356,6 +356,28 @@ TEST(MotionFaultsAtStop, EndInTheFirstException) {
   }
 }
 
+// Timeouts::silence is for robots that have not answered.
+TEST(MotionFaultsAtStop, RobotThatHasStoppedNeedsToSendNoMoreStates) {
+  franka::Timeouts timeouts;
+  timeouts.silence = std::chrono::hours(1);
+  const ScopedTimeouts scoped(timeouts);
+  FakeRobot fake(5);
+  const auto robot = connect(fake);
+  std::atomic<bool> silent{false};
+  fake.script([&silent](FakeRobot::Script& s) {
+    s.transmit = [&silent](const FakeRobot::Datagram& state) {
+      return silent ? std::vector<FakeRobot::Datagram>{} : std::vector<FakeRobot::Datagram>{state};
+    };
+  });
+  EXPECT_EQ("enough", textOf<std::logic_error>([&] {
+              robot->control([&](const RobotState&, Duration) -> Torques {
+                silent = true;
+                throw std::logic_error("enough");
+              });
+            }));
+  EXPECT_EQ(1, fake.count(Command::kStopMove));
+}
+
 /// Datagrams that the network repeats, delays or loses.
 class Datagrams : public ::testing::Test {
  protected:

@@ -34,9 +34,23 @@ bool isSetterOrGetter(Command command) noexcept {
   }
 }
 
+// What makes the command possible. The question about the brakes is the genuine client's.
+const char* remedy(RobotMode mode) noexcept {
+  switch (mode) {
+    case RobotMode::kOther:
+      return " Did you open the brakes?";
+    case RobotMode::kReflex:
+      return " Recover first: automaticErrorRecovery, in ROS the action error_recovery.";
+    case RobotMode::kUserStopped:
+      return " Release the user stop first.";
+    default:
+      return "";
+  }
+}
+
 std::string notPossible(RobotMode mode) {
   return std::string(" command rejected: command not possible in the current mode (\"") +
-         modeName(mode) + "\")!" + (mode == RobotMode::kOther ? " Did you open the brakes?" : "");
+         modeName(mode) + "\")!" + remedy(mode);
 }
 
 // Appended to the genuine text: the valid values of an argument, for common mistakes.

@@ -105,6 +105,9 @@ class Robot::Impl {
   /// Waits for a state newer than this call. If none arrives as soon as from a running robot, the
   /// newest one that no caller has received yet, if any. @throws as receiveState.
   const franka_core::RobotState& receiveFreshState();
+  /// Waits for the next state for at most this time, which counts as in receiveState.
+  /// @returns whether there is one. @throws as receiveState, but not for a timeout.
+  bool waitForState(std::chrono::milliseconds bound);
   /// Reads datagrams that have arrived, without waiting. @returns whether there was a newer state.
   bool takeStates();
   /// Sends a command in answer to the newest state. @throws NetworkException if it cannot be sent.
@@ -152,7 +155,6 @@ class Robot::Impl {
                franka_core::fci::Bytes& model) const;
   bool takeStatesUnlessInUse();
   bool takesStatesIn();
-  bool waitForState(std::chrono::milliseconds bound);
   bool accept(const Datagram& datagram);
   bool mustBeSeen() const noexcept;
   std::chrono::milliseconds stateBound() const noexcept;

@@ -219,9 +219,10 @@ void RunningMotion::cancel() noexcept {
       const auto bound = robot_.bounds().long_command;
       const auto deadline = Robot::Impl::Clock::now() + bound;
       const Reply reply = robot_.receive(fci::Command::kStopMove, *id, bound, /*owns_states=*/true);
-      while (reply.status == fci::Status::kSuccess && robot_.isMoving() &&
+      bool is_there = true;
+      while (is_there && reply.status == fci::Status::kSuccess && robot_.isMoving() &&
              Robot::Impl::Clock::now() < deadline) {
-        robot_.receiveState();
+        is_there = robot_.waitForState(robot_.bounds().state);
       }
     }
   } catch (...) {
