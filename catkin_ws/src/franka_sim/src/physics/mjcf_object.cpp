@@ -5,9 +5,11 @@
 #include <franka_sim/physics/pose_conversions.h>
 #include <franka_sim/physics/world.h>
 
+#include <algorithm>
 #include <stdexcept>
 
 #include "physics/mjcf_files.h"
+#include "physics/mjcf_names.h"
 #include "physics/model_compiler.h"
 #include "physics/robot_model.h"
 #include "physics/rotations.h"
@@ -355,9 +357,9 @@ void nameGeoms(XMLElement* body, const std::string& prefix, int* count) {
   }
 }
 
-std::shared_ptr<const MjcfObject> readObject(const std::string& name, const std::string& text,
-                                             const Pose& pose, double angle_unit,
-                                             const ResourceResolver& resolve) {
+std::shared_ptr<MjcfObject> readObject(const std::string& name, const std::string& text,
+                                       const Pose& pose, double angle_unit,
+                                       const ResourceResolver& resolve) {
   const std::string title = "Object '" + name + "'";
   if (name.empty()) {
     throw std::runtime_error("An object needs a name.");
@@ -376,6 +378,27 @@ std::shared_ptr<const MjcfObject> readObject(const std::string& name, const std:
   }
   place(object.get(), isometry(pose, title), title);
   return object;
+}
+
+void avoidNamesOf(const XMLElement& world, MjcfObject* object) {
+  const MjcfNames taken = namesOf(world);
+  const MjcfNames own = namesOf(*object->document.RootElement());
+  const auto clash =
+      std::find_if(own.begin(), own.end(), [&](const auto& name) { return taken.count(name) > 0; });
+  if (clash == own.end()) {
+    return;
+  }
+  const std::string prefix = object->name + "::";
+  prefixNames(object->document.RootElement(), prefix);
+  for (BodyAlias& alias : object->aliases) {
+    alias.body = prefix + alias.body;
+  }
+  if (own.count({"body", object->name}) > 0) {
+    object->aliases.push_back({object->name, prefix + object->name});
+  }
+  object->unsupported.insert("names of bodies, joints and other elements (the world has a " +
+                             clash->first + " '" + clash->second + "' already: they begin with '" +
+                             prefix + "' here)");
 }
 
 }  // namespace franka_sim::physics

@@ -29,9 +29,13 @@ struct MjcfObject {
 /// @param angle_unit of the world [rad], to which other angles are converted
 /// @throws std::runtime_error with a sentence: broken text, sections that would change the whole
 /// world, errors of MuJoCo.
-std::shared_ptr<const MjcfObject> readObject(const std::string& name, const std::string& text,
-                                             const Pose& pose, double angle_unit,
-                                             const ResourceResolver& resolve);
+std::shared_ptr<MjcfObject> readObject(const std::string& name, const std::string& text,
+                                       const Pose& pose, double angle_unit,
+                                       const ResourceResolver& resolve);
+
+/// Lets an object's names begin with "<object>::" if the world has one of them already, and notes
+/// it. @param world the document that the object becomes part of
+void avoidNamesOf(const tinyxml2::XMLElement& world, MjcfObject* object);
 
 /// Removes the <keyframe> sections: their states lack those of robots. @returns a note about them
 std::set<std::string> dropKeyframes(tinyxml2::XMLElement* root);

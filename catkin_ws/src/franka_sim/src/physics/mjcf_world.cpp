@@ -140,8 +140,12 @@ MjcfWorld::MjcfWorld(const MjcfWorld& other, std::vector<std::shared_ptr<const M
 
 std::unique_ptr<MjcfWorld> MjcfWorld::with(const std::string& object, const std::string& text,
                                            const Pose& pose) const {
+  const auto added = readObject(object, text, pose, angle_unit_, resolve_);
+  tinyxml2::XMLDocument present;
+  compose(&present);
+  avoidNamesOf(*present.RootElement(), added.get());
   auto all = objects_;
-  all.push_back(readObject(object, text, pose, angle_unit_, resolve_));
+  all.push_back(added);
   return std::unique_ptr<MjcfWorld>(new MjcfWorld(*this, std::move(all)));
 }
 
