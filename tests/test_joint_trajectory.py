@@ -10,8 +10,10 @@ import rospy
 import yaml
 from actionlib_msgs.msg import GoalStatus
 from control_msgs.msg import FollowJointTrajectoryAction, FollowJointTrajectoryGoal, JointTolerance
-from ros_client import Action, Controllers, latest, launched, outcome
+from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal
+from ros_client import Action, Controllers, call, latest, launched, outcome
 from sensor_msgs.msg import JointState
+from std_srvs.srv import SetBool
 from trajectory_msgs.msg import JointTrajectoryPoint
 from waiting import wait_for
 
@@ -114,6 +116,16 @@ def test_cancelled_goal_ends(running):
     handle.cancel()
     status, _, text = result_of(handle)
     assert status == GoalStatus.PREEMPTED and text
+
+
+def test_goals_are_rejected_with_the_recovery_while_the_robot_is_stopped(running):
+    stop = "/franka_control/set_user_stop"
+    assert call(stop, SetBool, True).success
+    status, code, text = result_of(running.send(goal_elsewhere()))
+    assert (status, code) == (GoalStatus.REJECTED, -1) and "error_recovery" in text, text
+    assert call(stop, SetBool, False).success
+    recovery = Action("/franka_control/error_recovery", ErrorRecoveryAction)
+    assert recovery.run(ErrorRecoveryGoal())[0] == GoalStatus.SUCCEEDED
 
 
 def test_unknown_joint_is_refused(running):

@@ -5,10 +5,11 @@
 import pytest
 import rospy
 from actionlib_msgs.msg import GoalStatus
+from control_msgs.msg import FollowJointTrajectoryAction
 from control_nodes import SUCCEEDED, ControlNode, arms_and_launch, follow_pose, go_to
 from franka_msgs.msg import ErrorRecoveryGoal
 from geometry_msgs.msg import PoseStamped
-from ros_client import follow, launched, outcome, set_example_parameters
+from ros_client import Action, follow, launched, outcome, set_example_parameters, trajectory
 from waiting import wait_for
 
 # Robots, the number of arms, and how many reflexes follow each other.
@@ -55,6 +56,9 @@ class UsedByPose:
     def go_home(self):
         go_to(self._node.arms[0], self._target, self._home)
 
+    def check_refusal(self):
+        """Its controller takes targets at any time."""
+
 
 class UsedByTrajectory:
     """One controller moves all joints of all arms, back and forth."""
@@ -71,6 +75,11 @@ class UsedByTrajectory:
 
     def go_home(self):
         follow(f"{self._node.name}/{self.CONTROLLER}", self._home, 1.0)
+
+    def check_refusal(self):
+        name = f"{self._node.name}/{self.CONTROLLER}/follow_joint_trajectory"
+        status, text = Action(name, FollowJointTrajectoryAction).run(trajectory(self._home, 1.0))
+        assert status == GoalStatus.REJECTED and "error_recovery" in text, text
 
 
 @pytest.fixture
@@ -159,6 +168,7 @@ def test_the_user_has_to_release_the_user_stop(moving):
     status, text = moving.recover()
     assert status == GoalStatus.ABORTED
     assert ("user stop" if moving.alone else f"{arm.name}: ") in text.lower()
+    moving.used.check_refusal()
     assert arm.is_in("user-stopped")
     arm.operator.set_user_stop(False)
     if others:  # Several arms wait for a recovery.

@@ -206,11 +206,14 @@ std::string ArmConnection::reasonWithoutEffect() const {
   const franka::RobotMode mode = owner_.robotMode();
   const std::string arm = offer_ ? "'" + offer_->arm_id + "'" : "the robot";
   const std::string recovery = offer_ ? offer_->nh.resolveName("error_recovery") : "error_recovery";
+  const bool shown = mode == franka::RobotMode::kReflex || mode == franka::RobotMode::kUserStopped;
   const std::string has_no_effect =
-      arm + " is in the mode " +
-      franka_core::fci::modeName(static_cast<franka_core::RobotMode>(mode)) +
-      (own ? ", with an error" : ", and waits for another arm, which has an error") +
-      ": the controllers start, but have no effect before ";
+      arm +
+      (own && !shown ? " has an error"  // its mode may be that of the last state
+                     : std::string(" is in the mode ") +
+                           franka_core::fci::modeName(static_cast<franka_core::RobotMode>(mode))) +
+      (own ? "" : ", and waits for another arm, which has an error") +
+      ": commands of controllers have no effect before ";
   if (!own) {
     return has_no_effect + "that arm has recovered (action error_recovery).";
   }

@@ -171,7 +171,14 @@ void FrankaHW::setupJointStateInterface(franka::RobotState& robot_state) {
   for (size_t i = 0; i < joint_names_.size(); i++) {
     joint_state_interface_.registerHandle(hardware_interface::JointStateHandle(
         joint_names_[i], &robot_state.q[i], &robot_state.dq[i], &robot_state.tau_J[i]));
+#if __has_include(<hardware_interface/command_effect_interface.h>)
+    command_effect_interface_.registerHandle(hardware_interface::CommandEffectHandle(
+        joint_names_[i], [this] { return connection_.reasonWithoutEffect(); }));
   }
+  registerInterface(&command_effect_interface_);
+#else
+  }
+#endif
   registerInterface(&joint_state_interface_);
 }
 

@@ -307,16 +307,22 @@ bool FrankaHWSim::prepareSwitch(const std::list<hardware_interface::ControllerIn
                     arm_id_.c_str());
     return false;
   }
-  if (arm_->userStopped() || arm_->needsRecovery()) {
-    ROS_WARN_NAMED(kHardwareLog,
-                   "%s: %s: the controller starts but has no effect before %sfranka_control/"
-                   "error_recovery is called.",
-                   arm_id_.c_str(),
-                   arm_->userStopped() ? "the user stop is pressed (mode User stopped)"
-                                       : "an error has stopped the arm (mode Reflex)",
-                   arm_->userStopped() ? "the stop is released and " : "");
+  const std::string reason = reasonWithoutEffect();
+  if (!reason.empty()) {
+    ROS_WARN_NAMED(kHardwareLog, "%s", reason.c_str());
   }
   return !refusesAtSingularPose(starts, claimedMode(stop_list, arm_id_));
+}
+
+std::string FrankaHWSim::reasonWithoutEffect() const {
+  const bool stopped = arm_->userStopped();
+  if (!stopped && !arm_->needsRecovery()) {
+    return "";
+  }
+  return "'" + arm_id_ + "' is in the mode " + (stopped ? "User stopped" : "Reflex") +
+         ": commands of controllers have no effect before " +
+         (stopped ? "the user stop is released and " : "") +
+         "the action franka_control/error_recovery is called.";
 }
 
 // Before the switch, so that a refusal stops nothing.

@@ -144,6 +144,8 @@ void FrankaHWSim::registerAll() {
     joint_states_.registerHandle(hardware_interface::JointStateHandle(
         joint.name, &joint.position, &joint.velocity, &joint.effort));
     if (i < kArmJoints) {
+      command_effects_.registerHandle(hardware_interface::CommandEffectHandle(
+          joint.name, [this] { return reasonWithoutEffect(); }));
       registerArmJoint(i);
     } else if (joint.has_effort) {
       efforts_.registerHandle(
@@ -157,6 +159,7 @@ void FrankaHWSim::registerAll() {
   registerInterface(&positions_);
   registerInterface(&velocities_);
   registerInterface(&effort_limits_);
+  registerInterface(&command_effects_);
   registerInterface(&franka_states_);
   registerInterface(&franka_models_);
   registerInterface(&poses_);

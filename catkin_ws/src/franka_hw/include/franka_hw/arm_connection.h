@@ -93,7 +93,7 @@ class ArmConnection {
   /// Whether there is an own error, or the robot stopped while no controller moved it.
   /// Real-time safe. Thread-safe.
   bool needsRecovery() const noexcept;
-  /// Why controllers that start now have no effect, and what ends that: a sentence with the arm,
+  /// Why commands of controllers have no effect now, and what ends that: a sentence with the arm,
   /// its mode and the action; empty if they have one. Thread-safe. Not real-time safe.
   std::string reasonWithoutEffect() const;
   /// Clears the robot's error and ends the own one. A robot that is Idle has no error. If there is

@@ -14,6 +14,9 @@
 #include <franka_hw/model_base.h>
 #include <franka_hw/response_times.h>
 #include <franka_hw/robot_clock.h>
+#if __has_include(<hardware_interface/command_effect_interface.h>)  // not of the original
+#include <hardware_interface/command_effect_interface.h>
+#endif
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <hardware_interface/robot_hw.h>
@@ -324,6 +327,9 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   FrankaPoseCartesianInterface franka_pose_cartesian_interface_{};
   FrankaVelocityCartesianInterface franka_velocity_cartesian_interface_{};
   FrankaModelInterface franka_model_interface_{};
+#if __has_include(<hardware_interface/command_effect_interface.h>)
+  hardware_interface::CommandEffectInterface command_effect_interface_{};
+#endif
 
   joint_limits_interface::PositionJointSoftLimitsInterface position_joint_limit_interface_{};
   joint_limits_interface::VelocityJointSoftLimitsInterface velocity_joint_limit_interface_{};

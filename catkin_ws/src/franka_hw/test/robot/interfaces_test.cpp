@@ -51,7 +51,7 @@ std::vector<std::string> sortedNames(FrankaHW& robot) {
   return interface == nullptr ? std::vector<std::string>() : interface->getNames();
 }
 
-TEST_F(Interfaces, AreEight) {
+TEST_F(Interfaces, AreTheEightOfTheOriginalAndThatOfEffects) {
   const std::vector<std::string> joints = FakeArm::joints(arm_.arm_id);
   const std::vector<std::string> robot{arm_.arm_id + "_robot"};
   EXPECT_EQ(joints, sortedNames<hardware_interface::JointStateInterface>(robot_));
@@ -63,7 +63,8 @@ TEST_F(Interfaces, AreEight) {
   EXPECT_EQ(robot, sortedNames<franka_hw::FrankaVelocityCartesianInterface>(robot_));
   EXPECT_EQ(std::vector<std::string>{arm_.arm_id + "_model"},
             sortedNames<franka_hw::FrankaModelInterface>(robot_));
-  EXPECT_EQ(8u, robot_.getNames().size());
+  EXPECT_EQ(joints, sortedNames<hardware_interface::CommandEffectInterface>(robot_));
+  EXPECT_EQ(9u, robot_.getNames().size());
 }
 
 TEST_F(Interfaces, ShowTheState) {

@@ -10,6 +10,7 @@
 #include <franka_sim_mujoco/device_joints.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 #include <franka_sim_mujoco/sim_arm.h>
+#include <hardware_interface/command_effect_interface.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/joint_state_interface.h>
 #include <joint_limits_interface/joint_limits_interface.h>
@@ -94,6 +95,8 @@ class FrankaHWSim : public RobotHWSim {
   void registerCartesian();
   void registerLimits(const urdf::Model& model);
   void holdJointLimits(const ros::Duration& period);
+  /// As franka_hw::ArmConnection::reasonWithoutEffect. Thread-safe.
+  std::string reasonWithoutEffect() const;
   bool refusesAtSingularPose(franka_hw::ControlMode starts, franka_hw::ControlMode stops) const;
   Joint* findJoint(const std::string& name);
   void publishInitialized(bool initialized);
@@ -113,6 +116,7 @@ class FrankaHWSim : public RobotHWSim {
   hardware_interface::PositionJointInterface positions_;
   hardware_interface::VelocityJointInterface velocities_;
   hardware_interface::JointEffortLimitInterface effort_limits_;  ///< of devices
+  hardware_interface::CommandEffectInterface command_effects_;   ///< of the arm
   joint_limits_interface::PositionJointSoftLimitsInterface position_limits_;
   joint_limits_interface::VelocityJointSoftLimitsInterface velocity_limits_;
   franka_hw::FrankaStateInterface franka_states_;

@@ -322,6 +322,16 @@ TEST_F(ClosedLoop, GoalWithoutPointsHolds) {
   EXPECT_EQ(Terminal::SUCCEEDED, handle.getTerminalState().state_);
 }
 
+TEST_F(ClosedLoop, GoalsToAStoppedRobotAreRejectedWithItsReason) {
+  start();
+  robot_.stopped_ = true;
+  EXPECT_EQ("The robot is stopped.",
+            expectRejected(goalTo(target_), Result::INVALID_GOAL).error_string);
+  robot_.stopped_ = false;
+  Client::GoalHandle handle = send(goalTo(target_));
+  EXPECT_EQ(Result::SUCCESSFUL, end(handle).error_code);
+}
+
 TEST_F(ClosedLoop, StoppingCancelsAndRefuses) {
   start();
   Client::GoalHandle handle = send(goalTo(target_));

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <hardware_interface/command_effect_interface.h>
 #include <hardware_interface/joint_command_interface.h>
 #include <hardware_interface/posvel_command_interface.h>
 #include <hardware_interface/posvelacc_command_interface.h>
@@ -9,6 +10,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
 #include <list>
@@ -47,12 +49,15 @@ class TestRobot : public hardware_interface::RobotHW {
           state, &position_command_[i], &velocity_command_[i]));
       posvelacc_interface_.registerHandle(hardware_interface::PosVelAccJointHandle(
           state, &position_command_[i], &velocity_command_[i], &acceleration_command_[i]));
+      effect_interface_.registerHandle(hardware_interface::CommandEffectHandle(
+          "j" + std::to_string(i), [this] { return stopped_ ? "The robot is stopped." : ""; }));
     }
     registerInterface(&position_interface_);
     registerInterface(&velocity_interface_);
     registerInterface(&effort_interface_);
     registerInterface(&posvel_interface_);
     registerInterface(&posvelacc_interface_);
+    registerInterface(&effect_interface_);
   }
 
   void doSwitch(const std::list<hardware_interface::ControllerInfo>& start,
@@ -92,7 +97,8 @@ class TestRobot : public hardware_interface::RobotHW {
   Values acceleration_command_{};
   Values effort_command_{};
   bool frozen_{false};
-  double largest_step_{0.0};  ///< of any joint within one cycle
+  std::atomic<bool> stopped_{false};  ///< what commands of the joints say
+  double largest_step_{0.0};          ///< of any joint within one cycle
 
  private:
   bool by_velocity_{false};
@@ -102,6 +108,7 @@ class TestRobot : public hardware_interface::RobotHW {
   hardware_interface::EffortJointInterface effort_interface_;
   hardware_interface::PosVelJointInterface posvel_interface_;
   hardware_interface::PosVelAccJointInterface posvelacc_interface_;
+  hardware_interface::CommandEffectInterface effect_interface_;
 };
 
 }  // namespace closed_loop

@@ -7,8 +7,10 @@
 #include <control_msgs/JointTrajectoryControllerState.h>
 #include <control_msgs/QueryTrajectoryState.h>
 #include <controller_interface/controller.h>
+#include <hardware_interface/command_effect_interface.h>
 #include <hardware_interface/internal/demangle_symbol.h>
 #include <hardware_interface/joint_command_interface.h>
+#include <hardware_interface/robot_hw.h>
 #include <joint_trajectory_controller/hardware_interface_adapter.h>
 #include <joint_trajectory_controller/hold_trajectory_builder.h>
 #include <joint_trajectory_controller/init_joint_trajectory.h>
@@ -70,6 +72,12 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   void update(const ros::Time& time, const ros::Duration& period) override;
 
  protected:
+  /// As the base class; also gets the handles that tell whether commands have an effect.
+  bool initRequest(
+      hardware_interface::RobotHW* robot_hw, ros::NodeHandle& root_nh,
+      ros::NodeHandle& controller_nh,
+      controller_interface::ControllerBase::ClaimedResources& claimed_resources) override;
+
   struct TimeData {
     ros::Time time;        ///< of the last update, in ROS time
     ros::Duration period;  ///< of the last update
@@ -198,6 +206,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
 
   // In callbacks.
   bool checkJoints(const trajectory_msgs::JointTrajectory& msg, std::string& reason) const;
+  std::string reasonWithoutEffect() const;
   void putHold(const JointTrajectoryConstPtr& msg, const RealtimeGoalPtr& goal);
   RealtimeGoalPtr goalOf(const RealtimeGoalHandlePtr& handle) const;
   Trajectory callbackTrajectory(const Snapshot& snapshot);
@@ -209,6 +218,8 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   void reissue(const Command& command);
   void publishFeedback();
 
+  std::vector<hardware_interface::CommandEffectHandle>
+      effects_;  ///< of joints whose hardware has one
   Scalar stop_trajectory_duration_{0};
   double action_monitor_rate_{20.0};
 

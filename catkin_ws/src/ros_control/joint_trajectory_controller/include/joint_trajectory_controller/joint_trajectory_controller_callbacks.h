@@ -177,6 +177,18 @@ bool JointTrajectoryController<SegmentImpl, HardwareInterface>::checkJoints(
   return true;
 }
 
+/// Why commands for the joints have no effect; empty if they have one.
+template <class SegmentImpl, class HardwareInterface>
+std::string JointTrajectoryController<SegmentImpl, HardwareInterface>::reasonWithoutEffect() const {
+  for (const hardware_interface::CommandEffectHandle& effect : effects_) {
+    const std::string reason = effect.reasonWithoutEffect();
+    if (!reason.empty()) {
+      return reason;
+    }
+  }
+  return "";
+}
+
 template <class SegmentImpl, class HardwareInterface>
 void JointTrajectoryController<SegmentImpl, HardwareInterface>::goalCB(GoalHandle gh) {
   const std::lock_guard<std::recursive_mutex> lock(mutex_);
@@ -188,6 +200,11 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::goalCB(GoalHandl
   };
   if (!running_.load()) {
     result.error_string = "Can't accept new commands. Controller is not running.";
+    reject(control_msgs::FollowJointTrajectoryResult::INVALID_GOAL);
+    return;
+  }
+  result.error_string = reasonWithoutEffect();
+  if (!result.error_string.empty()) {
     reject(control_msgs::FollowJointTrajectoryResult::INVALID_GOAL);
     return;
   }

@@ -7,6 +7,7 @@
 #include <joint_trajectory_controller/joint_trajectory_controller.h>
 #include <urdf/model.h>
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <set>
@@ -91,6 +92,25 @@ JointTrajectoryController<SegmentImpl, HardwareInterface>::~JointTrajectoryContr
   }
   action_server_.reset();
   delete command_;
+}
+
+template <class SegmentImpl, class HardwareInterface>
+bool JointTrajectoryController<SegmentImpl, HardwareInterface>::initRequest(
+    hardware_interface::RobotHW* robot_hw, ros::NodeHandle& root_nh, ros::NodeHandle& controller_nh,
+    controller_interface::ControllerBase::ClaimedResources& claimed_resources) {
+  if (!controller_interface::Controller<HardwareInterface>::initRequest(
+          robot_hw, root_nh, controller_nh, claimed_resources)) {
+    return false;
+  }
+  auto* const effects = robot_hw->get<hardware_interface::CommandEffectInterface>();
+  const std::vector<std::string> offered =
+      effects != nullptr ? effects->getNames() : std::vector<std::string>();
+  for (const std::string& joint : joint_names_) {
+    if (std::find(offered.begin(), offered.end(), joint) != offered.end()) {
+      effects_.push_back(effects->getHandle(joint));
+    }
+  }
+  return true;
 }
 
 template <class SegmentImpl, class HardwareInterface>
