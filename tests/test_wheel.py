@@ -17,7 +17,7 @@ from pathlib import Path
 
 import pytest
 from fci_session import simulated
-from genuine_clients import files, pip
+from genuine_clients import files, locked, pip
 
 TOP = Path(__file__).resolve().parent.parent
 SUPPORT = TOP / "tests" / "support"
@@ -25,6 +25,7 @@ PICK_AND_PLACE = SUPPORT / "wheel_pick_and_place.py"
 PACKAGE = TOP / "python" / "src" / "pyfranka"
 # The build of the wheel has a limit of its own: from an empty compiler cache it takes minutes.
 pytestmark = pytest.mark.timeout(func_only=True)
+ALL_EXTRAS = "[gym,cluster,plot,desk,lerobot]"
 with_extras = pytest.mark.long_form("downloads the packages of all extras")
 # What the wheel takes from the machine: libraries of every Debian that has Python.
 OF_THE_SYSTEM = {
@@ -98,11 +99,28 @@ def environment(wheel, tmp_path_factory) -> Environment:
     return Environment(tmp_path_factory.mktemp("wheel"), wheel)
 
 
-@pytest.fixture(scope="session")
-def complete(wheel, tmp_path_factory) -> Environment:
-    """With the packages of all extras."""
-    extras = "[gym,cluster,plot,desk,lerobot]"
-    return Environment(tmp_path_factory.mktemp("complete"), wheel, "wheel-extras", extras)
+@pytest.fixture(scope="session", params=["locked", "oldest", "newest"])
+def complete(request, wheel, archive, tmp_path_factory) -> Environment:
+    """With the packages of all extras: of the lock, or the oldest or newest ones that the wheel allows."""
+    folder = tmp_path_factory.mktemp("complete")
+    if request.param == "locked":
+        return Environment(folder, wheel, "wheel-extras", ALL_EXTRAS)
+    environment = Environment(folder, wheel)
+    resolution = {"oldest": "lowest-direct", "newest": "highest"}[request.param]
+    # The wheel's requirements are given directly: the oldest versions are chosen for these alone.
+    requirements = [
+        re.sub(r"\s*;.*", "", line)
+        for line in Parser().parsestr(metadata(archive, "METADATA")).get_all("Requires-Dist")
+    ]
+    tools = tmp_path_factory.mktemp("tools")
+    subprocess.run(["/usr/bin/python3", "-m", "venv", tools], check=True, timeout=300)
+    result = pip(tools / "bin" / "python", "install", *locked("uv"))
+    assert result.returncode == 0, result.stderr
+    options = [f"--resolution={resolution}", "--only-binary=:all:", f"--python={environment.bin / 'python'}"]
+    command = [tools / "bin" / "uv", "pip", "install", "--upgrade", *options, *requirements]
+    subprocess.run(command, check=True, timeout=1200)
+    environment.install(*files("wheel-pytest"))
+    return environment
 
 
 def metadata(archive: zipfile.ZipFile, file: str) -> str:
@@ -134,7 +152,7 @@ def test_metadata_describes_the_package(archive):
 def test_metadata_has_extras_and_requirements(archive):
     metadata_fields = Parser().parsestr(metadata(archive, "METADATA"))
     assert metadata_fields.get_all("Provides-Extra") == ["desk", "gym", "plot", "cluster", "lerobot"]
-    assert metadata_fields.get_all("Requires-Dist")[0] == "numpy"
+    assert metadata_fields.get_all("Requires-Dist")[0].startswith("numpy")
     for extra, names in (
         ("desk", {"aiohttp", "cryptography"}),
         ("gym", {"gymnasium"}),
@@ -318,7 +336,7 @@ def test_packages_are_named_if_the_file_of_the_wheel_has_gone(wheel, tmp_path):
     code = "from pyfranka.command_line import install_command; print(install_command('gym'))"
     assert environment.python(code) == f"pip install 'pyfranka[gym] @ {moved.as_uri()}'\n"
     moved.unlink()
-    assert environment.python(code) == "pip install 'gymnasium>=1.1' scipy\n"
+    assert environment.python(code) == "pip install 'gymnasium>=1.1' 'scipy>=1.10'\n"
 
 
 def examples_of(environment: Environment, folder: Path) -> subprocess.CompletedProcess:
