@@ -33,16 +33,11 @@ std::int64_t wholeNumber(const py::object& value, const char* name) {
   return result;
 }
 
-double anyNumber(const py::object& value, const char* name) {
+double number(const py::object& value, const char* name) {
   const double result = PyFloat_AsDouble(value.ptr());
   if (PyErr_Occurred() != nullptr) {
     refuse(value, name, "a number");
   }
-  return result;
-}
-
-double number(const py::object& value, const char* name) {
-  const double result = anyNumber(value, name);
   if (!std::isfinite(result)) {
     throw std::invalid_argument(std::string(name) + " must be a finite number, not " +
                                 std::string(py::repr(value)) + ".");

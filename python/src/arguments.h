@@ -26,9 +26,6 @@ std::int64_t wholeNumber(const py::object& value, const char* name);
 /// A finite number.
 double number(const py::object& value, const char* name);
 
-/// A number, finite or not: the robot itself refuses what it cannot use.
-double anyNumber(const py::object& value, const char* name);
-
 /// True or False, of Python or of numpy, or the numbers 1 and 0.
 bool yesOrNo(const py::object& value, const char* name);
 

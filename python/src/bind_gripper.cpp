@@ -7,6 +7,7 @@
 #include <chrono>
 #include <memory>
 #include <string>
+#include <tuple>
 
 #include "arguments.h"
 #include "bindings.h"
@@ -45,6 +46,28 @@ void bindConnection(py::class_<Type>& type) {
       "Version of the protocol that the hand or gripper speaks, an int.");
 }
 
+py::dict valuesOf(const franka::GripperState& state) {
+  py::dict values;
+  values["time"] = state.time.toSec();
+  values["width"] = state.width;
+  values["max_width"] = state.max_width;
+  values["is_grasped"] = state.is_grasped;
+  values["temperature"] = state.temperature;
+  return values;
+}
+
+bool isEqual(const franka::GripperState& a, const franka::GripperState& b) {
+  return a.width == b.width && a.max_width == b.max_width && a.is_grasped == b.is_grasped &&
+         a.temperature == b.temperature && a.time == b.time;
+}
+
+franka::GripperState stateOf(const franka::Gripper& hand) {
+  const release free;  // call_guard has no effect on properties
+  return hand.readOnce();
+}
+
+using GripperValues = std::tuple<double, double, bool, std::uint16_t, std::uint64_t>;
+
 void bindHand(py::module_& module) {
   using namespace franka;
   py::class_<GripperState>(module, "GripperState", py::module_local(),
@@ -58,6 +81,34 @@ void bindHand(py::module_& module) {
           "time", [](const GripperState& state) { return seconds(state.time); },
           [](GripperState& state, double time) { state.time = durationOf(time); },
           "Since the hand started [s].")
+      .def(
+          "copy", [](const GripperState& self) { return self; },
+          "The same values again.\n\n>>> hand.read_once().copy().is_grasped\nFalse")
+      .def("__copy__", [](const GripperState& self) { return self; })
+      .def(
+          "__deepcopy__",
+          [](const GripperState& self, const py::object& /* memo */) { return self; },
+          py::arg("memo"))
+      .def(
+          "__eq__",
+          [](const GripperState& self, const py::object& other) {
+            return py::isinstance<GripperState>(other)
+                       ? py::cast(isEqual(self, other.cast<const GripperState&>()))
+                       : notImplemented();
+          },
+          py::arg("other"))
+      .def(py::pickle(
+          [](const GripperState& self) {
+            return GripperValues(self.width, self.max_width, self.is_grasped, self.temperature,
+                                 self.time.toMSec());
+          },
+          [](const GripperValues& kept) {
+            const auto& [width, max_width, is_grasped, temperature, time] = kept;
+            return GripperState{width, max_width, is_grasped, temperature, Duration(time)};
+          }))
+      .def("to_dict", &valuesOf,
+           "The values by the names of the fields; the time in seconds.\n\n>>> "
+           "hand.read_once().to_dict()[\"is_grasped\"]\nFalse")
       .def("__repr__", [](const GripperState& state) {
         using franka_core::numberText;
         return "<GripperState: width " + numberText(state.width, 4) + " of " +
@@ -79,11 +130,11 @@ void bindHand(py::module_& module) {
           "grasp",
           [](const Gripper& self, const py::object& width, const py::object& speed,
              const py::object& force, const py::object& inner, const py::object& outer) {
-            const double w = anyNumber(width, "width");
-            const double v = anyNumber(speed, "speed");
-            const double f = anyNumber(force, "force");
-            const double in = anyNumber(inner, "epsilon_inner");
-            const double out = anyNumber(outer, "epsilon_outer");
+            const double w = number(width, "width");
+            const double v = number(speed, "speed");
+            const double f = number(force, "force");
+            const double in = number(inner, "epsilon_inner");
+            const double out = number(outer, "epsilon_outer");
             const release free;
             return self.grasp(w, v, f, in, out);
           },
@@ -96,12 +147,12 @@ void bindHand(py::module_& module) {
       .def(
           "move",
           [](const Gripper& self, const py::object& width, const py::object& speed) {
-            const double w = anyNumber(width, "width");
-            const double v = anyNumber(speed, "speed");
+            const double w = number(width, "width");
+            const double v = number(speed, "speed");
             const release free;
             return self.move(w, v);
           },
-          py::arg("width"), py::arg("speed"),
+          py::arg("width"), py::arg("speed") = 0.1,
           "Moves the fingers [m, m/s]. Returns whether they arrived.\n\nRaises CommandException "
           "when "
           "it is refused or ended by another command, NetworkException.\n\n>>> "
@@ -111,7 +162,19 @@ void bindHand(py::module_& module) {
            "hand.stop()\nTrue")
       .def("read_once", &Gripper::readOnce, py::call_guard<release>(),
            "Waits for the next GripperState. Raises NetworkException when none comes.\n\n>>> state "
-           "= hand.read_once()\n>>> 0.0 <= state.width <= state.max_width\nTrue");
+           "= hand.read_once()\n>>> 0.0 <= state.width <= state.max_width\nTrue")
+      .def_property_readonly(
+          "width", [](const Gripper& self) { return stateOf(self).width; },
+          "read_once().width: between the fingers [m].")
+      .def_property_readonly(
+          "max_width", [](const Gripper& self) { return stateOf(self).max_width; },
+          "read_once().max_width: as found by homing [m].")
+      .def_property_readonly(
+          "is_grasped", [](const Gripper& self) { return stateOf(self).is_grasped; },
+          "read_once().is_grasped: whether an object of the requested width is held.")
+      .def_property_readonly(
+          "temperature", [](const Gripper& self) { return stateOf(self).temperature; },
+          "read_once().temperature: of the hand [deg C].");
 }
 
 void bindVacuum(py::module_& module) {

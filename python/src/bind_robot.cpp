@@ -4,9 +4,11 @@
 #include <franka/extensions.h>
 #include <franka/model.h>
 #include <franka/robot.h>
+#include <franka_core/typed_transform.h>
 #include <pybind11/functional.h>
 #include <pybind11/stl.h>
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -196,16 +198,26 @@ const Names kThresholds = {{"lower_torque", "lower_torque_thresholds"},
                            {"lower_force_nominal", "lower_force_thresholds_nominal"},
                            {"upper_force_nominal", "upper_force_thresholds_nominal"}};
 
+/// The numbers of a frame; libfranka makes typed ones exact, with a warning, and refuses others.
+std::array<double, 16> numbersOfFrame(const py::object& values, const char* name) {
+  const std::array<double, 16> numbers = arrayOf<16>(values, name);
+  const std::string fault = franka_core::readTypedTransform(numbers).fault;
+  if (!fault.empty()) {
+    throw std::invalid_argument(std::string(name) + " cannot be used: " + fault + ".");
+  }
+  return numbers;
+}
+
 void bindSetters(py::class_<Robot>& robot) {
   using release = py::gil_scoped_release;
   defNamed(
       robot, "set_collision_behavior", {kThresholds},
       [](Robot& self, const py::object& lower_torque, const py::object& upper_torque,
          const py::object& lower_force, const py::object& upper_force) {
-        const auto a = arrayOf<7>(lower_torque, "lower_torque");
-        const auto b = arrayOf<7>(upper_torque, "upper_torque");
-        const auto c = arrayOf<6>(lower_force, "lower_force");
-        const auto d = arrayOf<6>(upper_force, "upper_force");
+        const auto a = finite<7>(lower_torque, "lower_torque");
+        const auto b = finite<7>(upper_torque, "upper_torque");
+        const auto c = finite<6>(lower_force, "lower_force");
+        const auto d = finite<6>(upper_force, "upper_force");
         const release free;
         self.setCollisionBehavior(a, b, c, d);
       },
@@ -220,14 +232,14 @@ void bindSetters(py::class_<Robot>& robot) {
          const py::object& upper_torque_nominal, const py::object& lower_force_acceleration,
          const py::object& upper_force_acceleration, const py::object& lower_force_nominal,
          const py::object& upper_force_nominal) {
-        const auto a = arrayOf<7>(lower_torque_acceleration, "lower_torque_acceleration");
-        const auto b = arrayOf<7>(upper_torque_acceleration, "upper_torque_acceleration");
-        const auto c = arrayOf<7>(lower_torque_nominal, "lower_torque_nominal");
-        const auto d = arrayOf<7>(upper_torque_nominal, "upper_torque_nominal");
-        const auto e = arrayOf<6>(lower_force_acceleration, "lower_force_acceleration");
-        const auto f = arrayOf<6>(upper_force_acceleration, "upper_force_acceleration");
-        const auto g = arrayOf<6>(lower_force_nominal, "lower_force_nominal");
-        const auto h = arrayOf<6>(upper_force_nominal, "upper_force_nominal");
+        const auto a = finite<7>(lower_torque_acceleration, "lower_torque_acceleration");
+        const auto b = finite<7>(upper_torque_acceleration, "upper_torque_acceleration");
+        const auto c = finite<7>(lower_torque_nominal, "lower_torque_nominal");
+        const auto d = finite<7>(upper_torque_nominal, "upper_torque_nominal");
+        const auto e = finite<6>(lower_force_acceleration, "lower_force_acceleration");
+        const auto f = finite<6>(upper_force_acceleration, "upper_force_acceleration");
+        const auto g = finite<6>(lower_force_nominal, "lower_force_nominal");
+        const auto h = finite<6>(upper_force_nominal, "upper_force_nominal");
         const release free;
         self.setCollisionBehavior(a, b, c, d, e, f, g, h);
       },
@@ -240,7 +252,7 @@ void bindSetters(py::class_<Robot>& robot) {
       .def(
           "set_joint_impedance",
           [](Robot& self, const py::object& K_theta) {
-            const auto stiffness = arrayOf<7>(K_theta, "K_theta");
+            const auto stiffness = finite<7>(K_theta, "K_theta");
             const release free;
             self.setJointImpedance(stiffness);
           },
@@ -250,7 +262,7 @@ void bindSetters(py::class_<Robot>& robot) {
       .def(
           "set_cartesian_impedance",
           [](Robot& self, const py::object& K_x) {
-            const auto stiffness = arrayOf<6>(K_x, "K_x");
+            const auto stiffness = finite<6>(K_x, "K_x");
             const release free;
             self.setCartesianImpedance(stiffness);
           },
@@ -271,7 +283,7 @@ void bindSetters(py::class_<Robot>& robot) {
       .def(
           "set_K",
           [](Robot& self, const py::object& EE_T_K) {
-            const auto pose = arrayOf<16>(EE_T_K, "EE_T_K");
+            const auto pose = numbersOfFrame(EE_T_K, "EE_T_K");
             const release free;
             self.setK(pose);
           },
@@ -280,7 +292,7 @@ void bindSetters(py::class_<Robot>& robot) {
       .def(
           "set_EE",
           [](Robot& self, const py::object& NE_T_EE) {
-            const auto pose = arrayOf<16>(NE_T_EE, "NE_T_EE");
+            const auto pose = numbersOfFrame(NE_T_EE, "NE_T_EE");
             const release free;
             self.setEE(pose);
           },
@@ -290,13 +302,14 @@ void bindSetters(py::class_<Robot>& robot) {
       robot, "set_load", {{{"mass", "load_mass"}}},
       [](Robot& self, const py::object& load_mass, const py::object& F_x_Cload,
          const py::object& inertia) {
-        const double mass = anyNumber(load_mass, "mass");
-        const auto com = arrayOf<3>(F_x_Cload, "F_x_Cload");
-        const auto load_inertia = arrayOf<9>(inertia, "load_inertia");
+        const double mass = number(load_mass, "mass");
+        const auto com = finite<3>(F_x_Cload, "F_x_Cload");
+        const auto load_inertia = finite<9>(inertia, "load_inertia");
         const release free;
         self.setLoad(mass, com, load_inertia);
       },
-      py::arg("mass"), py::arg("F_x_Cload"), py::arg("load_inertia"),
+      py::arg("mass"), py::arg("F_x_Cload") = py::make_tuple(0.0, 0.0, 0.0),
+      py::arg("load_inertia") = py::tuple(py::cast(std::array<double, 9>{})),
       "Mass [kg], center of mass in F, 3 [m], and inertia, 3x3 [kg m^2], of the load.\n\n>>> "
       "robot.set_load(0.5, [0.0, 0.0, 0.05], 0.001 * numpy.eye(3))");
   robot.def("set_filters", &Robot::setFilters, py::call_guard<release>(),
@@ -427,6 +440,13 @@ void bindRobot(py::module_& module) {
              return "<Robot: a connection, protocol version " +
                     std::to_string(self.serverVersion()) + ">";
            })
+      .def_property_readonly(
+          "state",
+          [](Robot& self) {
+            const release free;  // call_guard has no effect on properties
+            return self.readOnce();
+          },
+          "read_once(), as programs for simulations write it.\n\n>>> robot.state.q.shape\n(7,)")
       .def("read_once", &Robot::readOnce, py::call_guard<release>(),
            "Waits for the next RobotState.\n\n>>> robot.read_once().robot_mode == "
            "pyfranka.RobotMode.Idle\nTrue")

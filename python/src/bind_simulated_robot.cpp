@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Robots of simulations; pyfranka/sim gives them their Python interface.
+#include <franka/gripper_state.h>
 #include <franka_core/limits.h>
 #include <franka_core/motion_limits.h>
 #include <franka_core/numbers.h>
@@ -16,7 +17,6 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
-#include <tuple>
 #include <utility>
 
 #include "arguments.h"
@@ -268,8 +268,11 @@ void bindCommands(py::class_<Robot>& robot) {
             const auto N = nullspace_stiffness.is_none()
                                ? std::optional<double>()
                                : std::optional(number(nullspace_stiffness, "nullspace_stiffness"));
-            if ((K && *std::min_element(K->begin(), K->end()) < 0.0) || (N && *N < 0.0)) {
+            if (K && *std::min_element(K->begin(), K->end()) < 0.0) {
               throw std::invalid_argument("stiffness must not be negative.");
+            }
+            if (N && *N < 0.0) {
+              throw std::invalid_argument("nullspace_stiffness must not be negative.");
             }
             self.use([&](SimulatedRobot& robot) {
               franka_sim::CartesianLaw& law = robot.cartesianLaw();
@@ -453,9 +456,12 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
     return self.useHand([&](GripperUnit& hand) { return hand.outcome(ticket); });
   });
   robot.def("hand_state", [](Robot& self) {
-    return self.useHand([](GripperUnit& hand) {
-      return std::make_tuple(hand.width(), hand.maxWidth(), hand.isGrasped(), hand.temperature());
+    franka::GripperState state = self.useHand([](GripperUnit& hand) {
+      return franka::GripperState{
+          hand.width(), hand.maxWidth(), hand.isGrasped(), hand.temperature(), {}};
     });
+    state.time = self.state().time;
+    return state;
   });
 }
 

@@ -98,13 +98,12 @@ struct Snapshot {
 
 }  // namespace
 
-void bindSimulation(py::module_& module) {
+void bindSimulation(py::module_& module, const py::object& refusal) {
   using franka_sim::Simulation;
-  py::register_local_exception<franka_sim::RequestRefused>(module, "RequestRefused",
-                                                           PyExc_RuntimeError)
+  py::register_local_exception<franka_sim::RequestRefused>(module, "RequestRefused", refusal)
       .attr("__doc__") =
       "The robot or its hand cannot do what was requested: its mode does not allow it, or no such "
-      "value exists for it.";
+      "value exists for it. A CommandException, as of a robot on the network.";
   py::register_local_exception_translator([](std::exception_ptr pointer) {
     try {
       if (pointer) {

@@ -66,9 +66,6 @@ bool isSame(const Value& one, const Value& other) {
   return one == other;
 }
 
-/// The answer of a comparison with another class, which Python then asks.
-py::object notImplemented() { return py::reinterpret_borrow<py::object>(Py_NotImplemented); }
-
 bool isSame(const franka::Errors& one, const franka::Errors& other) {
   return flagsOf(one) == flagsOf(other);
 }

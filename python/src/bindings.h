@@ -31,7 +31,8 @@ void bindLimits(py::module_& module);
 /// The parts of its submodule for simulations.
 void bindSimState(py::module_& module);
 void bindSimModel(py::module_& module);
-void bindSimulation(py::module_& module);
+/// @param refusal the exception of a robot on the network that refuses a command
+void bindSimulation(py::module_& module, const py::object& refusal);
 void bindSimulatedRobot(py::module_& module,
                         py::class_<Shared, std::shared_ptr<Shared>>& simulation);
 void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation);
@@ -50,6 +51,9 @@ inline auto shown(std::vector<const char*> attributes) {
     return text + ">";
   };
 }
+
+/// The answer of a comparison with another class, which Python then asks.
+inline py::object notImplemented() { return py::reinterpret_borrow<py::object>(Py_NotImplemented); }
 
 /// Lets pickle and copy raise TypeError with a sentence that says what to do instead.
 template <typename Class>

@@ -22,5 +22,5 @@ PYBIND11_MODULE(_pyfranka, module) {
   pybind11::module_ sim = module.def_submodule("_sim", "Simulations; import pyfranka.sim instead.");
   pyfranka::bindSimState(sim);
   pyfranka::bindSimModel(sim);
-  pyfranka::bindSimulation(sim);
+  pyfranka::bindSimulation(sim, module.attr("CommandException"));
 }

@@ -3,7 +3,6 @@
 """Bad input of the functions of pyfranka's client, FrankaSim and plots: a sentence, and nothing half done."""
 
 import copy
-import inspect
 import math
 import os
 import pickle
@@ -22,11 +21,11 @@ import pyfranka.sim
 import pytest
 import sentences
 from pyfranka import Frame, RobotState, Torques
-from pyfranka._native import _signature, _without_other_names
 from pyfranka.franka_sim import FrankaSim
 from pyfranka.plot import Abort, Collector, Recording, abort_figure, of_log, plot, plot_abort, read_log
 from pyfranka.sim import KINDS, Panda
 from sentences import ERRORS, faults_of, unlike_ours
+from wrong_calls import signatures_of
 
 NAN = math.nan
 ROBOTS_TAKE_TURNS = True
@@ -75,15 +74,6 @@ def right(name):
     return RIGHT[name]
 
 
-def functions(cls):
-    """The public functions, and the signatures of each."""
-    for name, member in vars(cls).items():
-        if not name.startswith("_") and inspect.isroutine(function := getattr(member, "__func__", member)):
-            lines = rf"^(?:\d+\. )?{function.__name__}\((.*)\) -> "
-            found = map(_signature, re.findall(lines, function.__doc__, re.MULTILINE))
-            yield name, [[*each.parameters.values()][1:] for each in _without_other_names([*found])]
-
-
 def call(name, keywords, thing):
     return getattr(thing, name)(**keywords)
 
@@ -104,7 +94,7 @@ def not_a_number(value):
 
 def wrong_calls(cls, make, **others):
     """A table of calls with one wrong value each; the sentences name its argument, by its last word."""
-    for name, signatures in functions(cls):
+    for name, signatures in signatures_of(cls).items():
         for parameters in signatures:
             keywords = {each.name: right(each.name) for each in parameters}
             keywords |= {each: value for each, value in others.items() if each in keywords}
@@ -162,7 +152,7 @@ GRIPPER = {
         "address must be a text, not None": lambda x: pyfranka.Gripper(None),
         "missing a required argument": lambda x: pyfranka.Gripper(),
     },
-    "move": {"Gripper.move(): missing a required argument: 'speed'": lambda x: x.move(0.05)},
+    "move": {"Gripper.move(): missing a required argument: 'width'": lambda x: x.move()},
     "homing": {"it takes no arguments": lambda x: x.homing(5)},
 }
 
@@ -335,7 +325,7 @@ def test_wrong_arguments_are_refused_with_a_sentence_and_change_nothing(kind, th
         where: cases for where, cases in wrong_calls(cls, of_wrong_shape) if not where.startswith(of_fr3)
     }
     wrong += faults_of(shapes, thing, kind)
-    for function, (parameters, *_) in functions(cls):
+    for function, (parameters, *_) in signatures_of(cls).items():
         unknown = partial(call, function, {**required(parameters), "nothing": 1})
         wrong += faults_of({function: {"argument 'nothing'": unknown}}, thing, kind)
     for where, cases in wrong_calls(cls, not_a_number):
@@ -470,7 +460,7 @@ ANSWERED_IN_MOTION = LOCAL | {"load_model", "get_robot_model", "get_virtual_wall
 def refusals(thing, without=()):
     """Calls each public function with right arguments: name -> sentence of its refusal, or nothing"""
     found = {}
-    for name, (parameters, *_) in functions(type(thing)):
+    for name, (parameters, *_) in signatures_of(type(thing)).items():
         if name not in without:
             try:
                 call(name, required(parameters), thing)

@@ -13,200 +13,84 @@ import numpy as np
 import pytest
 from pyfranka.remote import Remote
 from pyfranka.sim import FR3, Panda
-from sentences import faults_of
+from wrong_calls import Kind, faults_of_arguments, parameters_of
 
 NAN, HUGE = math.nan, 10**400
-EYE, ZERO = np.eye(4), (0, 0, 0)
 
-# As in test_bad_input_client.py: "function" -> a part of the sentence -> the call; x is a Remote.
+TIMEOUT = Kind(None, ("soon", "5", [], -1, 0, NAN, HUGE, 1j, np.complex64(1)))
+SWITCH = Kind(True, (1, "on", "yes", None, NAN))
+
+
+def word(right, *unknown) -> Kind:
+    """A word of a line."""
+    return Kind(right, (5, None, "", "a b", "stone\nquit", "\t"), unknown=unknown)
+
+
+def value(right, *beyond) -> Kind:
+    return Kind(right, ("heavy", "5", [1], None, NAN, HUGE), unknown=beyond)
+
+
+def row(right) -> Kind:
+    size = len(right)
+    shapes = (right[1:], [[1], [2, 3]], np.zeros((1, size)), "high", 5.0)
+    return Kind(right, (*shapes, [NAN] * size))
+
+
+def matrix(size) -> Kind:
+    return Kind(np.eye(size), (np.eye(7 - size), [[1], [1, 2]], None, np.full((size, size), NAN)))
+
+
+def count(right, *beyond) -> Kind:
+    return Kind(right, (1.5, NAN, None, "5"), unknown=beyond)
+
+
+BODY, THREE = word("stone", "nothing"), row([0.0] * 3)
+READY = [0.0, -0.7, 0.0, -2.3, 0.0, 1.5, 0.7]
+# The arguments of each method; `timeout` is the same everywhere.
 REMOTE = {
-    "__init__": {
-        "Give the address of the robot": lambda x: Remote(""),
-        "Give the address of the robot,": lambda x: Remote(5),
-        "The port is a whole number, not '1340'": lambda x: Remote("a", "1340"),
-        "The port is 1 to 65535, not 70000": lambda x: Remote("a", 70000),
-        "The port is 1 to 65535, not 0": lambda x: Remote("a", 0),
-        "A time limit is a positive number of seconds, not 'long'": lambda x: Remote("a", timeout="long"),
-        "A time limit is a positive number of seconds, not nan": lambda x: Remote("a", timeout=NAN),
-        "A time limit is a positive number of seconds, not 0": lambda x: Remote("a", timeout=0),
-        "A time limit is a positive number of seconds, not 1j": lambda x: Remote("a", timeout=1j),
-        "A time limit is a positive number of seconds, not": lambda x: Remote("a", timeout=np.complex64(1)),
-        "A time limit": lambda x: Remote("a", timeout=HUGE),
-    },
-    "send": {
-        "A line is a text, not 5": lambda x: x.send(5),
-        "A line is a text, not b'time'": lambda x: x.send(b"time"),
-        "Send one line at a time": lambda x: x.send("time\nstate"),
-        "cannot be sent as UTF-8": lambda x: x.send("where \ud800"),
-        "dance": lambda x: x.send("dance"),
-        "A time limit": lambda x: x.send("time", -1),
-    },
-    "set_user_stop": {
-        "Give True or False, not 1": lambda x: x.set_user_stop(1),
-        "Give True or False, not 'on'": lambda x: x.set_user_stop("on"),
-        "A time limit": lambda x: x.set_user_stop(True, NAN),
-    },
-    "set_guiding": {"Give True or False, not nan": lambda x: x.set_guiding(NAN)},
-    "close_brakes": {"A time limit": lambda x: x.close_brakes(0)},
-    "open_brakes": {"A time limit": lambda x: x.open_brakes("soon")},
-    "activate_fci": {"A time limit": lambda x: x.activate_fci([])},
-    "deactivate_fci": {"A time limit": lambda x: x.deactivate_fci("no")},
-    "lock_joints": {"A time limit": lambda x: x.lock_joints(-1)},
-    "unlock_joints": {"A time limit": lambda x: x.unlock_joints(-1)},
-    "brakes": {"Give True or False": lambda x: x.brakes("shut")},  # with old names
-    "fci": {"Give True or False": lambda x: x.fci(None)},
-    "joints": {"Give True or False": lambda x: x.joints("locked")},
-    "input": {"": lambda x: x.input("x99", True)},
-    "hash": {"A time limit": lambda x: x.hash(0)},
-    "user_stop": {"Give True or False": lambda x: x.user_stop(1)},
-    "guiding": {"Give True or False": lambda x: x.guiding(1)},
-    "end_effector_power": {"Give True or False": lambda x: x.end_effector_power(1)},
-    "power": {"Give True or False": lambda x: x.power(1)},
-    "load": {"takes numbers": lambda x: x.load("heavy")},
-    "place": {"nothing": lambda x: x.place("nothing", ZERO)},
-    "where": {"nothing": lambda x: x.where("nothing")},
-    "help": {"A time limit": lambda x: x.help(0)},
-    "operating_mode": {
-        "The mode is one word, not 5": lambda x: x.operating_mode(5),
-        "": lambda x: x.operating_mode("dance"),
-    },
-    "set_input": {
-        "The name of an input is one word, not 'x 31'": lambda x: x.set_input("x 31", True),
-        "Give True or False": lambda x: x.set_input("x31", 0),
-        "": lambda x: x.set_input("x99", True),
-    },
-    "button": {
-        "The name of a button is one word, not None": lambda x: x.button(None, True),
-        "": lambda x: x.button("square", True),
-    },
-    "guiding_mode": {
-        "The mode is one word, not ''": lambda x: x.guiding_mode(""),
-        "The axes are a list, each True or False, not 5": lambda x: x.guiding_mode("user", 5),
-        "Give True or False, not 1": lambda x: x.guiding_mode("user", [1] * 7),
-        "": lambda x: x.guiding_mode("user", [True] * 3),
-        "dance": lambda x: x.guiding_mode("dance"),
-    },
-    "navigation": {"": lambda x: x.navigation("mars"), "The user of the keys": lambda x: x.navigation(5)},
-    "self_test": {
-        "'self_test due' takes numbers, not 'soon'": lambda x: x.self_test("soon"),
-        "'self_test due' takes numbers, not '5'": lambda x: x.self_test("5"),
-        "": lambda x: x.self_test(NAN),
-    },
-    "acknowledge": {"one word, not 5": lambda x: x.acknowledge(5), "": lambda x: x.acknowledge("nothing")},
-    "inject": {
-        "A joint is a whole number, not 1.5": lambda x: x.inject("jointPositionError", True, 1.5),
-        "": lambda x: x.inject("nothing", True),
-        "Give True or False": lambda x: x.inject("nothing", "yes"),
-    },
-    "recover": {"A time limit": lambda x: x.recover(-1)},
+    "__init__": {"address": Kind("127.0.0.1", ("", 5, None)), "port": Kind(1340, ("1340", 70000, 0, 1.5))},
+    "send": {"line": Kind("time", (5, b"time", "time\nstate", "where \ud800"), unknown=("dance",))},
+    **dict.fromkeys(("close_brakes", "open_brakes", "activate_fci", "deactivate_fci"), {}),
+    **dict.fromkeys(("lock_joints", "unlock_joints", "recover", "report", "state", "state_hash"), {}),
+    **dict.fromkeys(("hand_homing", "hand_stop", "scene", "poses", "reset", "quit", "commands"), {}),
+    "set_user_stop": {"pressed": SWITCH},
+    "set_guiding": {"active": SWITCH},
+    **dict.fromkeys(("set_end_effector_power", "set_power"), {"on": SWITCH}),
+    "operating_mode": {"mode": word("execution", "dance")},
+    "set_input": {"name": word("x31", "x99"), "pressed": SWITCH},
+    "button": {"name": word("circle", "square"), "pressed": SWITCH},
+    "guiding_mode": {"mode": word("user", "dance"), "axes": Kind([True] * 7, (5, [1] * 7))},
+    "navigation": {"user": word("desk", "mars")},
+    "self_test": {"due": value(5.0)},
+    "acknowledge": {"error": word("jointPositionError", "nothing")},
+    "inject": {"error": word("jointPositionError", "nothing"), "active": SWITCH, "joint": count(1)},
     "move": {
-        "The target is one word, not 'a b'": lambda x: x.move("a b"),
-        "": lambda x: x.move("home"),
-        "The target must have 7 numbers, not 6": lambda x: x.move([0.0] * 6),
-        "The target must have 7 numbers, not [[1], [2, 3]]": lambda x: x.move([[1], [2, 3]]),
-        "The target must have 7 numbers, not (1, 7)": lambda x: x.move(np.zeros((1, 7))),
-        "nan": lambda x: x.move([NAN] * 7),
-        "'move' takes numbers, not 'fast'": lambda x: x.move([0.0] * 7, "fast"),
-        "'move' takes numbers, not 1000": lambda x: x.move([0.0] * 7, HUGE),
-        "above 0 and at most 1, not nan": lambda x: x.move([0.0, -0.7, 0.0, -2.3, 0.0, 1.5, 0.7], NAN),
-        "above 0 and at most 1, not 100": lambda x: x.move([0.0, -0.7, 0.0, -2.3, 0.0, 1.5, 0.7], 100),
-        "above 0 and at most 1, not 0": lambda x: x.move([0.0, -0.7, 0.0, -2.3, 0.0, 1.5, 0.7], 0),
+        "target": Kind(READY, (*word("pack").wrong[2:], *row(READY).wrong[:3], row(READY).wrong[-1])),
+        "speed": value(0.3, 100, 0),
     },
-    "end_effector": {
-        "'end_effector' takes numbers, not '1'": lambda x: x.end_effector("1", ZERO, np.eye(3), EYE),
-        "The center of mass must have 3": lambda x: x.end_effector(1, [0], np.eye(3), EYE),
-        "The inertia is 3x3, or 9": lambda x: x.end_effector(1, ZERO, EYE, EYE),
-        "The transform is 4x4, or 16": lambda x: x.end_effector(1, ZERO, np.eye(3), [[1], [1, 2]]),
-        "The transform is 4x4": lambda x: x.end_effector(1, ZERO, np.eye(3), None),
-        "": lambda x: x.end_effector(NAN, ZERO, np.eye(3), EYE),
-    },
-    "set_end_effector_power": {"Give True or False": lambda x: x.set_end_effector_power(1)},
-    "set_power": {"Give True or False, not 'off'": lambda x: x.set_power("off")},
-    "timing": {
-        "The name is one word": lambda x: x.timing(5, 1.0),
-        "": lambda x: x.timing("lunch", 1.0),
-        "takes numbers, not None": lambda x: x.timing("brakes", None),
-        "not a finite number": lambda x: x.timing("brakes", NAN),
-    },
-    "report": {"A time limit": lambda x: x.report(-1)},
-    "set_load": {
-        "'load' takes numbers, not 'heavy'": lambda x: x.set_load("heavy"),
-        "F_x_Cload must have 3 numbers, not 2": lambda x: x.set_load(0.5, (0, 0)),
-        "load_inertia is 3x3": lambda x: x.set_load(0.5, ZERO, EYE),
-        "": lambda x: x.set_load(NAN),
-        "-1": lambda x: x.set_load(-1.0),
-        "not a finite number": lambda x: x.set_load(0.5, (NAN, 0, 0)),
-    },
+    "end_effector": {"mass": value(1.0), "center": THREE, "inertia": matrix(3), "F_T_NE": matrix(4)},
+    "timing": {"what": word("brakes", "lunch"), "seconds": value(1.0)},
+    "set_load": {"mass": value(0.5, -1), "F_x_Cload": THREE, "load_inertia": matrix(3)},
     "wall": {
-        "The number of a wall is a whole number": lambda x: x.wall(1.5, ZERO, (1, 1, 1)),
-        "The edges must have 3 numbers": lambda x: x.wall(1, ZERO, "big"),
-        "": lambda x: x.wall(1, (NAN, 0, 0), (1, 1, 1)),
-        "0 to 7": lambda x: x.wall(9, ZERO, (1, 1, 1)),
+        "number": count(1, 9),
+        "center": THREE,
+        "edges": row([1.0] * 3),
+        "orientation": row([1.0, 0.0, 0.0, 0.0]),
     },
-    "remove_wall": {
-        "a whole number, not None": lambda x: x.remove_wall(None),
-        "0 to 7": lambda x: x.remove_wall(8),
-    },
-    "part": {"Give True or False": lambda x: x.part(None), "": lambda x: x.part(True)},
-    "pump": {"The health is one word": lambda x: x.pump(1), "": lambda x: x.pump("blue")},
-    "hand_homing": {"A time limit": lambda x: x.hand_homing(0)},
-    "hand_move": {
-        "'hand move' takes numbers, not '0.04'": lambda x: x.hand_move("0.04", 0.1),
-        "'hand move' takes numbers, not [1]": lambda x: x.hand_move([1], 0.1),
-        "": lambda x: x.hand_move(NAN, 0.1),
-    },
-    "hand_grasp": {
-        "'hand grasp' takes numbers, not None": lambda x: x.hand_grasp(0.04, 0.1, None),
-        "": lambda x: x.hand_grasp(0.04, 0.1, NAN),
-    },
-    "hand_stop": {"A time limit": lambda x: x.hand_stop("now")},
-    "state": {"A time limit": lambda x: x.state(NAN)},
-    "state_hash": {"A time limit": lambda x: x.state_hash(-5)},
-    "loss": {
-        "'loss' takes numbers, not 'much'": lambda x: x.loss("much"),
-        "A seed is a whole number": lambda x: x.loss(0.1, 1.5),
-        "": lambda x: x.loss(NAN),
-        "seed": lambda x: x.loss(0.1, -1),
-        "loss": lambda x: x.loss(1.5),
-    },
-    "lose": {"a whole number, not 0.5": lambda x: x.lose(0.5), "": lambda x: x.lose(-1)},
-    "delay": {"A delay is a whole number": lambda x: x.delay(NAN), "20": lambda x: x.delay(21)},
-    "push": {
-        "The name of a body is one word, not 5": lambda x: x.push(5, ZERO),
-        "nothing": lambda x: x.push("nothing", ZERO),
-        "The force must have 3 numbers": lambda x: x.push("stone", 1.0),
-        "The torque must have 3 numbers": lambda x: x.push("stone", ZERO, 100),
-        "The duration is a whole number": lambda x: x.push("stone", ZERO, ticks=0.5),
-        "": lambda x: x.push("stone", (NAN, 0, 0)),
-    },
-    "place_body": {
-        "nothing": lambda x: x.place_body("nothing", ZERO),
-        "The position must have 3 numbers, not 'high'": lambda x: x.place_body("stone", "high"),
-        "The position must have 3 numbers": lambda x: x.place_body("stone", (0, 0)),
-        "The orientation must have 4 numbers": lambda x: x.place_body("stone", ZERO, [1]),
-        "": lambda x: x.place_body("stone", (0, 0, NAN)),
-    },
-    "body_position": {
-        "one word, not 'stone\\nquit'": lambda x: x.body_position("stone\nquit"),
-        "nothing": lambda x: x.body_position("nothing"),
-        "one word": lambda x: x.body_position("\t"),
-    },
-    "scene": {"A time limit": lambda x: x.scene(0)},
-    "mesh": {"nothing": lambda x: x.mesh("nothing"), "one word": lambda x: x.mesh(None)},
-    "poses": {"A time limit": lambda x: x.poses(0)},
-    "step": {
-        "The number of ticks is a whole number, not 1.5": lambda x: x.step(1.5),
-        "The number of ticks is a whole number, not nan": lambda x: x.step(NAN),
-        "": lambda x: x.step(-1),
-        "0": lambda x: x.step(HUGE),
-    },
-    "wait": {
-        "The condition is a function of a RemoteState, not 5": lambda x: x.wait(5),
-        "A time limit": lambda x: x.wait(timeout=0),
-    },
-    "reset": {"A time limit": lambda x: x.reset(-1)},
-    "quit": {"A time limit": lambda x: x.quit(-1)},
-    "commands": {"A time limit": lambda x: x.commands("a")},
+    "remove_wall": {"number": count(1, 8)},
+    "part": {"present": SWITCH},
+    "pump": {"health": Kind("green", word("green").wrong)},
+    "hand_move": {"width": value(0.04), "speed": value(0.1)},
+    "hand_grasp": {"width": value(0.04), "speed": value(0.1), "force": value(10.0)},
+    "loss": {"probability": value(0.1), "seed": count(0, -1)},
+    "lose": {"commands": count(1, -1)},
+    "delay": {"ticks": count(1)},
+    "push": {"body": BODY, "force": THREE, "torque": THREE, "ticks": count(1)},
+    "place_body": {"body": BODY, "position": THREE, "orientation": row([1.0, 0.0, 0.0, 0.0])},
+    "body_position": {"body": BODY},
+    "mesh": {"name": BODY},
+    "step": {"ticks": count(1, -1)},
+    "wait": {"condition": Kind(None, (5, "Idle"))},
 }
 
 
@@ -230,12 +114,19 @@ def test_bad_input_is_refused_with_a_sentence_and_changes_nothing(server, name, 
     if kept:
         remote.__enter__()
     try:
-        before = condition(remote)
-        wrong = faults_of(REMOTE, remote, "Remote")
+        wrong = faults_of_arguments(Remote, table(), remote, lambda: condition(remote))
         assert not wrong, "\n".join(wrong)
-        assert repr(condition(remote)) == repr(before)
     finally:
         remote.close()
+
+
+def table():
+    """REMOTE with the time limits."""
+    complete = {}
+    for name, kinds in REMOTE.items():
+        limits = {"timeout": TIMEOUT} if "timeout" in parameters_of(getattr(Remote, name)) else {}
+        complete[name] = {**kinds, **limits}
+    return complete
 
 
 def test_the_table_has_each_method():

@@ -87,8 +87,6 @@ def test_a_users_tests_get_robots_of_their_own(project):
             robot = franka_sim("fr3", name="me", realism="ideal", protocol=8, hand="none").robot
             assert robot.connect().server_version == 8
             assert robot.remote.body_position("me_link0") == pytest.approx([0, 0, 0])
-            with pytest.warns(DeprecationWarning, match="The option arm_id is now name"):
-                assert franka_sim(arm_id="old").robot.name == "old"
 
         def test_robot_that_cannot_start_is_reported_with_its_message(franka_sim):
             with pytest.raises(ValueError, match="There is no robot 'ur5'; there are: panda, fr3"):
@@ -203,8 +201,6 @@ def test_short_names_of_fixtures_can_be_left_to_the_project(project):
 
         def test_name(franka_panda, franka_fr3{more}):
             assert (franka_panda.kind, franka_fr3.kind, franka_panda.name) == ("panda", "fr3", "panda")
-            with pytest.warns(DeprecationWarning, match="ServedRobot.arm_id is now name"):
-                assert franka_fr3.arm_id == "fr3"
         """
     run(project, test.format(more=", panda")).assert_outcomes(passed=1)
     run(project, test.format(more=""), "-o", "franka_short_fixtures=false").assert_outcomes(passed=1)

@@ -125,30 +125,6 @@ def test_switches_show_in_the_state_at_once(remote):
     assert state.q == pytest.approx(READY, abs=1e-3)
 
 
-def test_old_names_do_the_same_and_warn(remote):
-    old = {
-        "help": lambda: remote.help() == remote.commands(),
-        "hash": lambda: remote.hash() == remote.state_hash(),
-        "time": lambda: remote.time() == remote.time,
-        "brakes": lambda: remote.brakes(True) or remote.state().mode == "Other",
-        "brakes()": lambda: remote.brakes(False) or remote.wait().mode == "Idle",
-        "fci": lambda: remote.fci(True) is None,
-        "joints": lambda: remote.joints(False) is None,
-        "input": lambda: remote.input("guiding", False) is None,
-        "user_stop": lambda: remote.user_stop(False) is None,
-        "guiding": lambda: remote.guiding(False) is None,
-        "end_effector_power": lambda: remote.end_effector_power(True) is None,
-        "power": lambda: remote.power(True) is None,
-        "load": lambda: remote.load(0.0) is None,
-        "place": lambda: remote.place("stone", (0.1, 0.2, 0.7)) is None,
-        "where": lambda: remote.where("stone").shape == (3,),
-    }
-    for name, works in old.items():
-        with pytest.warns(DeprecationWarning, match=rf"^Remote\.{name.rstrip('()')}\(\) is now ") as caught:
-            assert works(), name
-        assert len(caught) == 1 and caught[0].filename == __file__
-
-
 def test_a_client_and_the_errors_of_its_motion_are_reported(server):
     """A push stops a moving arm by a reflex, which the state names with its force."""
     robot = server["panda"]

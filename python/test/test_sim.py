@@ -3,7 +3,6 @@
 """pyfranka.sim: robots that a Python program steps in its own process."""
 
 import copy
-import importlib
 import io
 import json
 import math
@@ -22,8 +21,6 @@ import pyfranka.sim
 import pytest
 from PIL import Image
 from pyfranka import libfranka
-from pyfranka.desk import DeskRobot
-from pyfranka.franka_sim import SimRobot
 from pyfranka.sim import (
     FR3,
     KINDS,
@@ -31,7 +28,6 @@ from pyfranka.sim import (
     Panda,
     Picture,
     RequestRefused,
-    SimulatedRobot,
     Simulation,
     SimulationBatch,
 )
@@ -265,26 +261,6 @@ def test_a_refusal_says_what_to_do(sim, arm):
     arm.finish()
     sim.step(1)
     refused("is ending", command)
-
-
-def test_old_names_do_the_same_and_warn(sim, arm):
-    old = {
-        "SimulatedRobot.set_brakes()": lambda: arm.set_brakes(True) or arm.brakes_closed in (True, False),
-        "SimulatedRobot.hash()": lambda: arm.hash() == arm.state_hash(),
-        "Simulation.hash()": lambda: sim.hash() == sim.state_hash(),
-        "pyfranka.sim.Robot": lambda: pyfranka.sim.Robot is SimulatedRobot,
-        "pyfranka.desk.Robot": lambda: importlib.import_module("pyfranka.desk").Robot is DeskRobot,
-        "pyfranka.franka_sim.SimRobot": lambda: (
-            SimRobot("fr3", arm_id="a", base=(0, 1, 0), hand="none", protocol=8)
-            == FR3("a", (0, 1, 0), False, protocol=8)
-        ),
-    }
-    for name, works in old.items():
-        with pytest.warns(DeprecationWarning, match=f"^{re.escape(name)} is now ") as caught:
-            assert works(), name
-        assert [warning.filename for warning in caught] == [__file__], name
-    with pytest.raises(AttributeError, match="no attribute 'nothing'"):
-        _ = pyfranka.sim.nothing
 
 
 def test_a_simulation_is_true_and_knows_its_robots(sim, arm, name):

@@ -32,7 +32,6 @@ from dataclasses import replace
 from ipaddress import IPv4Address
 from pathlib import Path
 
-from pyfranka._deprecation import renamed, warn
 from pyfranka.remote import PORT, Remote
 from pyfranka.sim.arguments import no_robot, path, whole
 from pyfranka.sim.setups import FR3, Panda, described
@@ -42,7 +41,7 @@ if typing.TYPE_CHECKING:
 
     import pyfranka
 
-__all__ = ["FrankaSim", "FrankaSimError", "ServedRobot", "SimRobot"]
+__all__ = ["FrankaSim", "FrankaSimError", "ServedRobot"]
 
 PROGRAM = "franka_sim"
 TO_START, TO_END = 60.0, 20.0  # [s], on a busy machine (chosen here)
@@ -55,32 +54,6 @@ ATTEMPTS = 50  # to find a free one (chosen here)
 
 class FrankaSimError(RuntimeError):
     """franka_sim could not be started, ended by itself or did not end; the text is what it has written."""
-
-
-def SimRobot(
-    kind: str = "panda",
-    arm_id: str = "",
-    base: Sequence[float] | None = None,
-    hand: str | bool = "",
-    realism: str = "",
-    protocol: int = 0,
-    urdf: str | os.PathLike[str] = "",
-    address: str = "",
-    arguments: Sequence[str] = (),
-) -> Panda | FR3:
-    """Deprecated: robots on the network are described by pyfranka.sim.Panda and FR3, too."""
-    warn("pyfranka.franka_sim.SimRobot", "pyfranka.sim.Panda or pyfranka.sim.FR3, and arm_id is name")
-    return described(
-        kind,
-        name=arm_id,
-        base=(0.0, 0.0, 0.0) if base is None else base,
-        hand=True if hand == "" else hand,
-        realism=realism,
-        protocol=protocol,
-        urdf=urdf,
-        address=address,
-        arguments=arguments,
-    )
 
 
 class ServedRobot:
@@ -102,11 +75,6 @@ class ServedRobot:
 
     def __repr__(self) -> str:
         return f"<{self.kind} '{self.name}' at {self.address}>"
-
-    @property
-    @renamed("ServedRobot.arm_id", "name")
-    def arm_id(self) -> str:
-        return self.name
 
     def connect(self) -> pyfranka.Robot:
         """A connection to the robot that needs no real-time kernel. Raises pyfranka.Exception.

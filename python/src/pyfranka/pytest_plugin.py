@@ -99,13 +99,9 @@ class Factory:
         """
         from inspect import signature
 
-        from pyfranka._deprecation import warn
         from pyfranka.franka_sim import FrankaSim
         from pyfranka.sim.setups import described
 
-        if "arm_id" in options:
-            warn("The option arm_id", "name")
-            options["name"] = options.pop("arm_id")
         realism = self._setting("realism")
         if realism and "realism" not in options:
             options["realism"] = realism

@@ -26,7 +26,6 @@ import numpy
 from numpy.typing import ArrayLike, NDArray
 
 from pyfranka import _remote_words as words
-from pyfranka._deprecation import renamed, warn
 from pyfranka._remote_connection import PAUSE, SharedConnection, left
 from pyfranka.refusals import split_refusal
 from pyfranka.robot_report import Report, report_of
@@ -124,14 +123,6 @@ class RemoteMesh:
     faces: NDArray[numpy.uint32]
 
 
-class _Time(float):
-    """A time [s]. The call of the method that it was gives it, and warns."""
-
-    def __call__(self, timeout: float | None = None) -> float:
-        warn("Remote.time()", "the property time")
-        return float(self)
-
-
 class Remote:
     """The control interface of one robot. Each robot of one franka_sim has its own, at its own address; lines
     about the world (push, place, where, time, step, wait, reset, quit) concern all of them.
@@ -157,9 +148,9 @@ class Remote:
     def __init__(self, address: str, port: int = PORT, timeout: float = TIME_LIMIT):
         if not address or not isinstance(address, str):
             raise ValueError("Give the address of the robot, such as 127.0.0.1.")
-        port, self.timeout = words.whole(port, "The port"), words.seconds(timeout)
+        port, self.timeout = words.whole(port, "port"), words.seconds(timeout)
         if not 1 <= port <= 65535:
-            raise ValueError(f"The port is 1 to 65535, not {port}.")
+            raise ValueError(f"port must be 1 to 65535, not {port}.")
         self._connection = SharedConnection(address, port)
 
     def __reduce__(self) -> tuple[type[Remote], tuple[str, int, float]]:
@@ -236,8 +227,6 @@ class Remote:
         """
         return self.send("help", timeout).split("; ")
 
-    help = renamed("Remote.help()", "commands()")(commands)
-
     # ---- the robot ---------------------------------------------------------------------------------------
 
     def set_user_stop(self, pressed: bool, timeout: float | None = None) -> None:
@@ -248,9 +237,7 @@ class Remote:
         'User stopped'
         >>> remote.set_user_stop(False)
         """
-        self.send(f"user_stop {words.switch(pressed)}", timeout)
-
-    user_stop = renamed("Remote.user_stop()", "set_user_stop()")(set_user_stop)
+        self.send(f"user_stop {words.switch(pressed, 'pressed')}", timeout)
 
     def set_guiding(self, active: bool, timeout: float | None = None) -> None:
         """Begins or ends guiding by hand.
@@ -258,9 +245,7 @@ class Remote:
         >>> remote.set_guiding(True)
         >>> remote.set_guiding(False)
         """
-        self.send(f"guiding {words.switch(active)}", timeout)
-
-    guiding = renamed("Remote.guiding()", "set_guiding()")(set_guiding)
+        self.send(f"guiding {words.switch(active, 'active')}", timeout)
 
     def close_brakes(self, timeout: float | None = None) -> None:
         """Closes the brakes, which ends a motion.
@@ -313,18 +298,6 @@ class Remote:
         """
         self.send("joints unlock", timeout)
 
-    @renamed("Remote.brakes()", "close_brakes() and open_brakes()")
-    def brakes(self, closed: bool, timeout: float | None = None) -> None:
-        self.send("brakes " + ("close" if words.switch(closed) == "on" else "open"), timeout)
-
-    @renamed("Remote.fci()", "activate_fci() and deactivate_fci()")
-    def fci(self, active: bool, timeout: float | None = None) -> None:
-        self.send(f"fci {words.switch(active)}", timeout)
-
-    @renamed("Remote.joints()", "lock_joints() and unlock_joints()")
-    def joints(self, locked: bool, timeout: float | None = None) -> None:
-        self.send("joints " + ("lock" if words.switch(locked) == "on" else "unlock"), timeout)
-
     def operating_mode(
         self, mode: typing.Literal["execution", "programming"], timeout: float | None = None
     ) -> None:
@@ -333,7 +306,7 @@ class Remote:
         >>> with FrankaSim("fr3", start="locked") as server:
         ...     server.robot.remote.operating_mode("programming")
         """
-        self.send(f"operating_mode {words.word(mode, 'The mode')}", timeout)
+        self.send(f"operating_mode {words.word(mode, 'mode')}", timeout)
 
     def set_input(
         self,
@@ -346,16 +319,7 @@ class Remote:
         >>> server["fr3"].remote.set_input("guiding", True)
         >>> server["fr3"].remote.set_input("guiding", False)
         """
-        self.send(f"input {words.word(name, 'The name of an input')} {words.switch(pressed)}", timeout)
-
-    @renamed("Remote.input()", "set_input()")
-    def input(
-        self,
-        name: typing.Literal["x31", "x32", "x33", "x4", "guiding"],
-        pressed: bool,
-        timeout: float | None = None,
-    ) -> None:
-        self.set_input(name, pressed, timeout)
+        self.send(f"input {words.word(name, 'name')} {words.switch(pressed, 'pressed')}", timeout)
 
     def button(self, name: str, pressed: bool, timeout: float | None = None) -> None:
         """Presses or releases a button of the Pilot: circle, cross, check, up, down, left or right.
@@ -363,7 +327,7 @@ class Remote:
         >>> remote.button("circle", True)
         >>> remote.button("circle", False)
         """
-        self.send(f"button {words.word(name, 'The name of a button')} {words.switch(pressed)}", timeout)
+        self.send(f"button {words.word(name, 'name')} {words.switch(pressed, 'pressed')}", timeout)
 
     def guiding_mode(
         self,
@@ -378,21 +342,28 @@ class Remote:
         """
         if not isinstance(axes, Iterable):
             raise TypeError(f"The axes are a list, each True or False, not {axes!r}.")
-        self.send(" ".join(["guiding_mode", words.word(mode, "The mode"), *map(words.switch, axes)]), timeout)
+        self.send(
+            " ".join(
+                ["guiding_mode", words.word(mode, "mode"), *(words.switch(each, "axes") for each in axes)]
+            ),
+            timeout,
+        )
 
     def navigation(self, user: typing.Literal["desk", "robot"], timeout: float | None = None) -> None:
         """Target of the Pilot's arrow keys: Desk or the robot.
 
         >>> remote.navigation("desk")
         """
-        self.send(f"navigation {words.word(user, 'The user of the keys')}", timeout)
+        self.send(f"navigation {words.word(user, 'user')}", timeout)
 
     def self_test(self, due: float | None = None, timeout: float | None = None) -> None:
         """Starts the self-test; with `due`, sets only the time until it is overdue [s].
 
         >>> remote.self_test(due=86400.0)
         """
-        self.send("self_test" if due is None else words.line("self_test due", [due]), timeout)
+        self.send(
+            "self_test" if due is None else words.line("self_test due", words.number(due, "due")), timeout
+        )
 
     def acknowledge(self, error: str, timeout: float | None = None) -> None:
         """Acknowledges an error of the safety controller, such as td2Timeout.
@@ -401,7 +372,7 @@ class Remote:
         ...     server.robot.remote.inject("td2Timeout", True)
         ...     server.robot.remote.acknowledge("td2Timeout")
         """
-        self.send(f"acknowledge {words.word(error, 'The name of an error')}", timeout)
+        self.send(f"acknowledge {words.word(error, 'error')}", timeout)
 
     def inject(self, error: str, active: bool, joint: int = 0, timeout: float | None = None) -> None:
         """Lets the safety controller have an error, or not. joint: 1 to 7, for those of a joint.
@@ -410,10 +381,10 @@ class Remote:
         ...     server.robot.remote.inject("jointLimitViolation", True, joint=2)
         """
         parts = [
-            words.word(error, "The name of an error"),
-            *([str(words.whole(joint, "A joint"))] if joint else []),
+            words.word(error, "error"),
+            *([str(words.whole(joint, "joint"))] if joint != 0 else []),
         ]
-        self.send(" ".join(["inject", *parts, words.switch(active)]), timeout)
+        self.send(" ".join(["inject", *parts, words.switch(active, "active")]), timeout)
 
     def recover(self, timeout: float | None = None) -> None:
         """Automatic error recovery; returns at its end.
@@ -435,9 +406,9 @@ class Remote:
         >>> remote.move([0.0, -0.785, 0.0, -2.356, 0.0, 1.571, 0.785], speed=0.3)
         """
         if isinstance(target, str):
-            self.send(f"move {words.word(target, 'The target')}", timeout)
+            self.send(f"move {words.word(target, 'target')}", timeout)
         else:
-            line = words.line("move", words.numbers(target, 7, "The target"), [speed])
+            line = words.line("move", words.numbers(target, 7, "target"), words.number(speed, "speed"))
             if not 0.0 < speed <= 1.0:
                 raise ValueError(
                     f"speed is a share of the velocity limits, above 0 and at most 1, not {speed}."
@@ -458,9 +429,9 @@ class Remote:
         >>> inertia = numpy.diag([0.001, 0.0025, 0.0017])
         >>> remote.end_effector(0.73, (-0.01, 0.0, 0.03), inertia, numpy.eye(4))
         """
-        parts = [words.numbers(center, 3, "The center of mass"), words.matrix(inertia, 3, "The inertia")]
-        frame = words.matrix(F_T_NE, 4, "The transform")
-        warning = self.send(words.line("end_effector", [mass], *parts, frame), timeout)
+        parts = [words.numbers(center, 3, "center"), words.matrix(inertia, 3, "inertia")]
+        frame = words.matrix(F_T_NE, 4, "F_T_NE")
+        warning = self.send(words.line("end_effector", words.number(mass, "mass"), *parts, frame), timeout)
         if warning:
             warnings.warn(warning, RuntimeWarning, stacklevel=2)
 
@@ -469,11 +440,7 @@ class Remote:
 
         >>> server["fr3"].remote.set_end_effector_power(True)
         """
-        self.send(f"end_effector_power {words.switch(on)}", timeout)
-
-    end_effector_power = renamed("Remote.end_effector_power()", "set_end_effector_power()")(
-        set_end_effector_power
-    )
+        self.send(f"end_effector_power {words.switch(on, 'on')}", timeout)
 
     def set_power(self, on: bool, timeout: float | None = None) -> None:
         """Off: the robot is not reachable. On: it starts, with Desk's rules locked.
@@ -481,9 +448,7 @@ class Remote:
         >>> with FrankaSim("fr3") as server:
         ...     server.robot.remote.set_power(False)
         """
-        self.send(f"power {words.switch(on)}", timeout)
-
-    power = renamed("Remote.power()", "set_power()")(set_power)
+        self.send(f"power {words.switch(on, 'on')}", timeout)
 
     def timing(
         self, what: typing.Literal["brakes", "self_test"], seconds: float, timeout: float | None = None
@@ -492,7 +457,7 @@ class Remote:
 
         >>> remote.timing("brakes", 1.0)
         """
-        self.send(words.line(f"timing {words.word(what, 'The name')}", [seconds]), timeout)
+        self.send(words.line(f"timing {words.word(what, 'what')}", words.number(seconds, "seconds")), timeout)
 
     def report(self, timeout: float | None = None) -> Report:
         """Everything of the robot.
@@ -516,9 +481,7 @@ class Remote:
         >>> remote.set_load(0.0)
         """
         parts = [words.numbers(F_x_Cload, 3, "F_x_Cload"), words.matrix(load_inertia, 3, "load_inertia")]
-        self.send(words.line("load", [mass], *parts), timeout)
-
-    load = renamed("Remote.load()", "set_load()")(set_load)
+        self.send(words.line("load", words.number(mass, "mass"), *parts), timeout)
 
     def wall(
         self,
@@ -534,9 +497,9 @@ class Remote:
         >>> remote.wall(3, center=(2.0, 0.0, 0.5), edges=(0.1, 2.0, 1.0))
         >>> remote.remove_wall(3)
         """
-        parts = [words.numbers(center, 3, "The center"), words.numbers(edges, 3, "The edges")]
-        parts.append(words.numbers(orientation, 4, "The orientation"))
-        self.send(words.line(f"wall {words.whole(number, 'The number of a wall')}", *parts), timeout)
+        parts = [words.numbers(center, 3, "center"), words.numbers(edges, 3, "edges")]
+        parts.append(words.numbers(orientation, 4, "orientation"))
+        self.send(words.line(f"wall {words.whole(number, 'number')}", *parts), timeout)
 
     def remove_wall(self, number: int, timeout: float | None = None) -> None:
         """Removes the virtual wall of that number, 0 to 7.
@@ -544,14 +507,14 @@ class Remote:
         >>> remote.wall(3, center=(2.0, 0.0, 0.5), edges=(0.1, 2.0, 1.0))
         >>> remote.remove_wall(3)
         """
-        self.send(f"wall {words.whole(number, 'The number of a wall')} off", timeout)
+        self.send(f"wall {words.whole(number, 'number')} off", timeout)
 
     def part(self, present: bool, timeout: float | None = None) -> None:
         """Whether a part covers the cup of the vacuum gripper.
 
         >>> server["vacuum"].remote.part(False)
         """
-        self.send(f"part {words.switch(present)}", timeout)
+        self.send(f"part {words.switch(present, 'present')}", timeout)
 
     def pump(
         self, health: typing.Literal["green", "yellow", "orange", "red"], timeout: float | None = None
@@ -560,7 +523,7 @@ class Remote:
 
         >>> server["vacuum"].remote.pump("green")
         """
-        self.send(f"pump {words.word(health, 'The health')}", timeout)
+        self.send(f"pump {words.word(health, 'health')}", timeout)
 
     def hand_homing(self, timeout: float | None = None) -> None:
         """Closes and opens the Franka hand fully; returns when it has done so. LineRefused if it fails.
@@ -575,7 +538,9 @@ class Remote:
 
         >>> remote.hand_move(width=0.04, speed=0.1)
         """
-        self.send(words.line("hand move", [width, speed]), timeout)
+        self.send(
+            words.line("hand move", words.number(width, "width"), words.number(speed, "speed")), timeout
+        )
 
     def hand_grasp(self, width: float, speed: float, force: float, timeout: float | None = None) -> None:
         """Grasps an object of this width [m], within 5 mm, with a force [N]; returns when it is held.
@@ -585,7 +550,15 @@ class Remote:
         Traceback (most recent call last):
         pyfranka.remote.LineRefused: ...
         """
-        self.send(words.line("hand grasp", [width, speed, force]), timeout)
+        self.send(
+            words.line(
+                "hand grasp",
+                words.number(width, "width"),
+                words.number(speed, "speed"),
+                words.number(force, "force"),
+            ),
+            timeout,
+        )
 
     def hand_stop(self, timeout: float | None = None) -> None:
         """Ends the hand's command and releases its force.
@@ -619,8 +592,6 @@ class Remote:
         """
         return int(self.send("hash", timeout), 16)
 
-    hash = renamed("Remote.hash()", "state_hash()")(state_hash)
-
     # ---- the link to the client --------------------------------------------------------------------------
 
     def loss(self, probability: float, seed: int = 0, timeout: float | None = None) -> None:
@@ -629,14 +600,17 @@ class Remote:
         >>> remote.loss(0.01, seed=5)
         >>> remote.loss(0.0)
         """
-        self.send(words.line("loss", [probability]) + f" {words.whole(seed, 'A seed')}", timeout)
+        self.send(
+            words.line("loss", words.number(probability, "probability")) + f" {words.whole(seed, 'seed')}",
+            timeout,
+        )
 
     def lose(self, commands: int, timeout: float | None = None) -> None:
         """Loses the next commands, so many.
 
         >>> remote.lose(2)
         """
-        self.send(f"lose {words.whole(commands, 'The number of commands')}", timeout)
+        self.send(f"lose {words.whole(commands, 'commands')}", timeout)
 
     def delay(self, ticks: int, timeout: float | None = None) -> None:
         """Lets commands arrive 0 to 20 ticks [ms] later.
@@ -644,7 +618,7 @@ class Remote:
         >>> remote.delay(5)
         >>> remote.delay(0)
         """
-        self.send(f"delay {words.whole(ticks, 'A delay')}", timeout)
+        self.send(f"delay {words.whole(ticks, 'ticks')}", timeout)
 
     # ---- the world ---------------------------------------------------------------------------------------
 
@@ -662,9 +636,9 @@ class Remote:
         >>> remote.push("stone", (0.0, 0.0, 1.0), ticks=10)
         >>> remote.step(10)
         """
-        parts = [words.numbers(force, 3, "The force"), words.numbers(torque, 3, "The torque")]
-        line = words.line(f"push {words.word(body, 'The name of a body')}", *parts)
-        self.send(f"{line} {words.whole(ticks, 'The duration')}", timeout)
+        parts = [words.numbers(force, 3, "force"), words.numbers(torque, 3, "torque")]
+        line = words.line(f"push {words.word(body, 'body')}", *parts)
+        self.send(f"{line} {words.whole(ticks, 'ticks')}", timeout)
 
     def place_body(
         self, body: str, position: ArrayLike, orientation: ArrayLike = NO_TURN, timeout: float | None = None
@@ -675,10 +649,8 @@ class Remote:
         >>> round(float(remote.body_position("stone")[1]), 1)
         0.3
         """
-        pose = [words.numbers(position, 3, "The position"), words.numbers(orientation, 4, "The orientation")]
-        self.send(words.line(f"place {words.word(body, 'The name of a body')}", *pose), timeout)
-
-    place = renamed("Remote.place()", "place_body()")(place_body)
+        pose = [words.numbers(position, 3, "position"), words.numbers(orientation, 4, "orientation")]
+        self.send(words.line(f"place {words.word(body, 'body')}", *pose), timeout)
 
     def body_position(self, body: str, timeout: float | None = None) -> Array:
         """Position of a body in the world, 3 [m].
@@ -686,11 +658,7 @@ class Remote:
         >>> remote.body_position("stone").shape
         (3,)
         """
-        return numpy.array(
-            self.send(f"where {words.word(body, 'The name of a body')}", timeout).split(), float
-        )
-
-    where = renamed("Remote.where()", "body_position()")(body_position)
+        return numpy.array(self.send(f"where {words.word(body, 'body')}", timeout).split(), float)
 
     def scene(self, timeout: float | None = None) -> RemoteScene:
         """Bodies and shapes of the world, for programs that draw it. The first call may take seconds.
@@ -722,7 +690,7 @@ class Remote:
         """
         data, offset = b"", 0
         while offset is not None:
-            answer = json.loads(self.send(f"mesh {words.word(name, 'The name of a mesh')} {offset}", timeout))
+            answer = json.loads(self.send(f"mesh {words.word(name, 'name')} {offset}", timeout))
             data += base64.b64decode(answer["data"])
             offset = answer["next"]
         end = 12 * answer["vertices"]  # [bytes]: three numbers of four bytes each
@@ -740,7 +708,7 @@ class Remote:
     @property
     def time(self) -> float:
         """Simulated time since the start or the last reset [s], as Simulation.time; asks the robot."""
-        return _Time(self.send("time"))
+        return float(self.send("time"))
 
     def step(self, ticks: int = 1, timeout: float | None = None) -> None:
         """Returns when so many milliseconds of simulated time have passed.
@@ -754,7 +722,7 @@ class Remote:
         >>> round(1000 * (remote.time - before)) >= 100
         True
         """
-        ticks = words.whole(ticks, "The number of ticks")
+        ticks = words.whole(ticks, "ticks")
         # The robot refuses more than that.
         duration = 1e-3 * min(max(0, ticks), 1 << 32)
         self.send(f"step {ticks}", self.timeout + duration if timeout is None else timeout)

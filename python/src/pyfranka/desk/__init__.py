@@ -26,8 +26,6 @@ from __future__ import annotations
 import importlib
 import typing
 
-from pyfranka._deprecation import warn
-
 if typing.TYPE_CHECKING:
     from pyfranka.desk.desk import Desk
     from pyfranka.desk.errors import Refused, RobotGone
@@ -50,9 +48,6 @@ _MODULES = {
 
 def __getattr__(name: str) -> typing.Any:
     """Imports a name when it is used: the program's --help does not need aiohttp."""
-    if name == "Robot":
-        warn("pyfranka.desk.Robot", "pyfranka.desk.DeskRobot")
-        name = "DeskRobot"
     if name in _MODULES:
         return getattr(importlib.import_module(f"pyfranka.desk.{_MODULES[name]}"), name)
     raise AttributeError(f"module 'pyfranka.desk' has no attribute '{name}'")

@@ -94,6 +94,7 @@ class Options:
             )
         if self.time_limit not in ("task", None):
             (limit,) = numbers(self.time_limit, "time_limit", 1)
+            object.__setattr__(self, "time_limit", float(limit))  # also of a list or an array of one number
             if not limit > 0.0:
                 raise ValueError(f"time_limit is a time in s, 'task' or None, not {self.time_limit}.")
         text(self.camera, "camera")

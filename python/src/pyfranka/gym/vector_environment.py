@@ -29,6 +29,9 @@ __all__ = ["VectorEnvironment"]
 Values = NDArray[Any]
 
 
+MAX_ENVIRONMENTS = 100_000  # each takes 3 to 6 MB (chosen here: above, it is another unit)
+
+
 class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
     """Equals `num_envs` Environments with the same options: world i is seeded by `seed + i`, and gives the
     same numbers on any number of threads.
@@ -58,7 +61,7 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
         autoreset_mode: str | AutoresetMode = AutoresetMode.NEXT_STEP,
         **arguments: Any,
     ):
-        self.num_envs = whole(num_envs, "num_envs", 1)
+        self.num_envs = whole(num_envs, "num_envs", 1, MAX_ENVIRONMENTS)
         if max_episode_steps is not None:
             max_episode_steps = whole(max_episode_steps, "max_episode_steps", 1)
         self.options = options = Options.of(**arguments)

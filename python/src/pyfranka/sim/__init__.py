@@ -19,7 +19,6 @@ thread at a time may use a simulation.
 
 from _pyfranka._sim import ArmModel, GripperOutcome, LiveState, RequestRefused, Snapshot
 
-from pyfranka._deprecation import renamed_in
 from pyfranka.remote import LineRefused, Remote, RemoteMesh, RemoteScene, RemoteShape, RemoteState
 from pyfranka.robot_report import Report
 
@@ -52,5 +51,3 @@ __all__ = [
     "SimulationBatch",
     "Snapshot",
 ]
-
-__getattr__ = renamed_in(__name__, Robot="SimulatedRobot")

@@ -5,12 +5,11 @@
 from __future__ import annotations
 
 import numpy
-from _pyfranka import RobotState
+from _pyfranka import GripperState, RobotState
 from _pyfranka._sim import ArmModel, GripperOutcome, LiveState
 from numpy.typing import ArrayLike, NDArray
 
 from pyfranka import _copies
-from pyfranka._deprecation import renamed
 from pyfranka._native import _sim
 
 from .setups import _Setup
@@ -49,6 +48,14 @@ class Action:
             self._outcome = self._robot.hand_outcome(self._ticket)
         return self._outcome
 
+    def __bool__(self) -> bool:
+        """Whether it has succeeded, which a hand on the network returns. RuntimeError: it runs."""
+        if not self.done:
+            raise RuntimeError(
+                f"The {self._what} still runs: step the simulation until it is done, then ask for success."
+            )
+        return self.succeeded
+
     @property
     def done(self) -> bool:
         """Whether it has ended."""
@@ -82,10 +89,11 @@ class Gripper:
 
     def __repr__(self) -> str:
         try:
-            width, max_width, grasped, _ = self._robot.hand_state()
+            state = self._robot.hand_state()
         except RuntimeError as error:
             return f"<Gripper: {error}>"
-        return f"<Gripper: width {width:.4g} of {max_width:.4g} m, {'' if grasped else 'not '}grasped>"
+        held = "" if state.is_grasped else "not "
+        return f"<Gripper: width {state.width:.4g} of {state.max_width:.4g} m, {held}grasped>"
 
     def homing(self) -> Action:
         """Closes and opens the fingers fully.
@@ -130,25 +138,34 @@ class Gripper:
         """
         return Action(self._robot, self._robot.hand_stop(), "stop")
 
+    def read_once(self) -> GripperState:
+        """The state of the present tick.
+
+        >>> arm.gripper.read_once().is_grasped
+        False
+        """
+        state: GripperState = self._robot.hand_state()
+        return state
+
     @property
     def width(self) -> float:
         """Between the fingers [m]."""
-        return float(self._robot.hand_state()[0])
+        return float(self.read_once().width)
 
     @property
     def max_width(self) -> float:
         """[m]"""
-        return float(self._robot.hand_state()[1])
+        return float(self.read_once().max_width)
 
     @property
     def is_grasped(self) -> bool:
         """Whether an object of the requested width is held."""
-        return bool(self._robot.hand_state()[2])
+        return bool(self.read_once().is_grasped)
 
     @property
-    def temperature(self) -> float:
+    def temperature(self) -> int:
         """[deg C]"""
-        return float(self._robot.hand_state()[3])
+        return int(self.read_once().temperature)
 
 
 class SimulatedRobot:
@@ -189,6 +206,14 @@ class SimulatedRobot:
         """The state of the present tick, which stays as it is, as read_once() of a robot on the network."""
         state: RobotState = self._native.state
         return state
+
+    def read_once(self) -> RobotState:
+        """The same, as programs for robots on the network write it.
+
+        >>> arm.read_once() == arm.state
+        True
+        """
+        return self.state
 
     @property
     def live_state(self) -> LiveState:
@@ -371,10 +396,6 @@ class SimulatedRobot:
         """
         self._native.set_brakes(False)
 
-    @renamed("SimulatedRobot.set_brakes()", "close_brakes() and open_brakes()")
-    def set_brakes(self, closed: bool) -> None:
-        self._native.set_brakes(closed)
-
     def set_guiding(self, active: bool) -> None:
         """Begins or ends guiding by hand. Raises RequestRefused with closed brakes, while the user stop is
         pressed and in a recovery.
@@ -447,7 +468,3 @@ class SimulatedRobot:
         True
         """
         return int(self._native.hash())
-
-    @renamed("SimulatedRobot.hash()", "state_hash()")
-    def hash(self) -> int:
-        return self.state_hash()

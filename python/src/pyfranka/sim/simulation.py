@@ -19,7 +19,6 @@ from _pyfranka._sim import Snapshot
 from numpy.typing import ArrayLike, NDArray
 
 from pyfranka import _copies
-from pyfranka._deprecation import renamed
 from pyfranka._native import _sim
 
 from .arguments import items, mapping, no_robot, numbers, path, seed_of, text
@@ -392,10 +391,6 @@ class Simulation:
         False
         """
         return int(self._native.hash())
-
-    @renamed("Simulation.hash()", "state_hash()")
-    def hash(self) -> int:
-        return self.state_hash()
 
     def bodies(self) -> list[str]:
         """Names of all bodies, links included.
