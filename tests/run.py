@@ -5,11 +5,11 @@
 
 In this order: style and compiler warnings, which end the run if they fail; gtest, rostest and pytest
 (`tests/test_*.py`, `test/test_*.py` of packages), three programs at a time on two processors. Each file of
-pytest has a process of its own. Cases that failed run once more at the end, alone: those that pass then are
-flaky, and do not make the run red. But for the long form all have a network of their own, the loopback only.
-Each case is added to out/test-history.jsonl. A table lists the reasons of skipped tests; the run fails if a
-reason names neither a missing package nor another form. Called by `./franka test`, which provides the
-environment.
+pytest has a process of its own. Cases whose assertion failed run once more at the end, alone: those that pass
+then are flaky, and make the run red only if one of the nine runs before has them, too. A program that died,
+hung or left no results is red at once. But for the long form all have a network of their own, the loopback
+only. Each case is added to out/test-history.jsonl. A table lists the reasons of skipped tests; the run fails
+for a reason that is not allowed. Called by `./franka test`, which provides the environment.
 
 `--realtime` runs only the cases whose subject is the wall clock, one program at a time: tests of pytest with
 the mark `realtime`, and gtests whose names end with OnWallClock. `--long` runs every case, in processes whose
@@ -46,6 +46,7 @@ HISTORY = TOP / "out" / "test-history.jsonl"
 # Programs of rostest and pytest at a time: they sleep for 42 % of their time (measured on two processors).
 WORKERS = round(1.5 * (os.cpu_count() or 2))
 STRIDE = 7
+RECENT = 10  # runs of the history, with this one, in two of which a case may not be flaky
 AGAIN = 30  # cases that failed: if there are more, it is the product, and none runs again (chosen here)
 
 
@@ -79,8 +80,8 @@ def fails(title: str, command: list[str]) -> bool:
         return subprocess.run(command, check=False).returncode != 0
 
 
-# Files whose tests change what other tests use say so in this line.
-ALONE = re.compile(r"^pytestmark = .*pytest\.mark\.alone", re.MULTILINE)
+# Files whose tests change what other tests use say so with this mark, alone or in a list.
+ALONE = re.compile(r"^pytestmark = (\[[^\]]*)?pytest\.mark\.alone\b", re.MULTILINE)
 REALTIME = re.compile(r"pytest\.mark\.realtime")
 REALTIME_GTESTS = "*OnWallClock*"
 
@@ -112,9 +113,10 @@ def run_again(cases: dict) -> list[str]:
     @returns the names of those that passed now
     """
     broken = {
-        program: [case for case in found if case.verdict == "failed"]
+        program: failed
         for program, found in cases.items()
-        if any(case.verdict == "failed" for case in found)
+        if (failed := [case for case in found if case.verdict == "failed"])
+        and all(case.by_assertion for case in failed)
     }
     count, flaky = sum(map(len, broken.values())), []
     if not broken:
@@ -130,13 +132,27 @@ def run_again(cases: dict) -> list[str]:
             else:
                 second = run_registered(BUILD, [program], 1)[program]
             verdicts = {case.name: case.verdict for case in second}
-            # A program that died has no case of that name: nothing of it may fail then.
-            passed = all(verdicts.get(case.name, "passed") == "passed" for case in failed)
+            passed = all(verdicts.get(case.name) == "passed" for case in failed)
             if passed and "failed" not in verdicts.values():
                 flaky += [case.name for case in failed]
                 others = [case for case in cases[program] if case not in failed and case.name not in verdicts]
                 cases[program] = others + second
     return flaky
+
+
+def history() -> list[dict]:
+    """The lines of earlier runs."""
+    if not HISTORY.exists():
+        return []
+    return [json.loads(line) for line in HISTORY.read_text(encoding="utf-8").splitlines()]
+
+
+def often_flaky(flaky: list[str]) -> list[str]:
+    """Those that were flaky in a recent run, too."""
+    lines = history()
+    recent = sorted({line["run"] for line in lines})[1 - RECENT :]
+    before = {line["case"] for line in lines if line["verdict"] == "flaky" and line["run"] in recent}
+    return [name for name in flaky if name in before]
 
 
 def write_history(tally: Tally) -> None:
@@ -151,10 +167,10 @@ def write_history(tally: Tally) -> None:
 
 def print_history() -> int:
     """The slowest cases of the last run, and those that were ever flaky or failed."""
-    if not HISTORY.exists():
+    lines = history()
+    if not lines:
         print("There is no history: run ./franka test.", file=sys.stderr)
         return 2
-    lines = [json.loads(line) for line in HISTORY.read_text(encoding="utf-8").splitlines()]
     runs = Counter(line["run"] for line in lines)
     last = [line for line in lines if line["run"] == max(runs)]
     print("The slowest cases of the last run [s]:")
@@ -205,8 +221,11 @@ def main() -> int:
         shutil.rmtree(folder, ignore_errors=True)
     PYTEST_RESULTS.mkdir(parents=True)
 
+    skipped = []
     if not arguments.packages and not realtime:
-        style = [sys.executable, str(TOP / "tests" / "style.py")] + (["--long"] if arguments.long else [])
+        skips = PYTEST_RESULTS / "style"
+        style = [sys.executable, str(TOP / "tests" / "style.py"), f"--skips={skips}"]
+        style += ["--long"] if arguments.long else []
         warnings = [sys.executable, str(TOP / "tests" / "compiler_warnings.py")]
         broken = [
             Case(f"{title}: see above", "failed")
@@ -216,6 +235,9 @@ def main() -> int:
         if broken:
             print("\n".join(Tally(broken).lines()))
             return 1
+        if skips.exists():
+            lines = [line.split("\t") for line in skips.read_text(encoding="utf-8").splitlines()]
+            skipped = [Case(f"style: {name}", "skipped", reason=reason) for name, reason in lines]
     tests, files = [], []
     if selected or not arguments.packages:
         kinds = "gtest" if realtime else "gtest|rostest"
@@ -234,7 +256,10 @@ def main() -> int:
         os.environ.update(decimal_comma.environment())
     cases = run_all(tests, files, 1 if realtime else WORKERS)
     flaky = run_again(cases)
-    tally = Tally([case for found in cases.values() for case in found], flaky)
+    tally = Tally([*skipped, *(case for found in cases.values() for case in found)], flaky)
+    tally.cases += [
+        Case(f"{name} was flaky in two of the last {RECENT} runs", "failed") for name in often_flaky(flaky)
+    ]
     write_history(tally)
     print()
     print("\n".join(tally.lines()))

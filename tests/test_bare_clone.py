@@ -9,7 +9,7 @@ import subprocess
 from pathlib import Path
 
 import pytest
-from bare_debian import TOP, BareDebian, bare_debian, copy_project, possible
+from bare_debian import TOP, BareDebian, bare_debian, copy_project
 from tutorial import check_picture, read
 
 HOUR = 3600.0  # [s]
@@ -17,7 +17,6 @@ PROJECT = "/project"
 
 pytestmark = [
     pytest.mark.long_form("fetches and builds everything on a bare Debian"),
-    pytest.mark.skipif(bool(possible()), reason=possible()),
     pytest.mark.timeout(8 * HOUR),
 ]
 

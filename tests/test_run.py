@@ -79,6 +79,42 @@ def test_a_case_that_failed_runs_once_more_alone(passes, project):
         assert any(name.endswith("test_fails") for name in tally.failed)
 
 
+@pytest.mark.parametrize(
+    "failure",
+    [
+        "os.kill(os.getpid(), 11)",
+        "raise AssertionError('ERROR: ThreadSanitizer: data race')",
+        "raise AssertionError('the node ended with SIGABRT')",
+    ],
+)
+def test_what_dies_does_not_run_again(failure, project):
+    text = f"import os\nif not there: {failure}"
+    tally = run_file(project, FLAKY.format(passes=True).replace("assert there", text.replace("\n", "\n    ")))
+    assert tally.failed and not tally.flaky
+
+
+def test_a_case_that_is_flaky_in_two_of_ten_runs_is_red(project, monkeypatch):
+    name, other = "tests: often", "tests: once"
+    for number in range(12):
+        monkeypatch.setattr(run.time, "time", lambda number=number: number)
+        flaky = [name] if number == 2 else [other]
+        cases = [run.Case(each, "passed") for each in (name, other)]
+        assert run.often_flaky([name]) == ([name] if 2 < number < 12 else [])
+        run.write_history(Tally(cases, flaky))
+    assert run.often_flaky([name, other]) == [other]
+
+
+def test_the_mark_alone_may_be_in_a_list():
+    lists = (
+        "[pytest.mark.alone]",
+        "[pytest.mark.timeout(5), pytest.mark.alone]",
+        "[\n    pytest.mark.alone,\n]",
+    )
+    for marks in ("pytest.mark.alone", *lists):
+        assert run.ALONE.search(f"import pytest\npytestmark = {marks}\n"), marks
+    assert not run.ALONE.search("pytestmark = [pytest.mark.timeout(5)]\nx = [pytest.mark.alone]\n")
+
+
 def test_nothing_runs_again_if_very_much_failed(project, monkeypatch):
     monkeypatch.setattr(run, "AGAIN", 1)
     tally = run_file(project, FLAKY.format(passes=False))
@@ -162,12 +198,13 @@ def test_a_gtest_that_passes_is_counted(project):
     assert (tally.passed, tally.failed, tally.flaky) == (1, [], [])
 
 
-def test_a_gtest_that_failed_runs_once_more(project):
+def test_a_gtest_whose_assertion_failed_runs_once_more(project):
+    failed = PASSED.replace("/></", "><failure message='Expected 1'/></testcase></")
     script = "first = not Path('mark').exists()\nPath('mark').touch()\n"
-    script += f"Path(sys.argv[1]).write_text({PASSED!r})\nsys.exit(first)"
+    script += f"Path(sys.argv[1]).write_text({failed!r} if first else {PASSED!r})\nsys.exit(first)"
     tally = finished(registered(project, script), [])
     assert tally.passed == 1 and not tally.failed
-    assert tally.flaky == ["_ctest_a_gtest_arm: it did not end well, see its output"]
+    assert [name.rpartition(": ")[2] for name in tally.flaky] == ["Arm.Moves"]
 
 
 def test_results_of_rostest_are_those_of_the_tests_in_its_launch_file(tmp_path):

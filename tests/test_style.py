@@ -367,15 +367,21 @@ def test_missing_tool_fails_with_a_message(repository, check, tool, monkeypatch,
     assert f"{tool} is missing: run ./franka install test" in capsys.readouterr().err
 
 
-def test_a_check_whose_tool_debian_lacks_says_so_and_fails_nothing(repository, monkeypatch, capsys):
+def test_a_check_whose_tool_debian_lacks_is_a_skip_but_in_ci(repository, monkeypatch, capsys):
     repository.add("a.py", "")
+    monkeypatch.delenv("CI", raising=False)
     lacking = repository.folder / "not_in_debian"
     lacking.write_text("clang-22\n")
     monkeypatch.setattr(style, "NOT_IN_DEBIAN", lacking)
     monkeypatch.setattr(style.shutil, "which", lambda name: None)
-    assert run("nothrow", monkeypatch=monkeypatch) == 0
-    assert "this Debian has no clang-22" in capsys.readouterr().err
+    skips = repository.folder / "skips"
+    assert run("nothrow", f"--skips={skips}", monkeypatch=monkeypatch) == 0
+    assert skips.read_text() == "nothrow\tclang-22 is not installed: this Debian does not have it\n"
+    assert "clang-22 is not installed" in capsys.readouterr().err
     assert run("clang-tidy", monkeypatch=monkeypatch) == 1
+    assert run("nothrow", "--long", monkeypatch=monkeypatch) == 1
+    monkeypatch.setenv("CI", "true")
+    assert run("nothrow", monkeypatch=monkeypatch) == 1
 
 
 def test_folder_that_is_not_a_clone_fails_with_a_message(tmp_path, monkeypatch, capsys):

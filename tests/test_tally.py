@@ -51,25 +51,24 @@ def run_pytest(folder: Path, text: str) -> Tally:
 
 
 @pytest.mark.parametrize(
-    "reason",
+    ("reason", "forms"),
     [
-        "assimp is not installed",
-        "chromium and chromedriver are not installed: run ./franka install test",
-        "PyPI has no wheel of panda-python==1.1.1 for Python 3.13.5",
-        "takes 20 s: ./franka test --long",
-        "only root can make a bare Debian: run ./franka test --long as root",
+        ("assimp is not installed", {"gate"}),
+        ("chromium and chromedriver are not installed: run ./franka install test", {"gate"}),
+        ("PyPI has no wheel of panda-python==1.1.1 for Python 3.13.5", {"gate", "CI"}),
+        ("takes 20 s: ./franka test --long", {"gate", "CI"}),
+        ("only root can make a bare Debian: run ./franka test --long as root", set()),
+        ("no reason", set()),
+        ("not installed", set()),
     ],
 )
-def test_a_missing_package_and_the_long_form_are_allowed_reasons(reason):
-    assert is_allowed(reason)
-
-
-@pytest.mark.parametrize(
-    "reason",
-    ["no reason", "Long form only.", "the machine stalled", "not installed", "this kernel is too old"],
-)
-def test_other_reasons_are_not_allowed(reason):
-    assert not is_allowed(reason)
+def test_a_reason_is_allowed_in_some_forms(reason, forms, monkeypatch):
+    for form, variable in (("gate", {}), ("CI", {"CI": "true"}), ("long", {"FRANKA_TEST_LONG": "1"})):
+        for name in ("CI", "FRANKA_TEST_LONG"):
+            monkeypatch.delenv(name, raising=False)
+        for name, value in variable.items():
+            monkeypatch.setenv(name, value)
+        assert is_allowed(reason) == (form in forms), form
 
 
 def test_skips_of_gtest_are_counted_by_reason(tmp_path):

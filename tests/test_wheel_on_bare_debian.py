@@ -11,7 +11,7 @@ import textwrap
 from pathlib import Path
 
 import pytest
-from bare_debian import BareDebian, bare_debian, possible
+from bare_debian import BareDebian, bare_debian
 from genuine_clients import LOCKS, client_python, locked
 from page_output import Example
 from tutorial import read
@@ -23,7 +23,6 @@ DESK_PAGE = SUPPORT / "wheel_desk_page.py"
 HOUR = 3600.0  # [s]
 pytestmark = [
     pytest.mark.long_form("makes a bare Debian"),
-    pytest.mark.skipif(bool(possible()), reason=possible()),
     pytest.mark.timeout(3 * HOUR),
 ]
 

@@ -20,13 +20,6 @@ exec chroot "$0" "$@"
 """
 
 
-def possible() -> str:
-    """Why this machine cannot make one; empty if it can."""
-    if os.geteuid() != 0:
-        return "only root can make a bare Debian: run ./franka test --long as root"
-    return "" if shutil.which("debootstrap") else "debootstrap is not installed"
-
-
 class BareDebian:
     """The folder, with process numbers and mounts of its own and this machine's network."""
 
@@ -77,6 +70,7 @@ def copy_project(folder: Path) -> None:
 @contextmanager
 def bare_debian(folder: Path, *packages: str, release: str = "") -> Iterator[BareDebian]:
     """Yields one of a release (this machine's), and removes it at the end."""
+    assert os.geteuid() == 0, "Only root can make a bare Debian: run ./franka test --long as root."
     root = folder / "root"
     own = platform.freedesktop_os_release()["VERSION_CODENAME"]
     mirror = subprocess.check_output(

@@ -11,11 +11,11 @@ import re
 import subprocess
 import sys
 import xml.etree.ElementTree as ElementTree
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from subprocess import PIPE, STDOUT
 
-from tally import Case, cases_of
+from tally import Case, cases_of, died
 
 TOP = Path(__file__).resolve().parents[2]
 PYTEST_LIMIT = 900  # [s] of a case; pytest then says where it was
@@ -38,12 +38,12 @@ class Registered:
             about, cases = cases, []
             for case in about:
                 if case.verdict == "failed":
-                    cases.append(case)
+                    cases.append(replace(case, by_assertion=False))
                 else:
                     name = case.parts[1].removeprefix("test")
                     cases += cases_of(self.results.with_name(f"rosunit-{name}.xml"))
         if not ended_well and not any(case.verdict == "failed" for case in cases):
-            cases.append(Case(f"{self.name}: it did not end well, see its output", "failed"))
+            cases.append(died(f"{self.name}: it did not end well, see its output"))
         return cases
 
 
@@ -88,8 +88,7 @@ def run_pytest(path: Path, results: Path, node_ids: list[str] | None = None) -> 
     result = subprocess.run(command, cwd=TOP, text=True, errors="replace", stdout=PIPE, stderr=STDOUT)
     output, cases = result.stdout.rstrip(), cases_of(results)
     if result.returncode not in (0, 1):
-        text = f"{path.name}: pytest ended with status {result.returncode}, see its output"
-        cases.append(Case(text, "failed"))
+        cases.append(died(f"{path.name}: pytest ended with status {result.returncode}, see its output"))
     if result.returncode or any(case.verdict == "failed" for case in cases):
         print(f"{output}\n-- {path.name}: status {result.returncode}", flush=True)
     else:

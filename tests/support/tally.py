@@ -2,22 +2,28 @@
 # SPDX-License-Identifier: Apache-2.0
 """Reads the result files of gtest, rostest and pytest, counts their cases and judges the reasons of skips."""
 
+import os
 import re
 import xml.etree.ElementTree as ElementTree
 from dataclasses import dataclass, field
 from pathlib import Path
 
-# A test may be skipped for these reasons only (CONTRIBUTING.md, "Skipped tests").
-ALLOWED = (
-    re.compile(r"\./franka test --(long|realtime)"),
-    re.compile(r"\w (is|are) not installed\b"),  # names what is missing, and ./franka install brings it
-    re.compile(r"^PyPI has no wheel of \S+"),  # no command can install it
-)
+# All reasons for which a test may be skipped, and whether under CI=true, too; the long form skips nothing.
+REASONS = {
+    re.compile(r": \./franka test --(long|realtime)$"): True,
+    re.compile(
+        r"\w (is|are) not installed\b"
+    ): False,  # names what is missing, and ./franka install brings it
+    re.compile(r"^PyPI has no wheel of \S+"): True,  # no command can install it
+}
 
 
 def is_allowed(reason: str) -> bool:
-    """Whether a reason names a missing package or another form of the tests."""
-    return any(pattern.search(reason) for pattern in ALLOWED)
+    """Whether a test may be skipped for a reason in this form of the tests."""
+    if os.environ.get("FRANKA_TEST_LONG") == "1":
+        return False
+    in_ci = os.environ.get("CI") == "true"
+    return any(pattern.search(reason) and (allowed or not in_ci) for pattern, allowed in REASONS.items())
 
 
 def reason_of(skip: ElementTree.Element | None) -> str:
@@ -30,6 +36,13 @@ def reason_of(skip: ElementTree.Element | None) -> str:
     return " ".join(line for line in lines if line and not re.fullmatch(r"\S+:\d+", line)) or "no reason"
 
 
+# In the text of a failure: more than an assertion has failed, and running again would hide a race.
+DIED = re.compile(
+    r"\b(Address|Thread|Leak|Memory|UndefinedBehavior)Sanitizer\b|\bruntime error: "
+    r"|\bSIG(SEGV|ABRT|BUS|FPE|ILL)\b|\bSegmentation fault\b|\bcore dumped\b|\bTimeout >\d"
+)
+
+
 @dataclass
 class Case:
     """A test of a result file. `reason` is that of a skip."""
@@ -39,6 +52,12 @@ class Case:
     seconds: float = 0.0
     reason: str = ""
     parts: tuple[str, str] = ("", "")  # its names of class and test in the file
+    by_assertion: bool = True  # if it failed: not by the death or the time limit of a program
+
+
+def died(name: str) -> Case:
+    """A failure that does not run again."""
+    return Case(name, "failed", by_assertion=False)
 
 
 def cases_of(path: Path) -> list[Case]:
@@ -46,16 +65,19 @@ def cases_of(path: Path) -> list[Case]:
     try:
         root = ElementTree.parse(path).getroot()
     except FileNotFoundError:
-        return [Case(f"{path.parent.name}: {path.stem}: its program left no results", "failed")]
+        return [died(f"{path.parent.name}: {path.stem}: its program left no results")]
     except ElementTree.ParseError as error:
-        return [Case(f"{path.parent.name}: {path.stem}: the result file is broken ({error})", "failed")]
+        return [died(f"{path.parent.name}: {path.stem}: the result file is broken ({error})")]
     cases = []
     for element in root.iter("testcase"):
         parts = element.get("classname", ""), element.get("name", "")
         name, skip = f"{path.parent.name}: {'.'.join(parts)}", element.find("skipped")
         seconds, reason = float(element.get("time") or 0), ""
-        if element.find("failure") is not None or element.find("error") is not None:
+        by_assertion = True
+        if failures := element.findall("failure") + element.findall("error"):
             verdict = "failed"
+            texts = [f"{each.get('message', '')}\n{each.text or ''}" for each in failures]
+            by_assertion = not any(DIED.search(text) for text in texts)
         elif skip is not None or element.get("status") == "notrun":
             verdict, reason = "skipped", reason_of(skip)
             if not is_allowed(reason):
@@ -63,7 +85,7 @@ def cases_of(path: Path) -> list[Case]:
                 name = f"{name} is skipped for a reason that is not allowed: {reason}"
         else:
             verdict = "passed"
-        cases.append(Case(name, verdict, seconds, reason, parts))
+        cases.append(Case(name, verdict, seconds, reason, parts, by_assertion))
     return cases
 
 
