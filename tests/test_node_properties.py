@@ -7,6 +7,7 @@ without effect. The states of every arm go on through errors, stops, recoveries 
 """
 
 import pytest
+import rospy
 import state_machines
 from actionlib_msgs.msg import GoalStatus
 from cell import load_of
@@ -15,11 +16,12 @@ from control_nodes import SUCCEEDED, ControlNode, arms_and_launch
 from franka_msgs.srv import SetLoad
 from hypothesis import strategies as st
 from hypothesis.stateful import initialize, rule
-from ros_client import Action, call, launched, trajectory
+from ros_client import Action, call, launched, outcome, trajectory
 from waiting import holds, wait_for
 
 PATIENCE_FOR_STATES = 10.0  # [s] of the robots' time
 CONTROLLER = "effort_joint_trajectory_controller"  # of all joints of all arms
+PART = "part_of_an_arm"  # a controller of some joints of the last arm
 SETUPS = [("panda", 1), ("panda", 2), ("fr3", 3)]  # robot, number of arms
 STOPS = {"panda": ["user_stop", "input x4"], "fr3": ["user_stop", "input x33"]}  # sources of the stop
 SIDES = st.integers(0, 2)  # of an arm; modulo their number
@@ -99,14 +101,19 @@ class NodeMachine(state_machines.Machine):
 
     @rule(sides=st.sets(SIDES, min_size=1), recovered=st.none() | SIDES)
     def push(self, sides, recovered):
-        """Arms that are not stopped have a reflex; then one arm may be recovered."""
+        """Arms that are not stopped have a reflex, all in their motion; then one arm may be recovered."""
         self.begins_step()
-        for arm in {self.arm(side) for side in sides}:
-            if not self.pressed[arm.name] and arm.name not in self.lost:
-                arm.push()
-                arm.operator.wait(lambda state: state.mode == "Reflex")
-                arm.wait_for_end_of_push()
+        arms = {self.arm(side) for side in sides}
+        arms = [arm for arm in arms if not self.pressed[arm.name] and arm.name not in self.lost]
+        for arm in arms:
+            arm.push()
+        for arm in arms:
+            arm.operator.wait(lambda state: state.mode == "Reflex")
+            arm.wait_for_end_of_push()
+            if len(arms) == 1 or self.failed:
                 self.stops(arm.name)
+            else:
+                self.unsure.add(arm.name)  # the others stop when the first one has failed
         self.check()
         if recovered is not None:
             self.recover(self.arm(recovered))
@@ -190,19 +197,26 @@ class NodeMachine(state_machines.Machine):
 
     @rule(start=st.booleans())
     def switch(self, start):
+        """franka_control_node without its robot has no loop, for which a switch waits."""
         self.begins_step()
+        if self.node.alone and self.lost:
+            return
         names = [CONTROLLER]
         if self.node.controllers.switches(**({"start": names} if start else {"stop": names})):
             self.runs = start
         self.check()
 
-    @rule(by=st.sampled_from([0.01, -0.01]))
-    def send_goal(self, by):
-        """Of a trajectory, which succeeds if no arm waits."""
+    @rule(by=st.sampled_from([0.01, -0.01]), refused=st.sampled_from([None, PART, "nothing"]))
+    def send_goal(self, by, refused):
+        """Of a trajectory, which succeeds if no arm waits, also if a switch is refused meanwhile: to a
+        controller of a part of an arm's joints, which that arm refuses, or to none."""
         self.begins_step()
         if not self.lost | self.unsure | self.failed | self.needy:
-            outcome = self.goals.run(trajectory(self.targets(by), 0.1))
-            assert (outcome[0] == GoalStatus.SUCCEEDED) == self.runs, outcome
+            motion = self.goals.send(trajectory(self.targets(by), 0.5 if refused else 0.1))
+            if refused and self.runs:
+                assert not self.node.controllers.switches(start=[refused], stop=[CONTROLLER])
+            ended = outcome(motion)
+            assert (ended[0] == GoalStatus.SUCCEEDED) == self.runs, ended
         self.check()
 
     def targets(self, by: float) -> dict[str, float]:
@@ -228,7 +242,11 @@ def node(request, tmp_path_factory):
     with launched(*launch, "sim:=true", "realism:=ideal", log=folder / "launch.log"):
         NodeMachine.node, NodeMachine.robot = ControlNode(arms), robot
         controllers = NodeMachine.node.controllers
-        controllers.load(CONTROLLER)
+        parameters = {"type": "effort_controllers/JointTrajectoryController"}
+        parameters["joints"] = [f"{NodeMachine.node.arms[-1].name}_joint{i}" for i in (1, 2, 3)]
+        parameters["gains"] = {joint: {"p": 100.0, "d": 1.0} for joint in parameters["joints"]}
+        rospy.set_param(f"{controllers.namespace}/{PART}", parameters)
+        controllers.load(CONTROLLER, PART)
         action = f"{controllers.namespace}/{CONTROLLER}/follow_joint_trajectory"
         NodeMachine.goals = Action(action, FollowJointTrajectoryAction)
         yield NodeMachine
@@ -236,7 +254,7 @@ def node(request, tmp_path_factory):
 
 @pytest.mark.own_process("node")
 def test_steps_on_arms_of_hardware_change_what_they_name(node):
-    state_machines.run(node, sequences=4, steps=12, random=False, shrink=False)
+    state_machines.run(node, sequences=8, steps=12, random=False, shrink=False)
 
 
 @pytest.mark.own_process("node")
