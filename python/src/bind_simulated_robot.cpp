@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -457,8 +458,11 @@ void bindHand(py::module_& module, py::class_<Robot>& robot) {
   });
   robot.def("hand_state", [](Robot& self) {
     franka::GripperState state = self.useHand([](GripperUnit& hand) {
-      return franka::GripperState{
-          hand.width(), hand.maxWidth(), hand.isGrasped(), hand.temperature(), {}};
+      return franka::GripperState{hand.width(),
+                                  hand.maxWidth(),
+                                  hand.isGrasped(),
+                                  static_cast<std::uint16_t>(hand.temperature()),
+                                  {}};
     });
     state.time = self.state().time;
     return state;
