@@ -30,6 +30,13 @@ def test_long(): assert False
 WHOLE_FILE = 'import pytest\npytest.skip("{reason}", allow_module_level=True)\n'
 
 
+@pytest.fixture(autouse=True)
+def gate(monkeypatch):
+    """Not CI, and not the long form, in which a missing package is a failure."""
+    for name in ("CI", "FRANKA_TEST_LONG"):
+        monkeypatch.delenv(name, raising=False)
+
+
 def tally_of(path: Path) -> Tally:
     return Tally(cases_of(path))
 
@@ -64,11 +71,10 @@ def run_pytest(folder: Path, text: str) -> Tally:
 )
 def test_a_reason_is_allowed_in_some_forms(reason, forms, monkeypatch):
     for form, variable in (("gate", {}), ("CI", {"CI": "true"}), ("long", {"FRANKA_TEST_LONG": "1"})):
-        for name in ("CI", "FRANKA_TEST_LONG"):
-            monkeypatch.delenv(name, raising=False)
-        for name, value in variable.items():
-            monkeypatch.setenv(name, value)
-        assert is_allowed(reason) == (form in forms), form
+        with monkeypatch.context() as environment:
+            for name, value in variable.items():
+                environment.setenv(name, value)
+            assert is_allowed(reason) == (form in forms), form
 
 
 def test_skips_of_gtest_are_counted_by_reason(tmp_path):
