@@ -63,7 +63,7 @@ def world(tmp_path_factory):
 @pytest.fixture
 def remote(world):
     remote = Remote(WORLD_ROBOT)
-    awaited(world, remote.time)
+    awaited(world, remote.state)
     return remote
 
 

@@ -86,8 +86,8 @@ def test_a_launched_example_runs(name, robot, tmp_path):
     with in_session(launch(COMMANDS[name], robot, tmp_path)) as session:
         controllers, robot = Controllers(), Remote(ADDRESS)
         controllers.wait_for(*expected)
-        end = robot.time() + 1.0
-        wait_for(lambda: robot.time() > end, "A second of the robot", WAIT)
+        end = robot.time + 1.0
+        wait_for(lambda: robot.time > end, "A second of the robot", WAIT)
         assert expected <= set(controllers.running())
         assert robot.state().errors == {}
     assert errors(session) == []

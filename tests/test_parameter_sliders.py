@@ -106,7 +106,7 @@ class Robot:
 
         def stays():
             nonlocal since
-            now = Remote(ADDRESS).time()
+            now = Remote(ADDRESS).time
             if since is None or abs(self._height() - self._start - distance) > 0.03 * distance:
                 since = now
             return now - since > 1.0
