@@ -170,9 +170,9 @@ def test_poses_that_a_client_writes_itself(robot):
 @pytest.mark.parametrize("setter", ["set_EE", "set_K"])
 def test_setters_of_a_client(robot, setter):
     def refusal(perturbed):
-        return raised(lambda: getattr(robot, setter)(perturbed.matrix), pyfranka.CommandException)
+        return raised(lambda: getattr(robot, setter)(perturbed.matrix), ValueError)
 
-    check(FRAME, refusal, because="invalid argument")
+    check(FRAME, refusal, because="cannot be used")
     getattr(robot, setter)(np.eye(4))
 
 
@@ -196,7 +196,7 @@ def test_a_matrix_and_its_columns_set_the_same_end_effector(robot, served, name)
         served[name].remote.end_effector(*body, given)
         np.testing.assert_allclose(robot.read_once().F_T_NE, TURNED, atol=1e-12)
     for wrong in NO_TRANSFORMS:
-        with pytest.raises(ValueError, match="4x4|16 numbers"):
+        with pytest.raises(ValueError, match="4x4|16 (finite )?numbers"):
             served[name].remote.end_effector(*body, wrong)
     for wrong in (np.ones((9, 1)), np.ones((1, 3, 3)), 1j * np.eye(3)):
         with pytest.raises(ValueError, match="inertia"):
@@ -257,7 +257,7 @@ def test_typed_rotations_of_a_client_become_exact(robot, setter, field):
     getattr(robot, setter)(turned_by(45, 3))
     rotation = getattr(robot.read_once(), field)[:3, :3]
     np.testing.assert_allclose(rotation.T @ rotation, np.eye(3), atol=1e-6)  # states of FR3 are float32
-    with pytest.raises(pyfranka.CommandException, match="row-major"):
+    with pytest.raises(ValueError, match="row-major"):
         getattr(robot, setter)(turned_by(45, 15).T)
     getattr(robot, setter)(np.eye(4))
 
