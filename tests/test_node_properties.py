@@ -7,7 +7,6 @@ without effect. The states of every arm go on through errors, stops, recoveries 
 """
 
 import pytest
-import rospy
 import state_machines
 from actionlib_msgs.msg import GoalStatus
 from cell import load_of
@@ -16,12 +15,11 @@ from control_nodes import SUCCEEDED, ControlNode, arms_and_launch
 from franka_msgs.srv import SetLoad
 from hypothesis import strategies as st
 from hypothesis.stateful import initialize, rule
-from ros_client import Action, call, launched, outcome, trajectory, trigger
+from ros_client import Action, call, launched, trajectory
 from waiting import holds, wait_for
 
 PATIENCE_FOR_STATES = 10.0  # [s] of the robots' time
 CONTROLLER = "effort_joint_trajectory_controller"  # of all joints of all arms
-REST = "all_but_the_last"  # a controller of all joints but those of the last arm
 SETUPS = [("panda", 1), ("panda", 2), ("fr3", 3)]  # robot, number of arms
 STOPS = {"panda": ["user_stop", "input x4"], "fr3": ["user_stop", "input x33"]}  # sources of the stop
 SIDES = st.integers(0, 2)  # of an arm; modulo their number
@@ -36,7 +34,6 @@ class NodeMachine(state_machines.Machine):
     node: ControlNode = None
     robot = ""
     goals: Action = None
-    goals_of_rest: Action = None
     lost: set[str] = set()  # arms without a connection, also from the sequence before
 
     @initialize()
@@ -102,19 +99,14 @@ class NodeMachine(state_machines.Machine):
 
     @rule(sides=st.sets(SIDES, min_size=1), recovered=st.none() | SIDES)
     def push(self, sides, recovered):
-        """Arms that are not stopped have a reflex, all in their motion; then one arm may be recovered."""
+        """Arms that are not stopped have a reflex; then one arm may be recovered."""
         self.begins_step()
-        arms = {self.arm(side) for side in sides}
-        arms = [arm for arm in arms if not self.pressed[arm.name] and arm.name not in self.lost]
-        for arm in arms:
-            arm.push()
-        for arm in arms:
-            arm.operator.wait(lambda state: state.mode == "Reflex")
-            arm.wait_for_end_of_push()
-            if len(arms) == 1 or self.failed:
+        for arm in {self.arm(side) for side in sides}:
+            if not self.pressed[arm.name] and arm.name not in self.lost:
+                arm.push()
+                arm.operator.wait(lambda state: state.mode == "Reflex")
+                arm.wait_for_end_of_push()
                 self.stops(arm.name)
-            else:
-                self.unsure.add(arm.name)  # the others stop when the first one has failed
         self.check()
         if recovered is not None:
             self.recover(self.arm(recovered))
@@ -198,48 +190,23 @@ class NodeMachine(state_machines.Machine):
 
     @rule(start=st.booleans())
     def switch(self, start):
-        """franka_control_node without its robot has no loop, for which a switch waits."""
         self.begins_step()
-        if self.node.alone and self.lost:
-            return
         names = [CONTROLLER]
         if self.node.controllers.switches(**({"start": names} if start else {"stop": names})):
             self.runs = start
         self.check()
 
-    @rule(by=st.sampled_from([0.01, -0.01]), refused=st.booleans())
-    def send_goal(self, by, refused):
-        """Of a trajectory, which succeeds if no arm waits, also if a switch is refused meanwhile."""
+    @rule(by=st.sampled_from([0.01, -0.01]))
+    def send_goal(self, by):
+        """Of a trajectory, which succeeds if no arm waits."""
         self.begins_step()
         if not self.lost | self.unsure | self.failed | self.needy:
-            motion = self.goals.send(trajectory(targets(self.node.arms, by), 0.5 if refused else 0.1))
-            if refused and self.runs:
-                assert not self.node.controllers.switches(start=["nothing"], stop=[CONTROLLER])
-            ended = outcome(motion)
-            assert (ended[0] == GoalStatus.SUCCEEDED) == self.runs, ended
+            outcome = self.goals.run(trajectory(self.targets(by), 0.1))
+            assert (outcome[0] == GoalStatus.SUCCEEDED) == self.runs, outcome
         self.check()
 
-    @rule()
-    def switch_refused_by_a_disconnected_arm(self):
-        """The motion of the other arms goes on."""
-        self.begins_step()
-        *others, last = self.node.arms
-        if not others or self.lost | self.unsure | self.failed | self.needy or any(self.pressed.values()):
-            return
-        switches = self.node.controllers.switches
-        assert not self.runs or switches(stop=[CONTROLLER])
-        self.node.wait_until_all_are("idle")
-        assert trigger(last.service("disconnect"))[0]
-        assert switches(start=[REST])
-        wait_for(lambda: all(arm.is_in("moving") for arm in others), "The motion of the others")
-        motion = self.goals_of_rest.send(trajectory(targets(others, 0.01), 0.5))
-        assert not switches(start=[CONTROLLER], stop=[REST])
-        ended = outcome(motion)
-        assert ended[0] == GoalStatus.SUCCEEDED, ended
-        assert switches(stop=[REST])
-        wait_for(lambda: trigger(last.service("connect"))[0], "The connection of the last arm")
-        assert not self.runs or switches(start=[CONTROLLER])
-        self.check()
+    def targets(self, by: float) -> dict[str, float]:
+        return {f"{arm.name}_joint{i + 1}": arm.state.q_d[i] + by for arm in self.node.arms for i in range(7)}
 
     @rule(side=SIDES)
     def refused(self, side):
@@ -253,10 +220,6 @@ class NodeMachine(state_machines.Machine):
         self.check()
 
 
-def targets(arms, by: float) -> dict[str, float]:
-    return {f"{arm.name}_joint{i + 1}": arm.state.q_d[i] + by for arm in arms for i in range(7)}
-
-
 @pytest.fixture(scope="module", params=SETUPS, ids=lambda setup: f"{setup[1]}_{setup[0]}")
 def node(request, tmp_path_factory):
     robot, count = request.param
@@ -265,25 +228,18 @@ def node(request, tmp_path_factory):
     with launched(*launch, "sim:=true", "realism:=ideal", log=folder / "launch.log"):
         NodeMachine.node, NodeMachine.robot = ControlNode(arms), robot
         controllers = NodeMachine.node.controllers
-        parameters = {"type": "effort_controllers/JointTrajectoryController"}
-        parameters["joints"] = [f"{arm}_joint{i}" for arm in list(arms)[:-1] for i in range(1, 8)]
-        parameters["gains"] = {joint: {"p": 600.0, "d": 30.0} for joint in parameters["joints"]}
-        rospy.set_param(f"{controllers.namespace}/{REST}", parameters)
-        names = [CONTROLLER, REST][:count]
-        controllers.load(*names)
-        NodeMachine.goals, NodeMachine.goals_of_rest = [
-            Action(f"{controllers.namespace}/{name}/follow_joint_trajectory", FollowJointTrajectoryAction)
-            for name in (names[0], names[-1])
-        ]
+        controllers.load(CONTROLLER)
+        action = f"{controllers.namespace}/{CONTROLLER}/follow_joint_trajectory"
+        NodeMachine.goals = Action(action, FollowJointTrajectoryAction)
         yield NodeMachine
 
 
 @pytest.mark.own_process("node")
 def test_steps_on_arms_of_hardware_change_what_they_name(node):
-    state_machines.run(node, sequences=6, steps=12, random=False, shrink=False)
+    state_machines.run(node, sequences=4, steps=12, random=False, shrink=False, independent=False)
 
 
 @pytest.mark.own_process("node")
 @pytest.mark.long_form("other sequences each time")
 def test_random_steps_on_arms_of_hardware(node):
-    state_machines.run(node, sequences=100, steps=20, random=True, shrink=False)
+    state_machines.run(node, sequences=100, steps=20, random=True, shrink=False, independent=False)

@@ -47,13 +47,21 @@ class Machine(RuleBasedStateMachine):
             type(self).failure = error
 
 
-def run(machine: type[Machine], sequences: int, steps: int, random: bool, shrink: bool = True) -> None:
+def run(
+    machine: type[Machine],
+    sequences: int,
+    steps: int,
+    random: bool,
+    shrink: bool = True,
+    independent: bool = True,
+) -> None:
     """Runs sequences of at most so many steps, until one fails.
 
     Args:
         machine: the rules and invariants.
         random: whether other sequences than at the last time; otherwise they are the same in each run.
         shrink: whether to search for the smallest sequence that fails.
+        independent: otherwise Hypothesis varies sequences that it has generated.
     """
     machine.sequences = machine.steps = 0
     machine.failure = None
@@ -62,7 +70,7 @@ def run(machine: type[Machine], sequences: int, steps: int, random: bool, shrink
         max_examples=sequences,
         stateful_step_count=steps,
         derandomize=not random,
-        backend=INDEPENDENT,
+        backend=INDEPENDENT if independent else "hypothesis",
         database=None,
         deadline=None,
         phases=phases,
