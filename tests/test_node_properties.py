@@ -236,10 +236,10 @@ def node(request, tmp_path_factory):
 
 @pytest.mark.own_process("node")
 def test_steps_on_arms_of_hardware_change_what_they_name(node):
-    state_machines.run(node, sequences=4, steps=12, random=False, shrink=False, independent=False)
+    state_machines.run(node, sequences=4, steps=12, random=False, shrink=False)
 
 
 @pytest.mark.own_process("node")
 @pytest.mark.long_form("other sequences each time")
 def test_random_steps_on_arms_of_hardware(node):
-    state_machines.run(node, sequences=100, steps=20, random=True, shrink=False, independent=False)
+    state_machines.run(node, sequences=100, steps=20, random=True, shrink=False)

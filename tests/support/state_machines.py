@@ -10,13 +10,8 @@ import sys
 
 from hypothesis import HealthCheck, Phase, settings
 from hypothesis.errors import Flaky
-from hypothesis.internal.conjecture.providers import AVAILABLE_PROVIDERS, HypothesisProvider
 from hypothesis.stateful import RuleBasedStateMachine, run_state_machine_as_test
 
-# Sequences that do not depend on each other. Hypothesis itself begins with short ones and varies each:
-# of 16 sequences, six were then empty, two repeated one rule, and four differed in one argument (measured).
-INDEPENDENT = "independent"
-AVAILABLE_PROVIDERS[INDEPENDENT] = HypothesisProvider
 NOT_CHECKED = [HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large]
 
 
@@ -47,21 +42,13 @@ class Machine(RuleBasedStateMachine):
             type(self).failure = error
 
 
-def run(
-    machine: type[Machine],
-    sequences: int,
-    steps: int,
-    random: bool,
-    shrink: bool = True,
-    independent: bool = True,
-) -> None:
+def run(machine: type[Machine], sequences: int, steps: int, random: bool, shrink: bool = True) -> None:
     """Runs sequences of at most so many steps, until one fails.
 
     Args:
         machine: the rules and invariants.
         random: whether other sequences than at the last time; otherwise they are the same in each run.
         shrink: whether to search for the smallest sequence that fails.
-        independent: otherwise Hypothesis varies sequences that it has generated.
     """
     machine.sequences = machine.steps = 0
     machine.failure = None
@@ -70,7 +57,6 @@ def run(
         max_examples=sequences,
         stateful_step_count=steps,
         derandomize=not random,
-        backend=INDEPENDENT if independent else "hypothesis",
         database=None,
         deadline=None,
         phases=phases,
