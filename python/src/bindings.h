@@ -15,7 +15,6 @@
 
 namespace pyfranka {
 
-void bindCalls(py::module_& module);
 class Shared;
 
 void bindExceptions(py::module_& module);

@@ -20,7 +20,7 @@ import pyfranka
 import pyfranka.libfranka
 import pyfranka.sim
 import pytest
-from pyfranka._native import _signature
+from signatures import signature
 
 STUB = Path(__file__).resolve().parent.parent / "src" / "pyfranka" / "__init__.pyi"
 # Set on the instances that are raised.
@@ -168,7 +168,7 @@ def typed_overloads(function):
             re.sub(r"(: |> )'(.*?)'", r"\1\2", f"{name}{inspect.signature(one)}") for one in each
         )
     found = re.findall(rf"^(?:\d+\. )?(?:{name})?\((.*)\) -> (.*)$", text, re.MULTILINE)
-    return [_signature(arguments).replace(return_annotation=result) for arguments, result in found]
+    return [signature(arguments).replace(return_annotation=result) for arguments, result in found]
 
 
 def overloads(function):

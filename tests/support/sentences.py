@@ -8,17 +8,21 @@ import threading
 from waiting import wait_for
 
 ERRORS = (ValueError, TypeError, KeyError, IndexError, RuntimeError, FileNotFoundError)
-# Of pybind11, numpy and Python, which name no argument of the user.
+# Of numpy and Python, which name no argument of the user.
 FOREIGN = re.compile(
-    r"incompatible function arguments|could not convert|object cannot be interpreted|has no attribute"
+    r"could not convert|object cannot be interpreted|has no attribute"
     r"|not supported between|unsupported|must be real number|unhashable|out of range|expected str"
-    r"|object is not|inhomogeneous|invalid literal|incompatible constructor arguments|_pyfranka"
+    r"|object is not|inhomogeneous|invalid literal|_pyfranka"
 )
+# Of pybind11, with the names and types that a function takes; the first part of the text.
+SIGNATURES = re.compile(r"\w*\(\): incompatible (function|constructor) arguments\.")
 
 
 def unlike_ours(sentence):
-    """Why this is not a sentence of ours; None if it is one."""
+    """Why this is not a sentence of ours; None if it is one, or names arguments and types."""
     text = sentence.strip("\"'")
+    if SIGNATURES.match(text):
+        return None if "_pyfranka" not in text else "it has names that users do not import"
     if FOREIGN.search(text):
         return "it is Python's or a library's"
     # Genuine libfranka's own words stay.

@@ -14,8 +14,8 @@ from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
-from pyfranka._native import _signature, _without_other_names
 from sentences import ERRORS, unlike_ours
+from signatures import signature, without_other_names
 
 NAN, INF = math.nan, math.inf
 EYE = np.eye(4)
@@ -80,7 +80,7 @@ def signatures_of(cls: type) -> dict[str, list[list[inspect.Parameter]]]:
         if not name.startswith("_") and inspect.isroutine(function):
             lines = rf"^(?:\d+\. )?{function.__name__}\((.*)\) -> "
             texts = re.findall(lines, function.__doc__, re.MULTILINE)
-            signatures = _without_other_names([*map(_signature, texts)])
+            signatures = without_other_names([*map(signature, texts)])
             found[name] = [[*each.parameters.values()][1:] for each in signatures]
     return found
 
