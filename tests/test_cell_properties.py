@@ -40,6 +40,7 @@ from ros_client import call
 
 BRAKING = 500  # [ticks] after which an arm rests, and its brakes have opened
 SOURCES = ("service", "user_stop", "input x31", "input x32", "input x33")  # of the served robot's stop
+SETTLING = 3  # [ticks] after each step, in which its effects show
 HORIZON = 900  # [ticks] of the motions without any step
 # How far motions without steps may differ [rad, rad/s]: by the last bits of fingers' constraints, whose
 # solver couples all robots of a world; and more once a spawn has changed its scales.
@@ -51,6 +52,7 @@ FORMATIONS = (
     {"left": None, "right": "position", "solo": "torque"},
     {"left": "trajectory", "right": "trajectory", "solo": "trajectory"},
 )
+SINGULAR = -0.466  # [rad] of joint 4, at which the elbows of both robots are stretched
 NAMES = st.sampled_from(list(ARMS))
 KINDS = st.sampled_from(list(MOTIONS))
 FAR = Pose(position=Point(x=0, y=9, z=1), orientation=Quaternion(w=1))
@@ -228,6 +230,22 @@ class CellMachine(state_machines.Machine):
             if start and arm not in self.stopped:
                 self.unrecovered.discard(arm)
 
+    @rule(arm=NAMES, kind=st.sampled_from(["twist", "pose"]))
+    def switch_at_a_singular_pose(self, arm, kind):
+        """To a Cartesian motion, which the arm refuses there: what runs goes on."""
+        self.begins_step()
+        runs = self.commanded(arm)
+        self.put(arm, SINGULAR)
+        if runs and not runs & {"twist", "pose"} and arm not in self.stopped | self.apart | self.unrecovered:
+            if self.cell.switch(arm, {kind}, runs):  # it has moved away from that pose, and maybe back to it
+                self.running[arm] -= runs
+                self.running[arm] |= self.cell.running()[arm] & {kind}
+            else:
+                self.cell.fresh_states()
+                mode = self.cell.arms[arm].state.robot_mode
+                assert mode in (MOVE, REFLEX), f"{arm} is in mode {mode}, although {runs} run."
+        self.put(arm, START[3])
+
     @rule(arm=NAMES)
     def switch_gripper(self, arm):
         self.begins_step()
@@ -248,13 +266,18 @@ class CellMachine(state_machines.Machine):
     def put_by_the_world(self, arm, position):
         """The door that knows joints only."""
         self.begins_step()
+        self.put(arm, position)
+
+    def put(self, arm: str, position: float) -> None:
         names = [self.cell.arms[arm].joints[3]]
         assert world("set_joint_states", SetJointStates, names=names, positions=[position])
         self.name(arm)
 
+    @precondition(lambda self: self.named == set(ARMS))
     @rule()
     def reset_the_world(self):
-        """All arms go on from their start: not as at first, because hands and filters keep what they had."""
+        """All arms go on from their start: not as at first, because hands and filters keep what they had.
+        Only when there is nothing left to compare with a run without steps."""
         self.begins_step()
         self.cell.reset()
         for arm in ARMS:
@@ -369,6 +392,7 @@ class CellMachine(state_machines.Machine):
     def all_that_was_not_named_is_as_before(self):
         if not hasattr(self, "reference"):
             return
+        self.cell.step(SETTLING)
         assert self.cell.running() == self.running
         expected = self.reference.get(self.cell.age)
         if expected is None:

@@ -7,6 +7,7 @@ without effect. The states of every arm go on through errors, stops, recoveries 
 """
 
 import pytest
+import rospy
 import state_machines
 from actionlib_msgs.msg import GoalStatus
 from cell import load_of
@@ -15,11 +16,13 @@ from control_nodes import SUCCEEDED, ControlNode, arms_and_launch
 from franka_msgs.srv import SetLoad
 from hypothesis import strategies as st
 from hypothesis.stateful import initialize, rule
-from ros_client import Action, call, launched, trajectory
+from pyfranka.remote import LineRefused
+from ros_client import Action, call, launched, outcome, trajectory, trigger
 from waiting import holds, wait_for
 
 PATIENCE_FOR_STATES = 10.0  # [s] of the robots' time
 CONTROLLER = "effort_joint_trajectory_controller"  # of all joints of all arms
+REST, LAST = "all_but_the_last", "the_last"  # controllers of all joints but the last arm's, and of these
 SETUPS = [("panda", 1), ("panda", 2), ("fr3", 3)]  # robot, number of arms
 STOPS = {"panda": ["user_stop", "input x4"], "fr3": ["user_stop", "input x33"]}  # sources of the stop
 SIDES = st.integers(0, 2)  # of an arm; modulo their number
@@ -34,6 +37,7 @@ class NodeMachine(state_machines.Machine):
     node: ControlNode = None
     robot = ""
     goals: Action = None
+    goals_of_rest: Action = None
     lost: set[str] = set()  # arms without a connection, also from the sequence before
 
     @initialize()
@@ -44,6 +48,8 @@ class NodeMachine(state_machines.Machine):
             for source in STOPS[self.robot]:
                 arm.operator.send(f"{source} off")
             arm.operator.wait(lambda state: state.mode != "User stopped")
+        if self.lost:  # a robot with a joint beyond its limits takes no connection; the others wait
+            wait_for(self.is_reset, "The end of the others' motion")
         self.connect_all()
         if CONTROLLER in self.node.controllers.running():
             self.node.controllers.stop(CONTROLLER)
@@ -55,6 +61,13 @@ class NodeMachine(state_machines.Machine):
         self.pressed = {arm.name: set() for arm in arms}
         self.failed, self.needy = set(), set()  # a motion was aborted; only the robot is in error
         self.check()
+
+    def is_reset(self) -> bool:
+        try:
+            self.node.arms[0].operator.reset()
+        except LineRefused:
+            return False
+        return True
 
     def arm(self, side: int):
         return self.node.arms[side % len(self.node.arms)]
@@ -99,14 +112,19 @@ class NodeMachine(state_machines.Machine):
 
     @rule(sides=st.sets(SIDES, min_size=1), recovered=st.none() | SIDES)
     def push(self, sides, recovered):
-        """Arms that are not stopped have a reflex; then one arm may be recovered."""
+        """Arms that are not stopped have a reflex, all in their motion; then one arm may be recovered."""
         self.begins_step()
-        for arm in {self.arm(side) for side in sides}:
-            if not self.pressed[arm.name] and arm.name not in self.lost:
-                arm.push()
-                arm.operator.wait(lambda state: state.mode == "Reflex")
-                arm.wait_for_end_of_push()
+        arms = {self.arm(side) for side in sides}
+        arms = [arm for arm in arms if not self.pressed[arm.name] and arm.name not in self.lost]
+        for arm in arms:
+            arm.push()
+        for arm in arms:
+            arm.operator.wait(lambda state: state.mode == "Reflex")
+            arm.wait_for_end_of_push()
+            if len(arms) == 1 or self.failed:
                 self.stops(arm.name)
+            else:
+                self.unsure.add(arm.name)  # the others stop when the first one has failed
         self.check()
         if recovered is not None:
             self.recover(self.arm(recovered))
@@ -115,13 +133,14 @@ class NodeMachine(state_machines.Machine):
     def press(self, side, second, on):
         self.begins_step()
         arm, source = self.arm(side), STOPS[self.robot][second]
+        stopped = bool(self.pressed[arm.name])
         others = [other for other in self.node.arms if other is not arm]
         before = [other.operator.report() for other in others]
         arm.operator.send(f"{source} {'on' if on else 'off'}")
         if on:
             self.stops(arm.name)
         (self.pressed[arm.name].add if on else self.pressed[arm.name].discard)(source)
-        if not self.pressed[arm.name]:
+        if stopped and not self.pressed[arm.name]:
             mode = arm.operator.wait(lambda state: state.mode != "User stopped").mode
             if self.node.alone and mode in ("Idle", "Move"):  # franka_control_node goes on by itself
                 self.forget_errors({arm.name})
@@ -190,23 +209,48 @@ class NodeMachine(state_machines.Machine):
 
     @rule(start=st.booleans())
     def switch(self, start):
+        """franka_control_node without its robot has no loop, for which a switch waits."""
         self.begins_step()
+        if self.node.alone and self.lost:
+            return
         names = [CONTROLLER]
         if self.node.controllers.switches(**({"start": names} if start else {"stop": names})):
             self.runs = start
         self.check()
 
-    @rule(by=st.sampled_from([0.01, -0.01]))
-    def send_goal(self, by):
-        """Of a trajectory, which succeeds if no arm waits."""
+    @rule(by=st.sampled_from([0.01, -0.01]), refused=st.booleans())
+    def send_goal(self, by, refused):
+        """Of a trajectory, which succeeds if no arm waits, also if a switch is refused meanwhile."""
         self.begins_step()
         if not self.lost | self.unsure | self.failed | self.needy:
-            outcome = self.goals.run(trajectory(self.targets(by), 0.1))
-            assert (outcome[0] == GoalStatus.SUCCEEDED) == self.runs, outcome
+            motion = self.goals.send(patient(targets(self.node.arms, by), 0.5 if refused else 0.1))
+            if refused and self.runs:
+                assert not self.node.controllers.switches(start=["nothing"], stop=[CONTROLLER])
+            ended = outcome(motion)
+            assert (ended[0] == GoalStatus.SUCCEEDED) == self.runs, ended
         self.check()
 
-    def targets(self, by: float) -> dict[str, float]:
-        return {f"{arm.name}_joint{i + 1}": arm.state.q_d[i] + by for arm in self.node.arms for i in range(7)}
+    @rule()
+    def switch_refused_by_a_disconnected_arm(self):
+        """The motion of the other arms goes on."""
+        self.begins_step()
+        *others, last = self.node.arms
+        if not others or self.lost | self.unsure | self.failed | self.needy or any(self.pressed.values()):
+            return
+        switches = self.node.controllers.switches
+        assert not self.runs or switches(stop=[CONTROLLER])
+        self.node.wait_until_all_are("idle")
+        assert trigger(last.service("disconnect"))[0]
+        assert switches(start=[REST])
+        wait_for(lambda: all(arm.is_in("moving") for arm in others), "The motion of the others")
+        motion = self.goals_of_rest.send(patient(targets(others, 0.01), 0.5))
+        assert not switches(start=[LAST], stop=[REST])
+        ended = outcome(motion)
+        assert ended[0] == GoalStatus.SUCCEEDED, ended
+        assert switches(stop=[REST])
+        wait_for(lambda: trigger(last.service("connect"))[0], "The connection of the last arm")
+        assert not self.runs or switches(start=[CONTROLLER])
+        self.check()
 
     @rule(side=SIDES)
     def refused(self, side):
@@ -220,6 +264,17 @@ class NodeMachine(state_machines.Machine):
         self.check()
 
 
+def targets(arms, by: float) -> dict[str, float]:
+    return {f"{arm.name}_joint{i + 1}": arm.state.q_d[i] + by for arm in arms for i in range(7)}
+
+
+def patient(goals: dict[str, float], seconds: float):
+    """A trajectory that waits until the arms rest: a push before it may still swing them."""
+    goal = trajectory(goals, seconds)
+    goal.goal_time_tolerance = rospy.Duration(PATIENCE_FOR_STATES)
+    return goal
+
+
 @pytest.fixture(scope="module", params=SETUPS, ids=lambda setup: f"{setup[1]}_{setup[0]}")
 def node(request, tmp_path_factory):
     robot, count = request.param
@@ -228,15 +283,24 @@ def node(request, tmp_path_factory):
     with launched(*launch, "sim:=true", "realism:=ideal", log=folder / "launch.log"):
         NodeMachine.node, NodeMachine.robot = ControlNode(arms), robot
         controllers = NodeMachine.node.controllers
-        controllers.load(CONTROLLER)
-        action = f"{controllers.namespace}/{CONTROLLER}/follow_joint_trajectory"
-        NodeMachine.goals = Action(action, FollowJointTrajectoryAction)
+        joints = [f"{arm}_joint{i}" for arm in arms for i in range(1, 8)]
+        gains = {joint: {"p": 600.0, "d": 30.0} for joint in joints}
+        names = [CONTROLLER]
+        for name, driven in ((REST, joints[:-7]), (LAST, joints[-7:])) if count > 1 else ():
+            parameters = {"type": "effort_controllers/JointTrajectoryController", "joints": driven}
+            rospy.set_param(f"{controllers.namespace}/{name}", {**parameters, "gains": gains})
+            names.append(name)
+        controllers.load(*names)
+        NodeMachine.goals, NodeMachine.goals_of_rest = [
+            Action(f"{controllers.namespace}/{name}/follow_joint_trajectory", FollowJointTrajectoryAction)
+            for name in (CONTROLLER, names[count > 1])
+        ]
         yield NodeMachine
 
 
 @pytest.mark.own_process("node")
 def test_steps_on_arms_of_hardware_change_what_they_name(node):
-    state_machines.run(node, sequences=4, steps=12, random=False, shrink=False)
+    state_machines.run(node, sequences=6, steps=12, random=False, shrink=False)
 
 
 @pytest.mark.own_process("node")
