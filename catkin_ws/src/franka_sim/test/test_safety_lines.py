@@ -142,18 +142,6 @@ def test_clients_receive_the_end_effector(robot):
         robot.remote.send("end_effector " + " ".join(map(str, words)))
 
 
-@fr3
-def test_the_hand_must_be_homed_first(robot):
-    make_ready(robot)
-    hand = robot.gripper()
-    assert not report(robot)["hand"]["homed"]
-    with pytest.raises(pyfranka.Exception, match="failed"):
-        hand.move(0.05, 0.1)
-    assert hand.homing()
-    assert report(robot)["hand"]["homed"]
-    assert hand.move(0.05, 0.1)
-
-
 def test_moves_to_the_pack_pose_without_fci(robot):
     assert refusal(robot, "move pack") == "BrakesClosed"
     robot.remote.send("joints unlock")
@@ -218,26 +206,6 @@ def test_stopped_motion_is_reported():
             sim.robot.remote.move([1, -0.8, 0, -2.4, 0, 1.6, 0.8], speed=0.002)
         sim.robot.remote.wait()
         assert 0 < report(sim.robot)["q"][0] < 0.9
-
-
-def test_a_reset_ends_a_motion_unfinished():
-    """The line move is answered, and nothing of the motion remains."""
-    start = [0, -0.8, 0, -2.4, 0, 1.6, 0.8]
-    with FrankaSim("panda", pace="10") as sim:
-        robot = sim.robot
-        robot.remote.deactivate_fci()
-        robot.remote.move(start, speed=1.0)
-        before = report(robot)["q"]
-        call_in_motion(robot, Remote.reset)
-        with pytest.raises(LineRefused, match="ended before its target was reached"):
-            robot.remote.move([1, *start[1:]], speed=0.002)
-        robot.remote.wait()
-        state = report(robot)
-        assert (state["mode"], state["errors"], state["motion"]) == ("Idle", [], False)
-        assert state["q"] == pytest.approx([0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854], abs=1e-3)
-        assert state["q"] != pytest.approx(before, abs=1e-3)
-        robot.remote.move(start, speed=1.0)
-        assert report(robot)["q"] == pytest.approx(before, abs=2e-3)
 
 
 @fr3

@@ -163,6 +163,8 @@ TEST_F(HostRules, RealTimeDoesNotWaitForAnswers) {
   EXPECT_EQ(20, steps);
   EXPECT_EQ(20, robot.actuated);
   EXPECT_EQ(0, robot.answered);
+  timeOf(3000);
+  EXPECT_EQ(std::vector<Silence>(), robot.silences) << "nobody is awaited";
 }
 
 TEST_F(HostRules, TimePassesByTheFactor) {
@@ -214,14 +216,6 @@ TEST_F(HostRules, AClientEndsTheWaitOfIdleRobots) {
   }
   EXPECT_LE(clock.now() - begin, milliseconds(51));
   EXPECT_EQ(milliseconds(20), timeOf(20)) << "delayed by the ticks that ran in advance";
-}
-
-TEST_F(HostRules, PatientPaceWaitsForEachAnswer) {
-  use(waiting(PaceMode::kPatient));
-  robot.moving = true;
-  robot.delay = milliseconds(5);
-  EXPECT_NEAR(100, timeOf(20).count(), 1);
-  EXPECT_EQ(20, robot.answered);
 }
 
 TEST_F(HostRules, EveryWaitModeWaitsForQuickAndSlowAnswers) {
@@ -314,14 +308,6 @@ TEST_F(HostRules, ReportsEachSilenceOfAClientOnce) {
   timeOf(50);
   EXPECT_EQ(std::vector<Silence>({Silence::kLong, Silence::kLong, Silence::kGivenUp}),
             robot.silences);
-}
-
-TEST_F(HostRules, ReportsNoSilenceWhereNobodyIsAwaited) {
-  use(waiting(PaceMode::kRealTime));
-  robot.moving = true;
-  robot.answers = false;
-  timeOf(3000);
-  EXPECT_EQ(std::vector<Silence>(), robot.silences);
 }
 
 TEST_F(HostRules, AGivenUpClientDoesNotSlowOthers) {

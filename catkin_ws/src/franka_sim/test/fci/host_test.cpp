@@ -54,34 +54,6 @@ TEST(LockStep, RepeatsBitForBitForAnyPausesOfTheClient) {
   }
 }
 
-TEST(LockStep, TreatsASilentClientAsLost) {
-  SimulatedRobots simulated(std::vector<Place>{{5}}, std::chrono::milliseconds(50));
-  TestClient client(simulated.port());
-  connect(client);
-  client.request(codec::MoveRequest{});
-  ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
-  auto state = client.state();
-  while (state->robot_mode != RobotMode::kMove) {
-    state = client.state();
-  }
-  for (int cycle = 0; cycle < 50; cycle++) {
-    franka_core::RobotCommand command;
-    command.message_id = state->message_id;
-    command.q_c = state->q_d;
-    client.command(command);
-    state = client.state();
-  }
-  // From here on the client is silent.
-  const auto end = client.answer(Command::kMove);
-  ASSERT_TRUE(end);
-  EXPECT_EQ(end->reply.status, Status::kReflexAborted);
-  while (state && state->robot_mode != RobotMode::kReflex) {
-    state = client.state();
-  }
-  ASSERT_TRUE(state);
-  EXPECT_TRUE(state->errors[25]);  // communication_constraints_violation
-}
-
 /// The first state in that mode; empty if there is none in time.
 std::optional<franka_core::RobotState> stateIn(TestClient& client, RobotMode mode) {
   std::optional<franka_core::RobotState> state;

@@ -42,17 +42,6 @@ double residentMegabytes() {
 /// A robot without physics: a request handler, and hands at rest.
 class BareRobot final : public HostedRobot {
  public:
-  BareRobot() : arm(parameters(), handler) { handler.shown.robot_mode = RobotMode::kIdle; }
-
-  static RobotServerParameters parameters() {
-    RobotServerParameters result;
-    result.port = 0;
-    result.oldest_version = 3;
-    result.newest_version = 10;
-    result.model_library.assign(kModelSize, 7);
-    return result;
-  }
-
   void observe() override {}
   void actuate() override { arm.takeCommand(); }
   void serve(bool stops_only) override {
@@ -87,7 +76,7 @@ class BareRobot final : public HostedRobot {
   }
 
   FakeRequestHandler handler;
-  RobotServer arm;
+  RobotServer arm{anyVersion(std::vector<std::uint8_t>(kModelSize, 7)), handler};
   GripperUnit finger_unit{GripperParameters()};
   VacuumGripperUnit vacuum_unit;
   GripperServer hand{"127.0.0.1", 0, finger_unit};

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <vector>
 
 #include "fci/robot_server.h"
 #include "test_client.h"
@@ -81,19 +82,18 @@ class FakeRequestHandler final : public ArmRequestHandler {
   }
 };
 
+/// Of a server at any port, for all versions.
+inline RobotServerParameters anyVersion(const std::vector<std::uint8_t>& model_library) {
+  RobotServerParameters parameters;
+  parameters.port = 0;
+  parameters.oldest_version = 3;
+  parameters.newest_version = 10;
+  parameters.model_library = model_library;
+  return parameters;
+}
+
 class RobotServerTest : public ::testing::Test {
  protected:
-  RobotServerTest() : server_(parameters(), handler_) {}
-
-  static RobotServerParameters parameters() {
-    RobotServerParameters result;
-    result.port = 0;
-    result.oldest_version = 3;
-    result.newest_version = 10;
-    result.model_library = {1, 2, 3};
-    return result;
-  }
-
   /// Serves until a condition holds, or a deadline has passed.
   bool until(const std::function<bool()>& condition) {
     return ros_test::eventually([&] {
@@ -128,15 +128,36 @@ class RobotServerTest : public ::testing::Test {
     ASSERT_EQ(answer->reply.status, Status::kSuccess);
     ASSERT_EQ(answer->reply.server_version, version);
   }
-  std::optional<TestClient::Answer> ask(TestClient& client, const codec::Request& request) {
+  void disconnect(TestClient& client) {
+    client.close();
+    ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+  }
+  void startMotion(TestClient& client, const codec::MoveRequest& request = {}) {
+    handler_.startMotion();
+    client.request(request);
+    serve();
+    const auto started = client.answer(Command::kMove);
+    ASSERT_TRUE(started);
+    ASSERT_EQ(started->reply.status, Status::kMotionStarted);
+  }
+  /// Sends a command that answers this state. @returns whether it is for the motion
+  bool isTaken(TestClient& client, std::uint64_t message_id) {
+    franka_core::RobotCommand command;
+    command.message_id = message_id;
+    client.command(command);
+    server_.receiveCommand();
+    return server_.takeCommand() != nullptr;
+  }
+  std::optional<TestClient::Answer> ask(TestClient& client, const codec::Request& request,
+                                        int timeout_ms = franka_test::kDeadline) {
     client.request(request);
     serve();
     server_.publish();
-    return client.answer(codec::commandOf(request));
+    return client.answer(codec::commandOf(request), timeout_ms);
   }
 
   FakeRequestHandler handler_;
-  RobotServer server_;
+  RobotServer server_{anyVersion({1, 2, 3}), handler_};
 };
 
 }  // namespace franka_sim::fci

@@ -15,7 +15,7 @@ namespace franka_sim::fci {
 namespace {
 
 TEST_F(RobotServerTest, AnswersItsVersionAndAcceptsAnImmediateReconnect) {
-  RobotServerParameters panda = parameters();
+  RobotServerParameters panda = anyVersion({});
   panda.newest_version = 5;
   RobotServer server(panda, handler_);
   for (const std::uint16_t version : {0, 2, 6, 10, 65535}) {
@@ -64,8 +64,7 @@ TEST_F(RobotServerTest, NumbersStatesContinuously) {
       EXPECT_GE(state->message_id, last + ticks);
       last = state->message_id;
     }
-    client.close();
-    ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+    disconnect(client);
   }
 }
 
@@ -113,8 +112,7 @@ TEST_F(RobotServerTest, RunsAMotionFromStartToEnd) {
     EXPECT_FALSE(server_.expectsCommands());
     handler_.shown.robot_mode = RobotMode::kIdle;
     EXPECT_EQ(handler_.disconnections, version - 3);
-    client.close();
-    ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+    disconnect(client);
     serve();
     EXPECT_EQ(handler_.disconnections, version - 2) << "each is reported once";
   }
@@ -123,27 +121,25 @@ TEST_F(RobotServerTest, RunsAMotionFromStartToEnd) {
 TEST_F(RobotServerTest, AcceptsOnlyTheAnswerToTheLastState) {
   TestClient client(server_.port());
   connect(client, 5);
-  handler_.startMotion();
-  client.request(codec::MoveRequest{});
-  serve();
+  startMotion(client);
   server_.publish();
   const std::uint64_t id = client.state()->message_id;
-  franka_core::RobotCommand command;
-  const auto isTaken = [&](std::uint64_t of) {
-    command.message_id = of;
-    client.command(command);
-    server_.receiveCommand();
-    return server_.takeCommand() != nullptr;
-  };
-  EXPECT_FALSE(isTaken(0));
-  EXPECT_FALSE(isTaken(id - 1));
-  EXPECT_FALSE(isTaken(id + 1));
-  EXPECT_TRUE(isTaken(id));
+  EXPECT_FALSE(isTaken(client, 0));
+  EXPECT_FALSE(isTaken(client, id - 1));
+  EXPECT_FALSE(isTaken(client, id + 1));
+  EXPECT_TRUE(isTaken(client, id));
   server_.publish();
-  EXPECT_FALSE(isTaken(id));
+  EXPECT_FALSE(isTaken(client, id));
   // Time does not advance: an answer to either state of this moment is accepted.
   server_.publish(1, true);
-  EXPECT_TRUE(isTaken(id + 1));
+  EXPECT_TRUE(isTaken(client, id + 1));
+}
+
+codec::MoveRequest asynchronousMotion() {
+  codec::MoveRequest request;
+  request.use_async_motion_generator = true;
+  request.maximum_velocity.fill(0.5);
+  return request;
 }
 
 TEST_F(RobotServerTest, AcceptsTargetsOfAnAsynchronousMotionAtAnyTime) {
@@ -151,12 +147,7 @@ TEST_F(RobotServerTest, AcceptsTargetsOfAnAsynchronousMotionAtAnyTime) {
   connect(client, 10);
   server_.publish();
   const std::uint64_t before = client.state()->message_id;
-  handler_.startMotion();
-  codec::MoveRequest request;
-  request.use_async_motion_generator = true;
-  request.maximum_velocity.fill(0.5);
-  client.request(request);
-  serve();
+  startMotion(client, asynchronousMotion());
   EXPECT_TRUE(server_.asynchronous());
   server_.publish();
   const std::uint64_t first = client.state()->message_id;
@@ -165,23 +156,15 @@ TEST_F(RobotServerTest, AcceptsTargetsOfAnAsynchronousMotionAtAnyTime) {
     EXPECT_FALSE(server_.receiveCommand());
     EXPECT_EQ(server_.takeCommand(), nullptr);
   }
-  const auto isTaken = [&](std::uint64_t of) {
-    franka_core::RobotCommand command;
-    command.message_id = of;
-    client.command(command);
-    server_.receiveCommand();
-    return server_.takeCommand() != nullptr;
-  };
-  EXPECT_TRUE(isTaken(first)) << "its client has received no later state";
-  EXPECT_FALSE(isTaken(before)) << "that state is from before the motion";
-  EXPECT_FALSE(isTaken(first + 50)) << "that state has not been sent yet";
-  EXPECT_TRUE(isTaken(first + 49));
+  EXPECT_TRUE(isTaken(client, first)) << "its client has received no later state";
+  EXPECT_FALSE(isTaken(client, before)) << "that state is from before the motion";
+  EXPECT_FALSE(isTaken(client, first + 50)) << "that state has not been sent yet";
+  EXPECT_TRUE(isTaken(client, first + 49));
   // The next motion is not asynchronous.
   handler_.endMotion(Status::kSuccess, RobotMode::kIdle);
   server_.publish();
-  handler_.startMotion();
-  client.request(codec::MoveRequest{});
-  serve();
+  client.answer(Command::kMove);
+  startMotion(client);
   EXPECT_TRUE(server_.expectsCommands());
   EXPECT_FALSE(server_.asynchronous());
 }
@@ -190,12 +173,7 @@ TEST_F(RobotServerTest, TheNewestTargetOfAnAsynchronousMotionCounts) {
   constexpr int kSent = 100;
   TestClient client(server_.port());
   connect(client, 10);
-  handler_.startMotion();
-  codec::MoveRequest request;
-  request.use_async_motion_generator = true;
-  request.maximum_velocity.fill(0.5);
-  client.request(request);
-  serve();
+  startMotion(client, asynchronousMotion());
   franka_core::RobotCommand command;
   server_.publish();
   command.message_id = client.state()->message_id;
@@ -224,10 +202,7 @@ TEST_F(RobotServerTest, TheNewestTargetOfAnAsynchronousMotionCounts) {
 TEST_F(RobotServerTest, SwitchedOffEndsTheMotionAndRefusesConnections) {
   TestClient client(server_.port());
   connect(client, 5);
-  handler_.startMotion();
-  client.request(codec::MoveRequest{});
-  serve();
-  ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
+  startMotion(client);
   TestClient waiting(server_.port());  // not yet accepted
   handler_.on = false;
   handler_.endMotion(Status::kAborted, RobotMode::kIdle);
@@ -266,10 +241,7 @@ TEST_F(RobotServerTest, RefusesAConnectDuringAMotionAndContinuesIt) {
   for (const std::uint16_t other : {5, 6, 10}) {
     TestClient client(server_.port());
     connect(client, 5);
-    handler_.startMotion();
-    client.request(codec::MoveRequest{});
-    serve();
-    ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
+    startMotion(client);
     client.request(codec::ConnectRequest{other, 1});
     serve();
     const auto refused = client.answer(Command::kConnect);
@@ -289,8 +261,7 @@ TEST_F(RobotServerTest, RefusesAConnectDuringAMotionAndContinuesIt) {
     handler_.endMotion(Status::kSuccess, RobotMode::kIdle);
     server_.publish();
     EXPECT_EQ(client.answer(Command::kMove)->reply.status, Status::kSuccess);
-    client.close();
-    ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+    disconnect(client);
   }
 }
 
@@ -310,9 +281,7 @@ TEST_F(RobotServerTest, RepeatsAStateByteForByte) {
 TEST_F(RobotServerTest, DropsInvalidDatagrams) {
   TestClient client(server_.port());
   connect(client, 5);
-  handler_.startMotion();
-  client.request(codec::MoveRequest{});
-  serve();
+  startMotion(client);
   server_.publish();
   const auto state = client.state();
   franka_core::RobotCommand command;
@@ -338,24 +307,18 @@ TEST_F(RobotServerTest, DropsInvalidDatagrams) {
   EXPECT_TRUE(std::isnan(server_.takeCommand()->q_c[0]));
 }
 
-TEST_F(RobotServerTest, AnswersASetterAfterTheStateThatContainsIt) {
+TEST_F(RobotServerTest, AnswersASetterWithItsStatusAfterTheStateThatContainsIt) {
   TestClient client(server_.port());
   connect(client, 5);
-  client.request(codec::SetLoadRequest{1.5, {}, {}});
-  serve();
-  EXPECT_EQ(std::get<codec::SetLoadRequest>(handler_.last).mass, 1.5);
-  EXPECT_FALSE(client.answer(Command::kSetLoad, 0));
-  server_.publish();
-  EXPECT_EQ(client.answer(Command::kSetLoad)->reply.status, Status::kSuccess);
-}
-
-TEST_F(RobotServerTest, ForwardsEveryStatusOfASetter) {
-  TestClient client(server_.port());
-  connect(client, 10);
   for (const Status status :
        {Status::kSuccess, Status::kCommandNotPossibleRejected, Status::kInvalidArgumentRejected}) {
     handler_.answer = status;
-    EXPECT_EQ(ask(client, codec::SetJointImpedanceRequest{})->reply.status, status);
+    client.request(codec::SetLoadRequest{1.5, {}, {}});
+    serve();
+    EXPECT_EQ(std::get<codec::SetLoadRequest>(handler_.last).mass, 1.5);
+    EXPECT_FALSE(client.answer(Command::kSetLoad, 0));
+    server_.publish();
+    EXPECT_EQ(client.answer(Command::kSetLoad)->reply.status, status);
   }
 }
 
@@ -363,20 +326,18 @@ TEST_F(RobotServerTest, AnswersStopAndRecoveryWhenTheyEnd) {
   TestClient client(server_.port());
   connect(client, 5);
   handler_.answer = std::nullopt;
-  client.request(codec::StopMoveRequest{});
-  serve();
-  server_.publish();
-  EXPECT_FALSE(client.answer(Command::kStopMove, 0));
-  handler_.stop_end = Status::kSuccess;
-  server_.publish();
-  EXPECT_EQ(client.answer(Command::kStopMove)->reply.status, Status::kSuccess);
-  client.request(codec::AutomaticErrorRecoveryRequest{});
-  serve();
-  server_.publish();
-  EXPECT_FALSE(client.answer(Command::kAutomaticErrorRecovery, 0));
-  handler_.recovery_end = Status::kAborted;
-  server_.publish();
-  EXPECT_EQ(client.answer(Command::kAutomaticErrorRecovery)->reply.status, Status::kAborted);
+  const auto answerAfter = [&](const codec::Request& request, std::optional<Status>& end,
+                               Status status) {
+    EXPECT_FALSE(ask(client, request, 0));
+    end = status;
+    server_.publish();
+    return client.answer(codec::commandOf(request))->reply.status;
+  };
+  EXPECT_EQ(answerAfter(codec::StopMoveRequest{}, handler_.stop_end, Status::kSuccess),
+            Status::kSuccess);
+  EXPECT_EQ(
+      answerAfter(codec::AutomaticErrorRecoveryRequest{}, handler_.recovery_end, Status::kAborted),
+      Status::kAborted);
 }
 
 TEST_F(RobotServerTest, DefersAllRequestsExceptStops) {
@@ -436,10 +397,7 @@ TEST_F(RobotServerTest, KeepsTheStateThatShowsAnAbortUntilTheClientsNextRequest)
     }
   };
   const auto move = [&] {
-    handler_.startMotion();
-    client.request(codec::MoveRequest{});
-    serve();
-    ASSERT_EQ(client.answer(Command::kMove)->reply.status, Status::kMotionStarted);
+    startMotion(client);
     publish(3);
     EXPECT_EQ(3, states()) << "states of a motion are not kept back";
   };
@@ -558,8 +516,7 @@ TEST_F(RobotServerTest, SurvivesRandomBytes) {
     client.sendBytes(noise.data(), noise.size());
     serve();
     server_.publish();
-    client.close();
-    ASSERT_TRUE(until([&] { return !server_.hasClient(); }));
+    disconnect(client);
     serve();
   }
   TestClient client(server_.port());

@@ -174,14 +174,10 @@ TEST_P(ServedModel, UrdfReadsBackTheSameArm) {
   for (int round = 0; round < 20; round++) {
     const Array7 q = joints(), dq = joints();
     const auto due = arm_.pose(ArmFrame::kFlange, q), got = again.pose(ArmFrame::kFlange, q);
-    for (std::size_t i = 0; i < 16; i++) {
-      EXPECT_NEAR(due[i], got[i], 1e-12);
-    }
+    test::expectNear(due, got, 1e-12);
     const auto tau = arm_.inverseDynamics(q, dq, dq, {}),
                read = again.inverseDynamics(q, dq, dq, {});
-    for (std::size_t i = 0; i < 7; i++) {
-      EXPECT_NEAR(tau[i], read[i], 1e-10);
-    }
+    test::expectNear(tau, read, 1e-10);
   }
 }
 

@@ -28,13 +28,6 @@ using franka_core::RobotMode;
 using franka_core::RobotState;
 using franka_test::TestClient;
 
-ControlUnitParameters unitOf(unsigned version) {
-  ControlUnitParameters parameters = test::pandaWithHand();
-  parameters.rules = InterfaceRules::kFci;
-  parameters.protocol_version = version;
-  return parameters;
-}
-
 RobotServerParameters serverOf(const ProtocolRange& protocols) {
   RobotServerParameters parameters =
       makeServerParameters("127.0.0.1", protocols, test::pandaModel());
@@ -45,7 +38,7 @@ RobotServerParameters serverOf(const ProtocolRange& protocols) {
 class SimRobotTest : public ::testing::Test {
  protected:
   explicit SimRobotTest(unsigned version = 10, ProtocolRange protocols = {6, 10})
-      : robot(unitOf(version), arm, serverOf(protocols), std::nullopt) {
+      : robot(test::pandaOverFci(version), arm, serverOf(protocols), std::nullopt) {
     arm.payload = test::pandaHand();
     arm.push_frame = kHandF_T_NE;
     tick();
@@ -76,6 +69,17 @@ class SimRobotTest : public ::testing::Test {
     ASSERT_EQ(answer->reply.status, Status::kMotionStarted);
   }
 
+  /// Answers the next state.
+  static void send(TestClient& client, const std::array<double, 7>& q_c, bool finished = false) {
+    const auto shown = client.state();
+    ASSERT_TRUE(shown);
+    franka_core::RobotCommand command;
+    command.message_id = shown->message_id;
+    command.q_c = q_c;
+    command.motion_generation_finished = finished;
+    client.command(command);
+  }
+
   void leave(TestClient& client) {
     client.close();
     while (robot.server().hasClient()) {
@@ -104,18 +108,13 @@ TEST_F(Panda, StartsAMotionWithoutDelayedCommandsOfTheLast) {
     startMotion(client);
     bool again = false;
     const auto exchange = [&](bool finished) {
-      const auto shown = client.state();
-      ASSERT_TRUE(shown);
       if (!again && client.answer(Command::kMove, 0)) {
         again = true;
+        ASSERT_TRUE(client.state());
         startMotion(client);
         return;
       }
-      franka_core::RobotCommand command;
-      command.message_id = shown->message_id;
-      command.q_c = test::kReady;
-      command.motion_generation_finished = finished;
-      client.command(command);
+      send(client, test::kReady, finished);
     };
     for (int i = 0; i < 1000 && !again; i++) {
       tick([&] { exchange(i > 20); });
@@ -182,12 +181,7 @@ TEST_F(SimRobotTest, ReachesATargetSentOnceAndEndsAfterADisconnect) {
   EXPECT_TRUE(robot.asynchronous());
   std::array<double, 7> target = test::kReady;
   target[3] += 0.1;
-  tick([&] {
-    franka_core::RobotCommand command;
-    command.message_id = client.state()->message_id;
-    command.q_c = target;
-    client.command(command);
-  });
+  tick([&] { send(client, target); });
   for (int i = 0; i < 1500; i++) {
     tick();
     ASSERT_EQ(state().robot_mode, RobotMode::kMove) << i;
@@ -249,12 +243,7 @@ TEST_F(SimRobotTest, RepeatsLostCommandsAfterARestart) {
     startMotion(client);
     std::vector<double> rates;
     for (int i = 0; i < 100; i++) {
-      tick([&] {
-        franka_core::RobotCommand command;
-        command.message_id = client.state()->message_id;
-        command.q_c = test::kReady;
-        client.command(command);
-      });
+      tick([&] { send(client, test::kReady); });
       rates.push_back(state().control_command_success_rate);
     }
     EXPECT_EQ(state().robot_mode, RobotMode::kMove);
@@ -294,16 +283,10 @@ TEST_F(SimRobotTest, AResetAnswersRequestsThatWaitForRest) {
   TestClient client(robot.server().port());
   connect(client, 10);
   startMotion(client);
-  double q = test::kReady[0];
-  const auto command = [&](double speed) {
-    franka_core::RobotCommand command;
-    command.message_id = client.state()->message_id;
-    command.q_c = test::kReady;
-    command.q_c[0] = q += 1e-3 * speed;
-    client.command(command);
-  };
+  std::array<double, 7> q = test::kReady;
   for (int i = 0; i < 300; i++) {
-    tick([&] { command(1e-3 * i); });
+    q[0] += 1e-6 * i;
+    tick([&] { send(client, q); });
   }
   ASSERT_EQ(state().robot_mode, RobotMode::kMove);
   client.request(codec::StopMoveRequest{});

@@ -19,7 +19,6 @@
 
 #include "../physics/test_support.h"
 #include "fci/robot_server.h"
-#include "fci/served_models.h"
 
 namespace franka_sim::fci {
 
@@ -119,11 +118,9 @@ class SimulatedRobots {
     unit.rules = InterfaceRules::kFci;
     unit.protocol_version = place.version;
     world_.addRobot(description);
-    RobotServerParameters server;
+    RobotServerParameters server =
+        makeServerParameters("127.0.0.1", {place.version, place.version}, unit.model);
     server.port = 0;
-    server.oldest_version = server.newest_version = place.version;
-    server.model_library = servedLibrary(unit.model);
-    server.urdfs = {{8, servedUrdf(unit.model, place.version)}};
     SimRobot::Hand hand{&world_.hand(name, name), {}, 0};
     hand.parameters.gains = {FingerGains{100, 0, 1}, FingerGains{100, 0, 1}};
     robots_.push_back(std::make_unique<SimRobot>(unit, world_.arm(name, name), server, hand));

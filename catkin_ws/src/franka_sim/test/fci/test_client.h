@@ -56,7 +56,6 @@ class TestClient {
 
   bool connected() const { return connected_; }
   std::uint16_t udpPort() const { return udp_port_; }
-  void setVersion(std::uint16_t version) { version_ = version; }
 
   bool sendBytes(const void* data, std::size_t size) {
     return ::send(tcp_, data, size, MSG_NOSIGNAL) == static_cast<ssize_t>(size);

@@ -11,7 +11,6 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <future>
 #include <limits>
 #include <mutex>
 #include <stdexcept>
@@ -231,15 +230,6 @@ TEST_F(VacuumGripperOnTheNetwork, ReportsFailures) {
   EXPECT_TRUE(becomes(gripper, [](const franka::VacuumGripperState& state) {
     return state.device_status == franka::VacuumGripperDeviceStatus::kRed;
   }));
-}
-
-TEST_F(VacuumGripperOnTheNetwork, StopInterruptsACommandOfAnotherThread) {
-  const franka::VacuumGripper gripper = client();
-  auto waiting = std::async(std::launch::async, [&] { return gripper.vacuum(50, 1h); });
-  ASSERT_TRUE(becomes(
-      gripper, [](const franka::VacuumGripperState& state) { return state.actual_power == 100; }));
-  EXPECT_TRUE(gripper.stop());
-  EXPECT_THROW(waiting.get(), franka::CommandException);
 }
 
 }  // namespace

@@ -118,19 +118,6 @@ TEST_P(AdaptiveStepsTest, SmallStepsBeginBeforeTheFirstTouch) {
   EXPECT_GE(small, 1) << "ticks of small steps that ended without a touch";
 }
 
-TEST_P(AdaptiveStepsTest, ASnapshotWithinContactContinuesBitForBit) {
-  placeStone();
-  run(500, 2.5);
-  const Snapshot snapshot = world_.snapshot();
-  run(50, 2.5);
-  const std::uint64_t first = world_.stateHash();
-  run(2000, -2.0);  // opens, and comes to long steps
-  world_.restore(snapshot);
-  run(50, 2.5);
-  EXPECT_EQ(kSmall, world_.substeps());
-  EXPECT_EQ(first, world_.stateHash());
-}
-
 /// What is decided for the next ticks, and which objects are held, is part of a snapshot: wherever
 /// it is taken, the world goes on in the same way, also if half of the next step was computed
 /// before.

@@ -16,6 +16,17 @@ class ArmPlantTest : public ::testing::TestWithParam<const char*> {
     holder_ = std::make_unique<ArmHolder>(arm_, id());
   }
 
+  /// Holds the pose, except for joint 1, which has this torque [Nm].
+  template <typename Torque>
+  void turnJoint1(int ticks, Torque torque) {
+    for (int k = 0; k < ticks; ++k) {
+      auto tau = holder_->torques(kHome);
+      tau[0] = torque();
+      arm_->applyTorques(tau);
+      world_.step();
+    }
+  }
+
   World world_;
   ArmPlant* arm_{nullptr};
   std::unique_ptr<ArmHolder> holder_;
@@ -80,12 +91,7 @@ TEST_P(ArmPlantTest, SensorMeasuresTheLinkSidesFrictionOnly) {
   for (const double speed : {0.5, -0.3}) {
     // Constant speed of joint 1 by a stiff speed loop; it turns about the vertical: no gravity.
     double motor = 0.0;
-    for (int k = 0; k < 1500; ++k) {
-      auto tau = holder_->torques(kHome);
-      motor = tau[0] = 30.0 * (speed - arm_->measure().dq[0]);
-      arm_->applyTorques(tau);
-      world_.step();
-    }
+    turnJoint1(1500, [&] { return motor = 30.0 * (speed - arm_->measure().dq[0]); });
     const ArmMeasurement m = arm_->measure();
     const double link = linkFriction(law, m.dq[0]);
     EXPECT_NEAR(link, m.tau_J[0], 5e-3);
@@ -99,19 +105,13 @@ TEST_P(ArmPlantTest, DryFrictionHoldsTheJointWithoutCreepAndIsNotMeasured) {
   RobotDescription description = robot(id());
   description.friction[id() + "_joint1"].coulomb = 1.5;
   put(description);
-  const auto push = [this](int ticks) {
-    for (int k = 0; k < ticks; ++k) {
-      auto tau = holder_->torques(kHome);
-      tau[0] = std::min(1.4, world_.time());  // a step would make the arm swing beyond
-      arm_->applyTorques(tau);
-      world_.step();
-    }
-  };
-  push(3000);
+  // A step would make the arm swing beyond.
+  const auto torque = [this] { return std::min(1.4, world_.time()); };
+  turnJoint1(3000, torque);
   const double rests_at = arm_->measure().q[0];
   EXPECT_NEAR(0.0, arm_->measure().tau_J[0], 1e-6);
   EXPECT_NEAR(kHome[0] + 1e-4 * 1.4 / 1.5, rests_at, 1e-6) << "the spring of the motor side";
-  push(10000);
+  turnJoint1(10000, torque);
   EXPECT_NEAR(rests_at, arm_->measure().q[0], 1e-9) << "it creeps";
 }
 
@@ -121,12 +121,7 @@ TEST_P(ArmPlantTest, FrictionIsPartOfTheWorldsState) {
   description.friction[id() + "_joint1"].coulomb = 1.5;
   put(description);
   const auto run = [this](int ticks) {
-    for (int k = 0; k < ticks; ++k) {
-      auto tau = holder_->torques(kHome);
-      tau[0] = 1.4;
-      arm_->applyTorques(tau);
-      world_.step();
-    }
+    turnJoint1(ticks, [] { return 1.4; });
     return world_.stateHash();
   };
   const std::uint64_t first = run(20);
@@ -153,13 +148,9 @@ TEST_P(ArmPlantTest, ClosedBrakesHoldForTenSecondsWithoutTorque) {
   }
   arm_->setBrakes(true);
   arm_->applyTorques({50, 50, 50, 50, 10, 10, 10});  // ignored
-  for (int k = 0; k < 100; ++k) {
-    world_.step();
-  }
+  run(world_, 100);
   const ArmMeasurement before = arm_->measure();
-  for (int k = 0; k < 10000; ++k) {
-    world_.step();
-  }
+  run(world_, 10000);
   const ArmMeasurement after = arm_->measure();
   const auto gravity = holder_->model().gravity(after.q, holder_->payload());
   for (int i = 0; i < 7; ++i) {
@@ -173,34 +164,21 @@ TEST_P(ArmPlantTest, BrakesHoldAgainstAPushAndOpenAgain) {
   put(robot(id()));
   arm_->setBrakes(true);
   pushBody(world_, id() + "_hand", {60, 40, -50}, {}, 2000);
-  for (int k = 0; k < 2000; ++k) {
-    world_.step();
-  }
-  for (int i = 0; i < 7; ++i) {
-    EXPECT_NEAR(kHome[i], arm_->measure().q[i], 2e-5);
-  }
+  run(world_, 2000);
+  test::expectNear(kHome, arm_->measure().q, 2e-5);
   arm_->setBrakes(false);
   arm_->applyTorques({});
-  for (int k = 0; k < 300; ++k) {
-    world_.step();
-  }
+  run(world_, 300);
   EXPECT_GT(std::abs(arm_->measure().q[1] - kHome[1]), 1e-2) << "it must fall";
 }
 
 TEST_P(ArmPlantTest, BrakesStopAMovingArm) {
   put(robot(id()));
-  for (int k = 0; k < 500; ++k) {
-    auto tau = holder_->torques(kHome);
-    tau[0] = 30.0 * (1.0 - arm_->measure().dq[0]);
-    arm_->applyTorques(tau);
-    world_.step();
-  }
+  turnJoint1(500, [this] { return 30.0 * (1.0 - arm_->measure().dq[0]); });
   ASSERT_GT(arm_->measure().dq[0], 0.9);
   const double q = arm_->measure().q[0];
   arm_->setBrakes(true);
-  for (int k = 0; k < 100; ++k) {
-    world_.step();
-  }
+  run(world_, 100);
   EXPECT_NEAR(0.0, arm_->measure().dq[0], 1e-6);
   EXPECT_NEAR(q, arm_->measure().q[0], 1e-4);
 }
@@ -217,12 +195,7 @@ TEST_P(ArmPlantTest, JointStopsLimitTheTravel) {
   RobotDescription description = robot(id());
   description.stops[id() + "_joint1"] = {-0.3, 0.5};
   put(description);
-  for (int k = 0; k < 4000; ++k) {
-    auto tau = holder_->torques(kHome);
-    tau[0] = 20;
-    arm_->applyTorques(tau);
-    world_.step();
-  }
+  turnJoint1(4000, [] { return 20.0; });
   EXPECT_NEAR(0.5, arm_->measure().q[0], 0.01);
 }
 

@@ -20,9 +20,7 @@ class GraspTest : public StoneInHandTest {
 
 TEST_P(GraspTest, PadsPressWithTheFingerForceAndCarryTheWeight) {
   placeStone();
-  for (int k = 0; k < 2000; ++k) {
-    tick(kFingerForce, kHome);
-  }
+  run(2000, kFingerForce);
   const Eigen::Vector3d left = forceFrom("leftfinger");
   const Eigen::Vector3d right = forceFrom("rightfinger");
   const Eigen::Vector3d across =
@@ -39,24 +37,18 @@ TEST_P(GraspTest, WhatTouchesTheStoneIsShownInBrief) {
     const Touches found = touches(world_, "stone");
     return std::make_pair(found.robots, found.others);
   };
-  for (int k = 0; k < 1000; ++k) {
-    tick(-kFingerForce, kHome);
-  }
+  run(1000, -kFingerForce);
   EXPECT_EQ(std::make_pair(std::vector<std::string>{}, true), partners()) << "on its tray";
   placeStone();
   EXPECT_TRUE(partners().second) << "in the last step";
-  for (int k = 0; k < 1000; ++k) {
-    tick(kFingerForce, kHome);
-  }
+  run(1000, kFingerForce);
   EXPECT_EQ(std::make_pair(std::vector<std::string>{id()}, false), partners()) << "in the hand";
   EXPECT_THROW(touches(world_, "pebble"), std::runtime_error);
 }
 
 TEST_P(GraspTest, StoneStaysGraspedForAMinuteOfMotion) {
   placeStone();
-  for (int k = 0; k < 1000; ++k) {
-    tick(kFingerForce, kHome);
-  }
+  run(1000, kFingerForce);
   const Eigen::Vector3d start = stoneInHand();
   Eigen::Vector3d last_tcp = toEigen(bodyPose(world_, id() + "_hand_tcp")).translation();
   double fastest = 0, farthest = 0;
@@ -90,24 +82,8 @@ TEST_P(GraspTest, StoneStaysGraspedForAMinuteOfMotion) {
 /// Two pads with friction 0.6 carry at most 2 * 0.6 * F: below 0.84 N the stone must slip.
 TEST_P(GraspTest, StoneSlipsWithTooLittleForce) {
   placeStone();
-  for (int k = 0; k < 1500; ++k) {
-    tick(0.6, kHome);
-  }
+  run(1500, 0.6);
   EXPECT_GT(stoneInHand().z(), 0.1034 + 0.02) << "friction of the stone (0.6) decides, not 1.13";
-}
-
-/// With closed brakes the fingers still hold, and the arm does not move.
-TEST_P(GraspTest, GraspHoldsWithClosedBrakes) {
-  placeStone();
-  for (int k = 0; k < 1000; ++k) {
-    tick(kFingerForce, kHome);
-  }
-  const Eigen::Vector3d start = stoneInHand();
-  arm_->setBrakes(true);
-  for (int k = 0; k < 5000; ++k) {
-    tick(kFingerForce, kHome);
-  }
-  EXPECT_LT((stoneInHand() - start).norm(), 1e-4);
 }
 
 /// With so many contacts between cubes, conjugate gradients solve all constraints, those of the
@@ -128,19 +104,16 @@ TEST_P(GraspTest, GraspHoldsBesideAPile) {
           pose);
     }
   }
-  for (int k = 0; k < 500; ++k) {
-    tick(kFingerForce, kHome);
-  }
+  run(500, kFingerForce);
   EXPECT_GT(contacts(world_).size(), 250u);
+  EXPECT_TRUE(world_.takeWarnings().empty());
   const Eigen::Vector3d left = forceFrom("leftfinger");
   const Eigen::Vector3d right = forceFrom("rightfinger");
   EXPECT_NEAR(kWeight, left.z() + right.z(), 1e-2 * kWeight);
   const auto fingers = hand_->measure().q;
   EXPECT_NEAR(fingers[0], fingers[1], 1e-5);
   const Eigen::Vector3d start = stoneInHand();
-  for (int k = 0; k < 500; ++k) {
-    tick(kFingerForce, kHome);
-  }
+  run(500, kFingerForce);
   EXPECT_LT((stoneInHand() - start).norm(), 1e-4);
   for (int i = 0; i < cubes; ++i) {
     const double layer = i < 16 ? 0 : i < 25 ? 1 : i < 29 ? 2 : 3;

@@ -229,9 +229,7 @@ TEST(JointDriveNames, DoNotSwitchFrictionOff) {
   JointDrive& wheel = world.drive("machine", "wheel_joint1");
   ASSERT_TRUE(world.drive("machine", "lift").follow(0.5));
   wheel.applyEffort(1.2);
-  for (int i = 0; i < 500; ++i) {
-    world.step();
-  }
+  run(world, 500);
   EXPECT_NEAR((1.2 - 0.2) / 0.5, wheel.measure().velocity, 1e-6);
 }
 

@@ -34,9 +34,7 @@ std::string off(const std::string& link, const std::string& how = "<gravity>fals
 }
 
 double angleAfter(World& world, int ticks) {
-  for (int k = 0; k < ticks; ++k) {
-    world.step();
-  }
+  run(world, ticks);
   return jointState(world, "swing").position;
 }
 
@@ -74,33 +72,24 @@ TEST(LinksWithoutGravity, OfAnObjectFloatAndAccelerateAsTheirMass) {
            "<inertial><mass>2</mass></inertial></link></model></sdf>";
   };
   World world;
-  Pose pose;
-  pose.position = {0, 0, 50};
-  world.addObject("balloon", box("balloon", "<gravity>false</gravity>"), pose);
-  pose.position = {6, 0, 50};
+  world.addObject("balloon", box("balloon", "<gravity>false</gravity>"), at(0, 0, 50));
   world.addObject(
       "kite",
       "<robot name='kite'><link name='l'><inertial><mass value='2'/><inertia ixx='0.01' "
       "iyy='0.01' izz='0.01' ixy='0' ixz='0' iyz='0'/></inertial></link>" +
           off("l") + "</robot>",
-      pose);
-  pose.position = {3, 0, 50};
-  world.addObject("stone", box("stone", ""), pose);
+      at(6, 0, 50));
+  world.addObject("stone", box("stone", ""), at(3, 0, 50));
   EXPECT_FALSE(bodyInertia(world, "balloon").gravity);
   EXPECT_TRUE(bodyInertia(world, "stone").gravity);
-  const auto run = [&world](int ticks) {
-    for (int k = 0; k < ticks; ++k) {
-      world.step();
-    }
-  };
-  run(1000);
+  run(world, 1000);
   EXPECT_NEAR(50.0, bodyPose(world, "balloon").position[2], 1e-9);
   EXPECT_NEAR(50.0, bodyPose(world, "kite").position[2], 1e-9);
   EXPECT_NEAR(50.0 - 0.5 * 9.81, bodyPose(world, "stone").position[2], 0.01);
   pushBody(world, "balloon", {4, 0, 0}, {0, 0, 0}, 1000);
-  run(1000);
+  run(world, 1000);
   EXPECT_NEAR(2.0, bodyState(world, "balloon").twist.linear[0], 1e-6);
-  run(1000);
+  run(world, 1000);
   EXPECT_NEAR(50.0, bodyPose(world, "balloon").position[2], 1e-9);
 }
 

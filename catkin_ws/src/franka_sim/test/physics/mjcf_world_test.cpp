@@ -135,9 +135,7 @@ TEST_F(MjcfWorldTest, IncludesAndRelativeFilesWork) {
   World world(write("world.xml", R"(<mujoco><include file="rock.xml"/><worldbody>
     <geom type="plane" size="5 5 1"/></worldbody></mujoco>)"));
   world.addRobot(robot("panda"));
-  for (int k = 0; k < 2000; ++k) {
-    world.step();
-  }
+  run(world, 2000);
   const double z = bodyPose(world, "rock").position[2];
   EXPECT_GT(z, -0.01);
   EXPECT_LT(z, 0.2) << "it fell onto the ground";

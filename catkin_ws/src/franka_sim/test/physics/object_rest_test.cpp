@@ -15,12 +15,6 @@ class ObjectRestTest : public StoneInHandTest {
  protected:
   static constexpr double kWeight = 0.1024 * 9.81;  // of the stone [N]
 
-  void run(int ticks) {
-    for (int k = 0; k < ticks; ++k) {
-      tick(0.0, kHome);
-    }
-  }
-
   /// Ticks until objects are held, at most so many.
   bool settles(int ticks = 2000) {
     for (int k = 0; k < ticks && !held(); ++k) {
@@ -41,13 +35,11 @@ class ObjectRestTest : public StoneInHandTest {
   double heightOf(const std::string& body) { return bodyPose(world_, body).position[2]; }
 
   void addBox(const std::string& name, const std::string& half, double z) {
-    Pose pose;
-    pose.position = {0.0, 0.0, z};
     const std::string size = half + " " + half + " " + half;
     world_.addObject(name,
                      "<body name='" + name + "'><freejoint/><geom type='box' size='" + size +
                          "' mass='0.1'/></body>",
-                     pose);
+                     at(0.0, 0.0, z));
   }
 
   /// MuJoCo lets a box tremble on one of its own size; a smaller one rests.
@@ -187,12 +179,10 @@ TEST_P(ObjectRestTest, WhatCreepsOnATiltedTrayIsNotHeld) {
 }
 
 TEST_P(ObjectRestTest, APendulumIsNotHeldWhereItTurnsBack) {
-  Pose pose;
-  pose.position = {0.5, 0.6, 0.8};
   world_.addObject("pendulum",
                    "<body name='pendulum'><joint name='swing' type='hinge' axis='0 1 0'/>"
                    "<geom type='capsule' fromto='0 0 0 0 0 -0.3' size='0.01'/></body>",
-                   pose);
+                   at(0.5, 0.6, 0.8));
   setJointPosition(world_, "swing", 0.001);
   double lowest = 0.0;
   for (int k = 0; k < 3000; ++k) {
@@ -205,17 +195,10 @@ TEST_P(ObjectRestTest, APendulumIsNotHeldWhereItTurnsBack) {
 
 /// The hand comes down over the stone with open fingers, and closes.
 TEST_P(ObjectRestTest, ItIsFreeBeforeTheFirstTouch) {
-  Pose below = bodyPose(world_, id() + "_hand_tcp");
-  below.position[1] += 0.12;
+  const auto [x, y, z] = bodyPose(world_, id() + "_hand_tcp").position;
   world_.addObject("stand", "<body name='stand'><geom type='box' size='0.03 0.02 0.05'/></body>",
-                   [&] {
-                     Pose stand;
-                     stand.position = below.position;
-                     stand.position[2] -= 0.082;
-                     return stand;
-                   }());
-  below.orientation = {1, 0, 0, 0};
-  setBodyPose(world_, "stone", below);
+                   at(x, y + 0.12, z - 0.082));
+  setBodyPose(world_, "stone", at(x, y + 0.12, z));
   ASSERT_TRUE(settles());
   const auto robot_touches = [this] { return !touches(world_, "stone").robots.empty(); };
   int free = 0;

@@ -46,10 +46,8 @@ class RobotClearanceTest : public ::testing::TestWithParam<const char*> {
     }
   }
 
-  void addBlock(const std::string& name, const std::array<double, 3>& position) {
+  void addBlock(const std::string& name, const Pose& pose) {
     for (Side* side : {&quick_, &plain_}) {
-      Pose pose;
-      pose.position = position;
       side->world.addObject(
           name, "<body name='" + name + "'><geom type='box' size='0.05 0.05 0.2'/></body>", pose);
     }
@@ -91,8 +89,8 @@ TEST_P(RobotClearanceTest, AFreeArmIsLeftOutOfTheSearch) {
 TEST_P(RobotClearanceTest, RandomMotionsAmongBlocksAreTheSameBitForBit) {
   add("one", -0.5, 0, 0.3);
   add("two", 0.5, 0.1, 0.3);
-  addBlock("left", {0.0, 0.45, 0.6});
-  addBlock("right", {0.0, -0.4, 0.5});
+  addBlock("left", at(0.0, 0.45, 0.6));
+  addBlock("right", at(0.0, -0.4, 0.5));
   std::mt19937 random(7);
   std::uniform_real_distribution<double> turn(-1.2, 1.2);
   std::vector<std::array<double, 7>> target{kHome, kHome};
@@ -151,7 +149,7 @@ TEST_P(RobotClearanceTest, ChangesFromOutsideAreSeen) {
   for (int k = 0; k < 1000; ++k) {
     tick({kHome}, -2.0);
   }
-  addBlock("added", {0.2, 0, 0.9});  // far away, then into the arm
+  addBlock("added", at(0.2, 0, 0.9));  // far away, then into the arm
   for (Side* side : {&quick_, &plain_}) {
     setJointPosition(side->world, kind() + "_joint1", 0.4);
   }

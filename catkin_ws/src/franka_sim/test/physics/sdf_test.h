@@ -32,10 +32,4 @@ inline int bodyId(World& world, const std::string& name) {
   return mj_name2id(implOf(world).model.get(), mjOBJ_BODY, name.c_str());
 }
 
-inline void run(World& world, int ticks) {
-  for (int i = 0; i < ticks; ++i) {
-    world.step();
-  }
-}
-
 }  // namespace franka_sim::test

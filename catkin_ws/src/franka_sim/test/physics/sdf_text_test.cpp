@@ -236,36 +236,20 @@ TEST_F(SdfTextTest, LightsCamerasAndColorsKeepTheirDefaults) {
 }
 
 TEST_F(SdfTextTest, BitmasksAreWholeNumbers) {
-  const struct {
-    const char* text;
-    int mask;  ///< -1: refused
-  } cells[] = {
-      {"0", 0},
-      {"6", 6},
-      {"65535", 65535},
-      {"0x0a", 10},
-      {"0xffffffff", 65535},
-      {"4294967295", 65535},
-      {"-1", -1},
-      {"1.5", -1},
-      {"1e20", -1},
-      {"nan", -1},
-      {"0x", -1},
-      {"0x1g", -1},
-      {"0xfffffffffffffffff", -1},
-  };
-  for (const auto& cell : cells) {
-    const std::string text = world(
+  const auto collision = [](const std::string& mask) {
+    return world(
         "<model name='m'><link name='a'><collision name='c'><geometry><sphere/></geometry>"
         "<surface><contact><collide_bitmask>" +
-            std::string(cell.text) +
-            "</collide_bitmask></contact></surface></collision></link></model>",
+            mask + "</collide_bitmask></contact></surface></collision></link></model>",
         "1.6");
-    if (cell.mask < 0) {
-      expectSentence([&] { read(text); }, {"collide_bitmask", cell.text});
-    } else {
-      EXPECT_EQ(cell.mask, read(text).links.at(0).collisions.at(0).surface.bitmask) << cell.text;
-    }
+  };
+  for (const auto& [text, mask] :
+       {std::pair{"0", 0}, std::pair{"6", 6}, std::pair{"65535", 65535}, std::pair{"0x0a", 10},
+        std::pair{"0xffffffff", 65535}, std::pair{"4294967295", 65535}}) {
+    EXPECT_EQ(mask, read(collision(text)).links.at(0).collisions.at(0).surface.bitmask) << text;
+  }
+  for (const char* text : {"-1", "1.5", "1e20", "nan", "0x", "0x1g", "0xfffffffffffffffff"}) {
+    expectSentence([&] { read(collision(text)); }, {"collide_bitmask", text});
   }
 }
 

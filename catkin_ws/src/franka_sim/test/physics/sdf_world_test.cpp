@@ -266,45 +266,31 @@ TEST_F(SdfWorldTest, ReportsErrorsWithTheirFileAndCause) {
   }
 }
 
-/// A robot with self_collide false passes through itself: the hand through the forearm.
-TEST_F(SdfWorldTest, ReadsSelfCollideOfAUrdf) {
-  for (const bool collides : {true, false}) {
+/// A robot with self_collide false passes through itself: the hand through the forearm. As in
+/// Gazebo, one of two links decides: here the link of the hand.
+TEST_F(SdfWorldTest, ReadsSelfCollideOfAUrdfAndOfItsLinks) {
+  const std::string off = "<gazebo><self_collide>false</self_collide></gazebo>";
+  const auto link = [&off](const std::string& name) {
+    return off + "<gazebo reference='" + name + "'><selfCollide>true</selfCollide></gazebo>";
+  };
+  for (const auto& [settings, collides] :
+       {std::pair{std::string("<gazebo><self_collide>true</self_collide></gazebo>"), true},
+        std::pair{off, false}, std::pair{link("panda_hand"), true},
+        std::pair{link("panda_link1"), false}}) {
     World world;
     RobotDescription arm = robot("panda");
-    arm.urdf = replaceAll(arm.urdf, "</robot>",
-                          std::string("<gazebo><self_collide>") + (collides ? "true" : "false") +
-                              "</self_collide></gazebo></robot>");
+    arm.urdf = replaceAll(arm.urdf, "</robot>", settings + "</robot>");
     arm.initial_positions["panda_joint6"] = -0.5;
     arm.initial_positions["panda_joint4"] = -3.0;
     world.addRobot(arm);
     world.step();
-    bool touches = false;
-    for (const Contact& contact : contacts(world)) {
-      touches =
-          touches || (contact.body1.rfind("panda", 0) == 0 && contact.body2.rfind("panda", 0) == 0);
-    }
-    EXPECT_EQ(touches, collides);
-  }
-}
-
-/// As in Gazebo, one of two links decides: here the link of the hand.
-TEST_F(SdfWorldTest, ReadsSelfCollideOfALink) {
-  for (const std::string link : {"panda_hand", "panda_link1"}) {
-    World world;
-    RobotDescription arm = robot("panda");
-    arm.urdf = replaceAll(arm.urdf, "</robot>",
-                          "<gazebo><self_collide>false</self_collide></gazebo>"
-                          "<gazebo reference='" +
-                              link + "'><selfCollide>true</selfCollide></gazebo></robot>");
-    arm.initial_positions["panda_joint6"] = -0.5;
-    arm.initial_positions["panda_joint4"] = -3.0;
-    world.addRobot(arm);
-    world.step();
-    const auto touching = contacts(world);
-    EXPECT_EQ(link == "panda_hand",
-              std::any_of(touching.begin(), touching.end(), [](const Contact& contact) {
-                return contact.body1.rfind("panda", 0) == 0 && contact.body2.rfind("panda", 0) == 0;
-              }));
+    const auto found = contacts(world);
+    EXPECT_EQ(collides, std::any_of(found.begin(), found.end(),
+                                    [](const Contact& contact) {
+                                      return contact.body1.rfind("panda", 0) == 0 &&
+                                             contact.body2.rfind("panda", 0) == 0;
+                                    }))
+        << settings;
   }
 }
 

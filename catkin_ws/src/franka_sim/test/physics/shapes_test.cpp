@@ -72,13 +72,10 @@ TEST_F(ShapesTest, MeshesAreAtThePositionsOfTheirVertices) {
   const ShapeMesh& mesh = shapes.meshes.at(shape.mesh);
   ASSERT_EQ(12U, mesh.vertices.size());
   EXPECT_EQ(12U, mesh.faces.size());
-  const Pose& pose = shape.pose;
-  const Eigen::Quaterniond turn(pose.orientation[0], pose.orientation[1], pose.orientation[2],
-                                pose.orientation[3]);
   std::set<std::array<int, 3>> corners;  // [mm]
   for (std::size_t v = 0; v < 4; v++) {
-    const Eigen::Vector3d at = turn * Eigen::Vector3f(mesh.vertices.data() + 3 * v).cast<double>() +
-                               Eigen::Vector3d(pose.position.data());
+    const Eigen::Vector3f vertex(mesh.vertices.data() + 3 * v);
+    const Eigen::Vector3d at = toEigen(shape.pose) * vertex.cast<double>();
     corners.insert({static_cast<int>(std::lround(1e3 * at.x())),
                     static_cast<int>(std::lround(1e3 * at.y())),
                     static_cast<int>(std::lround(1e3 * at.z()))});

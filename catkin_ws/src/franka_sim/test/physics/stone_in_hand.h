@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <Eigen/Geometry>
 #include <array>
 #include <memory>
 #include <string>
@@ -10,14 +9,6 @@
 #include "test_support.h"
 
 namespace franka_sim::test {
-
-inline Eigen::Isometry3d toEigen(const Pose& pose) {
-  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
-  const auto& q = pose.orientation;
-  result.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
-  result.translation() = Eigen::Vector3d(pose.position.data());
-  return result;
-}
 
 /// An arm whose fingers are as far apart as the stone is wide, and the stone on its table. The
 /// parameter is the robot.
@@ -44,6 +35,13 @@ class StoneInHandTest : public ::testing::TestWithParam<const char*> {
     holder_->hold(q_d, dq_d);
     hand_->applyForces({-force, -force});
     world_.step();
+  }
+
+  /// The same for some ticks in the home pose.
+  void run(int ticks, double force = 0.0) {
+    for (int k = 0; k < ticks; ++k) {
+      tick(force, kHome);
+    }
   }
 
   Eigen::Vector3d stoneInHand() {

@@ -9,10 +9,13 @@
 #include <gtest/gtest.h>
 #include <source_file.h>
 
+#include <Eigen/Geometry>
 #include <array>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include "../support/arrays.h"
 
 namespace franka_sim::test {
 
@@ -32,6 +35,20 @@ inline Pose at(double x, double y, double z) {
   Pose pose;
   pose.position = {x, y, z};
   return pose;
+}
+
+inline void run(World& world, int ticks) {
+  for (int i = 0; i < ticks; ++i) {
+    world.step();
+  }
+}
+
+inline Eigen::Isometry3d toEigen(const Pose& pose) {
+  Eigen::Isometry3d result = Eigen::Isometry3d::Identity();
+  const auto& q = pose.orientation;
+  result.linear() = Eigen::Quaterniond(q[0], q[1], q[2], q[3]).toRotationMatrix();
+  result.translation() = Eigen::Vector3d(pose.position.data());
+  return result;
 }
 
 inline std::string replaceAll(std::string text, const std::string& from, const std::string& to) {
@@ -58,35 +75,9 @@ inline RobotDescription robot(const std::string& kind, const std::string& arm_id
 
 inline RobotDescription robot(const std::string& kind) { return robot(kind, kind); }
 
-/// The hand with closed fingers as payload at the flange, from the numbers of the description.
+/// The hand with closed fingers as payload at the flange.
 inline franka_core::Payload handPayload(const std::string& kind = "panda") {
-  const auto body = [](double mass, std::array<double, 3> com, std::array<double, 3> moments) {
-    franka_core::Payload payload;
-    payload.mass = mass;
-    payload.com = com;
-    payload.inertia = {moments[0], 0, 0, 0, moments[1], 0, 0, 0, moments[2]};
-    return payload;
-  };
-  if (kind == "fr3") {  // as Desk configures it
-    return body(0.73, {-0.01, 0, 0.03}, {0.001, 0.0025, 0.0017});
-  }
-  const std::array<double, 3> finger{2.375e-06, 2.375e-06, 7.5e-07};
-  franka_core::Payload hand = body(0.73, {-0.01, 0, 0.03}, {0.001, 0.0025, 0.0017});
-  hand = combine(hand, body(0.015, {0, 0, 0.0584}, finger));
-  hand = combine(hand, body(0.015, {0, 0, 0.0584}, finger));
-  // The hand is turned by -45 degrees about the flange's z: R I R^T, written out in the plane.
-  constexpr double kC = 0.70710678118654752440;
-  franka_core::Payload turned = hand;
-  turned.com = {kC * hand.com[0] + kC * hand.com[1], -kC * hand.com[0] + kC * hand.com[1],
-                hand.com[2]};
-  const double xx = hand.inertia[0], yy = hand.inertia[4];
-  turned.inertia[0] = turned.inertia[4] = 0.5 * (xx + yy);
-  turned.inertia[1] = turned.inertia[3] = 0.5 * (yy - xx);
-  // Products with z vanish: the hand's com has y = 0, and its product xz transforms like a vector.
-  const double xz = hand.inertia[6], yz = hand.inertia[7];
-  turned.inertia[2] = turned.inertia[6] = kC * xz + kC * yz;
-  turned.inertia[5] = turned.inertia[7] = -kC * xz + kC * yz;
-  return turned;
+  return franka_core::endEffectorFromUrdf(urdfOf(kind), kind);
 }
 
 /// Holds or moves the arm by gravity compensation and joint springs.

@@ -2,9 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/fci/commands.h>
 #include <franka_core/motion_limits.h>
 #include <gtest/gtest.h>
 
+#include "../support/arrays.h"
 #include "fake_arm.h"
 #include "panda_arm.h"
 
@@ -15,6 +17,23 @@ inline ControlUnitParameters pandaWithHand() {
   parameters.end_effector = pandaHand();
   parameters.F_T_NE = kHandF_T_NE;
   return parameters;
+}
+
+/// The same behind the FCI.
+inline ControlUnitParameters pandaOverFci(unsigned protocol_version = 5) {
+  ControlUnitParameters parameters = pandaWithHand();
+  parameters.rules = InterfaceRules::kFci;
+  parameters.protocol_version = protocol_version;
+  return parameters;
+}
+
+inline franka_core::fci::MoveRequest moveRequest(
+    franka_core::MotionGeneratorMode generator,
+    franka_core::ControllerMode controller = franka_core::ControllerMode::kJointImpedance) {
+  franka_core::fci::MoveRequest request;
+  request.motion_generator_mode = generator;
+  request.controller_mode = controller;
+  return request;
 }
 
 /// A Panda with its hand, the hand configured, in the ready pose.
@@ -48,15 +67,6 @@ inline franka_core::RobotCommand torques(const std::array<double, 7>& tau) {
   franka_core::RobotCommand command;
   command.tau_J_d = tau;
   return command;
-}
-
-template <std::size_t N>
-double norm(const std::array<double, N>& values, std::size_t first, std::size_t count) {
-  double sum = 0.0;
-  for (std::size_t i = first; i < first + count; i++) {
-    sum += values[i] * values[i];
-  }
-  return std::sqrt(sum);
 }
 
 }  // namespace franka_sim::test

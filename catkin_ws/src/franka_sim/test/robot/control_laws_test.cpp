@@ -205,8 +205,7 @@ TEST(JointImpedance, IsSpringDamperAndCoriolis) {
 }
 
 TEST(ControlLaws, FadeFromOneLawToTheNext) {
-  ControlUnitParameters parameters = pandaWithHand();
-  parameters.rules = InterfaceRules::kFci;
+  const ControlUnitParameters parameters = pandaOverFci();
   const Configuration configuration{parameters};
   RobotState state;
   StateEstimator estimator{configuration, state};

@@ -237,12 +237,10 @@ TEST_F(ErrorFlags, CartesianReflex) {
 
 TEST_F(ErrorFlags, GoalAndPathDeviation) {
   for (const int flag : {8, 9}) {
-    rebuild();
-    arm.put(kReady);
     arm.push.fill(0.0);
-    run(3);
+    standAt(kReady);
     ignoreCollisions();
-    auto move = request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance);
+    auto move = moveRequest(MotionGeneratorMode::kJointPosition);
     (flag == 8 ? move.max_goal_deviation : move.max_path_deviation).translation = 1e-3;
     ASSERT_EQ(Status::kMotionStarted, unit.request(move));
     moved = true;
@@ -302,27 +300,32 @@ TEST_F(ErrorFlags, FirstCommandOfAMotion) {
   }
 }
 
-TEST_F(ErrorFlags, CommandedJointPosition) {
-  standAt({{2.88, -0.785, 0, -2.356, 0, 1.571, 0.785}});
-  turnJoints();
-  ramp(0, 0.3);
-  expectReflex(12);
-  EXPECT_LT(unit.state().q[0], 2.8983) << "braked before the limit of the measured joint";
-}
-
-TEST_F(ErrorFlags, CommandedJointMotion) {
-  struct Case {
+TEST_F(ErrorFlags, JointsReachTheirLimits) {
+  struct Row {
+    MotionGeneratorMode generator;
+    std::array<double, 7> start;
+    std::size_t axis;
+    double rate;  // [rad/s^2] or [m/s^2]
     std::vector<int> flags;
-    double rate;  // [rad/s^2]
   };
-  // At 7 rad/s^2 the velocity limit comes first; a step to 100 rad/s^2 violates the limits of
-  // acceleration and jerk, one to 10 that of the jerk, one to 3000 all.
-  for (const Case& c :
-       {Case{{13}, 7.0}, Case{{14, 15}, 100.0}, Case{{15}, 10.0}, Case{{13, 14, 15}, 3000.0}}) {
-    standAt({{-1.5, -0.785, 0, -2.356, 0, 1.571, 0.785}});
-    turnJoints();
-    ramp(0, c.rate);
-    expectReflex(c.flags);
+  constexpr auto kTwist = MotionGeneratorMode::kCartesianVelocity;
+  const Row rows[] = {
+      {MotionGeneratorMode::kJointVelocity,
+       {{2.88, -0.785, 0, -2.356, 0, 1.571, 0.785}},
+       0,
+       0.3,
+       {12}},
+      // Inverse kinematics reaches the end of joint 7.
+      {kTwist, {{0, -0.785, 0, -2.356, 0, 1.571, 2.88}}, 5, -0.3, {27}},
+      // Sideways, 0.31 m from the first axis: a slow motion of the hand is fast for the joint.
+      {kTwist, kReady, 1, 1.5, {28}},
+      {kTwist, kReady, 1, 6.0, {29, 30}}};
+  for (const Row& row : rows) {
+    standAt(row.start);
+    move(row.generator, ControllerMode::kJointImpedance);
+    ramp(row.axis, row.rate);
+    expectReflex(row.flags);
+    EXPECT_LT(unit.state().q[0], 2.8983) << "braked before the limit of the measured joint";
   }
 }
 
@@ -344,16 +347,22 @@ TEST_F(ErrorFlags, JumpOfJointPositionsRaisesAllItsFlags) {
 TEST_F(ErrorFlags, JumpOfThePoseRaisesAllItsFlags) {
   // Seen on real robots: 18, 19 and 20 together with 30, the jerk of a joint; a smaller jump raises
   // 19, 20 and 30. Of the joints only the jerk counts then.
-  for (const auto& [jump, flags] : {std::pair{0.01, std::vector<int>{18, 19, 20, 30}},
-                                    std::pair{1e-4, std::vector<int>{19, 20, 30}}}) {
+  struct Row {
+    double jump, elbow;
+    std::vector<int> flags;
+  };
+  for (const Row& row : {Row{0.01, 0.0, {18, 19, 20, 30}}, Row{1e-4, 0.0, {19, 20, 30}},
+                         Row{0.01, 0.01, {17, 18, 19, 20, 30}}}) {
     standAt(kReady);
     movePose();
-    drive(3, [&, jump = jump](int i, const RobotState&) {
+    drive(3, [&](int i, const RobotState&) {
       RobotCommand command = still();
-      command.O_T_EE_c[14] += i == 2 ? jump : 0.0;
+      command.valid_elbow = row.elbow != 0.0;
+      command.elbow_c[0] += i == 2 ? row.elbow : 0.0;
+      command.O_T_EE_c[14] += i == 2 ? row.jump : 0.0;
       return command;
     });
-    expectReflex(flags);
+    expectReflex(row.flags);
   }
 }
 
@@ -370,18 +379,6 @@ TEST_F(ErrorFlags, CartesianRampAtItsLimitsRaisesBothFlagsOfTheJoints) {
   expectReflex({29, 30});
 }
 
-TEST_F(ErrorFlags, JumpsBreakTheElbowsLimitToo) {
-  movePose();
-  drive(3, [&](int i, const RobotState&) {
-    RobotCommand command = still();
-    command.valid_elbow = true;
-    command.elbow_c[0] += i == 2 ? 0.01 : 0.0;
-    command.O_T_EE_c[14] += i == 2 ? 0.01 : 0.0;
-    return command;
-  });
-  expectReflex({17, 18, 19, 20, 30});
-}
-
 TEST_F(ErrorFlags, MeasuredLimitsRaiseTheirFlagsTogether) {
   ignoreCollisions();
   tickWith([](ArmMeasurement& m) {
@@ -390,36 +387,6 @@ TEST_F(ErrorFlags, MeasuredLimitsRaiseTheirFlagsTogether) {
     m.tau_J[0] = 150.0;
   });
   expectReflex({0, 3, 26, 34});
-}
-
-TEST_F(ErrorFlags, ElbowLimit) {
-  moveTwist();
-  drive(3000, [&](int i, const RobotState&) {
-    RobotCommand command;
-    command.valid_elbow = true;
-    command.elbow_c = {{12e-6 * i * i / 2, -1.0}};  // 12 rad/s^2
-    return command;
-  });
-  expectReflex(17);
-}
-
-TEST_F(ErrorFlags, CartesianMotion) {
-  struct Case {
-    std::vector<int> flags;
-    double rate;  // [m/s^2]
-  };
-  for (const Case& c : {Case{{19, 20, 30}, 100.0}, Case{{20, 30}, 10.0}}) {
-    standAt(kReady);
-    moveTwist();
-    ramp(2, c.rate);
-    expectReflex(c.flags);
-  }
-}
-
-TEST_F(ErrorFlags, CartesianVelocity) {
-  moveTwist();
-  ramp(5, 3.0);  // about the vertical axis, which joint 7 alone does
-  expectReflex(18);
 }
 
 TEST_F(ErrorFlags, ForceTolerance) {
@@ -475,27 +442,6 @@ TEST_F(ErrorFlags, Power) {
   expectReflex(26);
 }
 
-TEST_F(ErrorFlags, JointPositionAfterInverseKinematics) {
-  standAt({{0, -0.785398163397, 0, -2.35619449019, 0, 1.57079632679, 2.88}});
-  moveTwist();
-  ramp(5, -0.3);
-  expectReflex(27);
-}
-
-TEST_F(ErrorFlags, JointMotionAfterInverseKinematics) {
-  // Sideways, 0.31 m from the first axis: a slow motion of the hand is fast for the joint.
-  struct Case {
-    std::vector<int> flags;
-    double rate;
-  };
-  for (const Case& c : {Case{{28}, 1.5}, Case{{29, 30}, 6.0}}) {
-    standAt(kReady);
-    moveTwist();
-    ramp(1, c.rate);
-    expectReflex(c.flags);
-  }
-}
-
 TEST(ErrorFlagArithmetic, AtTenTimesTheJerkTheFlagNeverComesAlone) {
   // Why the unit limits flag 30 at 3.5 times the joints' jerk (docs/fidelity.md) and not at ten: so
   // large an acceleration step also exceeds the limit of acceleration on one of its sides.
@@ -549,9 +495,7 @@ TEST_F(ErrorFlags, NonFiniteCommandsEndTheMotion) {
         SCOPED_TRACE(::testing::Message() << bad << " after " << before);
         expectReflex(flag);
         run(300);
-        for (std::size_t i = 0; i < 7; i++) {
-          EXPECT_NEAR(kReady[i], arm.q()[i], 1e-3);
-        }
+        expectNear(kReady, arm.q(), 1e-3);
       }
     }
   }

@@ -54,14 +54,10 @@ TEST(ExternalWrench, InvertsTheTransposedJacobianAtK) {
   const std::array<double, 6> F{{1, 2, 3, 4, 5, 6}};
   const std::array<double, 7> tau{{1, 2, 3, 4 + 3, 5, 6 - 1, 1}};
   const std::array<double, 6> wrench = map.inBase(tau);
-  for (std::size_t i = 0; i < 6; i++) {
-    EXPECT_NEAR(F[i], wrench[i], 1e-12) << i;
-  }
+  expectNear(F, wrench, 1e-12);
   const std::array<double, 6> in_K = map.inStiffness(wrench);
   const std::array<double, 6> expected{{2, -1, 3, 5, -4, 6}};
-  for (std::size_t i = 0; i < 6; i++) {
-    EXPECT_NEAR(expected[i], in_K[i], 1e-12) << i;
-  }
+  expectNear(expected, in_K, 1e-12);
 }
 
 TEST(Transforms, MultiplyInTheRightOrder) {

@@ -27,61 +27,6 @@ double smallestSingularValue(const ControlUnit& unit) {
   return Eigen::JacobiSVD<Eigen::Matrix<double, 6, 7>>(jacobian).singularValues()[5];
 }
 
-TEST_F(ArmTest, FreeMotionAtNinetyPercentSpeedReadsNoForce) {
-  startTorqueControl();
-  SineDriver driver(parameters, parameters.end_effector, 4.0, 0.9);
-  double force = 0.0;
-  double moment = 0.0;
-  double fastest = 0.0;
-  for (int i = 0; i < 12000; i++) {
-    const RobotState& state = unit.observe(arm.measure());
-    fastest = std::max(fastest, std::abs(state.dq[0]) / 2.175);
-    force = std::max(force, norm(state.O_F_ext_hat_K, 0, 3));
-    moment = std::max(moment, norm(state.O_F_ext_hat_K, 3, 3));
-    const franka_core::RobotCommand command = driver.command(state);
-    arm.applyTorques(unit.actuate(&command));
-    arm.step();
-  }
-  std::printf("free motion: %.1f %% of the speed limit, wrench error %.5f N, %.6f Nm\n",
-              100 * fastest, force, moment);
-  EXPECT_GT(fastest, 0.88);
-  // Required: 0.1 N and 0.02 Nm. This bound also detects a model evaluated at the wrong instant.
-  EXPECT_LT(force, 0.002);
-  EXPECT_LT(moment, 0.0005);
-}
-
-TEST_F(ArmTest, PushesAreReportedInOAndKWithTheRobotsSign) {
-  // K is turned by 30 degrees about x of EE and moved, so that no axis agrees by chance.
-  const double c = std::cos(0.5235987755982988);
-  const double s = 0.5;
-  parameters.EE_T_K = {{1, 0, 0, 0, 0, c, s, 0, 0, -s, c, 0, 0.02, -0.03, 0.05, 1}};
-  const Eigen::Matrix4d F_T_K = Eigen::Map<const Eigen::Matrix4d>(parameters.F_T_NE.data()) *
-                                Eigen::Map<const Eigen::Matrix4d>(parameters.EE_T_K.data());
-  Eigen::Map<Eigen::Matrix4d>(arm.push_frame.data()) = F_T_K;
-  for (std::size_t axis = 0; axis < 6; axis++) {
-    for (const double sign : {1.0, -1.0}) {
-      rebuild();
-      arm.put(kReady);
-      arm.push.fill(0.0);
-      const double size = axis < 3 ? 10.0 : 2.0;
-      arm.push[axis] = sign * size;
-      run(3000);
-      const RobotState& state = unit.state();
-      const std::array<double, 16> O_T_K = parameters.model.pose(
-          franka_core::ArmFrame::kStiffness, state.q, state.F_T_EE, state.EE_T_K);
-      const Eigen::Matrix3d R =
-          Eigen::Map<const Eigen::Matrix4d>(O_T_K.data()).topLeftCorner<3, 3>();
-      const Eigen::Map<const Eigen::Matrix<double, 6, 1>> push(arm.push.data());
-      for (int i = 0; i < 6; i++) {
-        const double tolerance = 0.005 * size;
-        EXPECT_NEAR(-arm.push[i], state.O_F_ext_hat_K[i], tolerance) << "axis " << axis;
-        const double in_K = (R.transpose() * push.segment<3>(i < 3 ? 0 : 3))[i % 3];
-        EXPECT_NEAR(-in_K, state.K_F_ext_hat_K[i], tolerance) << "axis " << axis;
-      }
-    }
-  }
-}
-
 TEST_F(ArmTest, JointTorquesOfAPushAreMinusJacobianTransposedTimesForce) {
   arm.push = {{3, -7, 5, 0.5, 0, -0.3}};
   run(3000);
@@ -169,8 +114,7 @@ TEST_F(ArmTest, WithoutReflexesFlagsFollowTheManualsFormulas) {
 }
 
 TEST_F(ArmTest, CollisionLatchesUntilRecovery) {
-  parameters.rules = InterfaceRules::kFci;
-  parameters.protocol_version = 5;
+  parameters = pandaOverFci();
   rebuild();
   run(1);
   CollisionThresholds t = parameters.nominal;
@@ -232,8 +176,7 @@ TEST_F(ArmTest, ThresholdsApplyInTheFrameOfTheInterface) {
 }
 
 TEST_F(ArmTest, ThresholdsApplyToUnfilteredValues) {
-  parameters.rules = InterfaceRules::kFci;
-  parameters.protocol_version = 5;
+  parameters = pandaOverFci();
   parameters.nominal.upper_force.fill(20);
   rebuild();
   run(100);

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_core/fci/commands.h>
-
 #include <cmath>
 #include <cstdint>
 #include <functional>
@@ -25,8 +23,7 @@ using Status = franka_core::fci::Status;
 class FciTest : public ArmTest {
  protected:
   FciTest() {
-    parameters.rules = InterfaceRules::kFci;
-    parameters.protocol_version = 5;
+    parameters = pandaOverFci();
     rebuild();
     test::tick(unit, arm);
   }
@@ -38,26 +35,22 @@ class FciTest : public ArmTest {
     run(3);
   }
 
-  void ignoreCollisions() {
+  static CollisionThresholds highThresholds() {
     CollisionThresholds high;
     high.lower_torque.fill(1e6);
     high.upper_torque.fill(1e6);
     high.lower_force.fill(1e6);
     high.upper_force.fill(1e6);
-    ASSERT_EQ(Status::kSuccess, unit.request(collisionRequest(high, high)));
+    return high;
   }
 
-  static franka_core::fci::MoveRequest request(MotionGeneratorMode generator,
-                                               ControllerMode controller) {
-    franka_core::fci::MoveRequest request;
-    request.motion_generator_mode = generator;
-    request.controller_mode = controller;
-    return request;
+  void ignoreCollisions() {
+    ASSERT_EQ(Status::kSuccess, unit.request(collisionRequest(highThresholds(), highThresholds())));
   }
 
   void startMove(MotionGeneratorMode generator,
                  ControllerMode controller = ControllerMode::kJointImpedance) {
-    ASSERT_EQ(Status::kMotionStarted, unit.request(request(generator, controller)));
+    ASSERT_EQ(Status::kMotionStarted, unit.request(moveRequest(generator, controller)));
     ASSERT_EQ(RobotMode::kMove, unit.state().robot_mode);
   }
 
@@ -85,6 +78,16 @@ class FciTest : public ArmTest {
     arm.applyTorques(unit.actuate(command));
     arm.setBrakes(unit.status().brakes_closed);
     arm.step();
+  }
+
+  /// Ticks until the answer comes, or 6000 ticks have passed.
+  std::optional<Status> waitFor(PendingAnswer which) {
+    std::optional<Status> answer;
+    for (int i = 0; i < 6000 && !answer; i++) {
+      run(1);
+      answer = unit.takeAnswer(which);
+    }
+    return answer;
   }
 
   std::vector<int> raised() const {

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 namespace franka_sim::test {
 
@@ -38,34 +39,30 @@ TEST(WidthRamp, MovesAtItsSpeedAndEndsExactly) {
   }
 }
 
-TEST(Standstill, CountsAfterTheFirstMotionOrTheTimeout) {
-  Standstill standstill(3);
-  standstill.restart();
-  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
-  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
-  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
-  EXPECT_FALSE(standstill.update(0.002, 0.001, 1e-3));
-  EXPECT_FALSE(standstill.update(0.001, 0.001, 1e-3));
-  EXPECT_FALSE(standstill.update(-0.001, 0.001, 1e-3));
-  EXPECT_TRUE(standstill.update(0, 0.001, 1e-3));
-  standstill.restart();
-  int ticks = 0;
-  while (!standstill.update(0, 0.001, 1e-3)) {
-    ticks++;
+/// Whether the fingers stand still after each of these velocities; a threshold of 0.001 m/s.
+std::vector<bool> standStill(Standstill& standstill, const std::vector<double>& velocities) {
+  std::vector<bool> still;
+  for (const double velocity : velocities) {
+    still.push_back(standstill.update(velocity, 0.001, 1e-3));
   }
-  EXPECT_NEAR(202, ticks + 1, 1);
+  return still;
 }
 
-TEST(Standstill, RestartsAfterEveryMotion) {
+TEST(Standstill, CountsThreeTicksAfterMotionOrTheTimeout) {
   Standstill standstill(3);
   standstill.restart();
+  EXPECT_EQ((std::vector<bool>{false, false, false, false, false, false, true}),
+            standStill(standstill, {0, 0, 0, 0.002, 0.001, -0.001, 0}));
+  standstill.restart();
   standstill.countFromNow();
-  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
-  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
-  EXPECT_FALSE(standstill.update(0.01, 0.001, 1e-3));
-  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
-  EXPECT_FALSE(standstill.update(0, 0.001, 1e-3));
-  EXPECT_TRUE(standstill.update(0, 0.001, 1e-3));
+  EXPECT_EQ((std::vector<bool>{false, false, false, false, false, true}),
+            standStill(standstill, {0, 0, 0.01, 0, 0, 0}));
+  standstill.restart();
+  const std::vector<bool> without_motion = standStill(standstill, std::vector<double>(250, 0.0));
+  EXPECT_NEAR(
+      202,
+      std::find(without_motion.begin(), without_motion.end(), true) - without_motion.begin() + 1,
+      1);
 }
 
 TEST(FingerForce, LimitsTheIntegral) {

@@ -9,8 +9,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <optional>
-#include <vector>
 
 #include "fci_fixture.h"
 
@@ -62,8 +60,6 @@ class SafetyTest : public test::FciTest, public ::testing::WithParamInterface<bo
     return std::count(closed.begin(), closed.end(), true);
   }
 
-  bool brakesAreLocked() const { return unit.status().close_brakes; }
-
   std::optional<Status> motionEnd() { return unit.takeAnswer(PendingAnswer::kMotion); }
 
   bool fr3;
@@ -89,31 +85,6 @@ TEST_P(SafetyTest, BrakesOpenOneAfterTheOther) {
   EXPECT_FALSE(safety.busy());
 }
 
-// Also before the first brake has moved.
-TEST_P(SafetyTest, TheLastOfLockAndUnlockCounts) {
-  for (const int ticks : {0, 1, 15, 69}) {
-    ASSERT_EQ(Refusal::kNone, safety.unlock());
-    tick(ticks);
-    safety.lock();
-    settle();
-    tick(3);
-    EXPECT_EQ(7, closedBrakes()) << ticks;
-    EXPECT_TRUE(brakesAreLocked()) << ticks;
-
-    ASSERT_EQ(Refusal::kNone, safety.unlock());
-    settle();
-    safety.lock();
-    tick(ticks);
-    EXPECT_EQ(Refusal::kNone, safety.unlock());
-    settle();
-    tick(3);
-    EXPECT_EQ(0, closedBrakes()) << ticks;
-    EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode) << ticks;
-    safety.lock();
-    settle();
-  }
-}
-
 TEST_P(SafetyTest, StartsLockedAndFciNeedsOpenBrakes) {
   EXPECT_EQ(7, closedBrakes());
   EXPECT_EQ(RobotMode::kOther, unit.state().robot_mode);
@@ -126,25 +97,17 @@ TEST_P(SafetyTest, StartsLockedAndFciNeedsOpenBrakes) {
   EXPECT_TRUE(safety.handServed());
 }
 
-TEST_P(SafetyTest, LockingEndsMotionAndFci) {
-  makeReady();
-  startTorqueMotion();
-  safety.lock();
-  EXPECT_EQ(Status::kAborted, motionEnd());
-  settle();
-  EXPECT_EQ(7, closedBrakes());
-  EXPECT_FALSE(safety.fciActive());
-  EXPECT_EQ(RobotMode::kOther, unit.state().robot_mode);
-}
-
-TEST_P(SafetyTest, DeactivationEndsMotion) {
-  makeReady();
-  startTorqueMotion();
-  safety.deactivateFci();
-  EXPECT_EQ(Status::kAborted, motionEnd());
-  settle();
-  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
-  EXPECT_EQ(0, closedBrakes());
+TEST_P(SafetyTest, LockingAndDeactivationEndMotionAndFci) {
+  for (const bool locks : {true, false}) {
+    makeReady();
+    startTorqueMotion();
+    locks ? safety.lock() : safety.deactivateFci();
+    EXPECT_EQ(Status::kAborted, motionEnd());
+    settle();
+    EXPECT_EQ(locks ? 7 : 0, closedBrakes());
+    EXPECT_FALSE(safety.fciActive());
+    EXPECT_EQ(locks ? RobotMode::kOther : RobotMode::kIdle, unit.state().robot_mode);
+  }
 }
 
 TEST_P(SafetyTest, StopOfTheRobotAbortsAndLocksAnFr3Only) {
@@ -227,53 +190,6 @@ TEST_P(SafetyTest, GuidingOnlyWhereItIsAllowed) {
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
 }
 
-// Sources of the user stop: the operator's own stop, and the inputs that stop this robot.
-TEST_P(SafetyTest, IsStoppedWhileAnySourceIsPressed) {
-  using Source = std::optional<SafetyInput>;  // nothing: the operator's own stop
-  std::vector<Source> sources{std::nullopt};
-  for (const SafetyInput input :
-       {SafetyInput::kX31, SafetyInput::kX32, SafetyInput::kX33, SafetyInput::kX4}) {
-    if (safety.isStop(input)) {
-      sources.emplace_back(input);
-    }
-  }
-  ASSERT_EQ(fr3 ? 4U : 2U, sources.size());
-  const auto press = [this](const Source& source, bool pressed) {
-    source ? safety.press(*source, pressed) : safety.pressUserStop(pressed);
-    settle();
-    tick(3);
-  };
-  const auto isStopped = [this] {
-    const RobotMode mode = unit.state().robot_mode;
-    return safety.stopPressed() && unit.status().user_stop_pressed && mode != RobotMode::kIdle;
-  };
-  for (const SafetyRules rules : {SafetyRules::kOpen, SafetyRules::kDesk}) {
-    for (const Source& one : sources) {
-      for (const Source& other : sources) {
-        safety.start(rules);
-        ASSERT_EQ(Refusal::kNone, safety.unlock());
-        settle();
-        press(one, true);
-        ASSERT_TRUE(isStopped());
-        if (one == other) {
-          continue;
-        }
-        press(other, false);
-        EXPECT_TRUE(isStopped()) << "the other one was not pressed";
-        press(other, true);
-        press(one, false);
-        EXPECT_TRUE(isStopped()) << "the other one is pressed";
-        press(other, false);
-        EXPECT_FALSE(safety.stopPressed());
-        EXPECT_FALSE(unit.status().user_stop_pressed);
-        EXPECT_EQ(brakesAreLocked() ? RobotMode::kOther : RobotMode::kIdle,
-                  unit.state().robot_mode);
-      }
-      press(one, false);
-    }
-  }
-}
-
 TEST_P(SafetyTest, TheStopOutlastsGuidingAndPower) {
   const SafetyInput stop = fr3 ? SafetyInput::kX33 : SafetyInput::kX4;
   safety.start(SafetyRules::kOpen);
@@ -292,23 +208,6 @@ TEST_P(SafetyTest, TheStopOutlastsGuidingAndPower) {
   safety.press(stop, false);
   settle();
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
-}
-
-// A Panda behind Desk is guided while its stop is pressed; guiding may end by other ways.
-TEST_P(SafetyTest, APressedActivationDeviceStopsAfterGuiding) {
-  if (fr3) {
-    return;
-  }
-  makeReady();
-  safety.press(SafetyInput::kX4, true);
-  settle();
-  ASSERT_EQ(Refusal::kNone, safety.guide(true));
-  safety.lock();
-  settle();
-  ASSERT_EQ(Refusal::kNone, safety.unlock());
-  settle();
-  tick(5);
-  EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
 }
 
 TEST_P(SafetyTest, SelfTestWithOpenRulesRestoresWhatItFound) {
@@ -410,25 +309,12 @@ TEST_P(SafetyTest, DemandedRecoveryNeedsTheEnablingDevice) {
   makeReady();
 }
 
-TEST_P(SafetyTest, OperatorMotionReachesItsTargetWithoutFci) {
-  std::array<double, 7> target = unit.state().q;
-  target[0] += 0.1;
-  target[6] -= 0.1;
+TEST_P(SafetyTest, OperatorMotionNeedsOpenBrakesWithoutFci) {
   EXPECT_EQ(Refusal::kBrakesClosed, safety.allowsOperatorMotion());
   makeReady();
   EXPECT_EQ(Refusal::kMotionActive, safety.allowsOperatorMotion());
   safety.deactivateFci();
-  ASSERT_EQ(Refusal::kNone, safety.allowsOperatorMotion());
-  ASSERT_EQ(Status::kMotionStarted, motion.start(target, 0.5));
-  for (int i = 0; i < 5000 && motion.active(); i++) {
-    tick(1);
-    ASSERT_TRUE(raised().empty());
-  }
-  tick(300);
-  EXPECT_TRUE(motion.arrived());
-  for (std::size_t i = 0; i < target.size(); i++) {
-    EXPECT_NEAR(target[i], unit.state().q[i], 5e-3);
-  }
+  EXPECT_EQ(Refusal::kNone, safety.allowsOperatorMotion());
 }
 
 TEST_P(SafetyTest, StoppedOperatorMotionHasNotArrived) {
@@ -438,14 +324,12 @@ TEST_P(SafetyTest, StoppedOperatorMotionHasNotArrived) {
   target[0] += 0.5;
   ASSERT_EQ(Status::kMotionStarted, motion.start(target, 0.5));
   tick(100);
+  EXPECT_EQ(RobotMode::kMove, unit.state().robot_mode);
+  EXPECT_GT(unit.state().dq_d[0], 0.0);
   motion.stop();
   settle();
   EXPECT_FALSE(motion.arrived());
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
-  target[0] = 9.0;
-  EXPECT_EQ(Status::kInvalidArgumentRejected, motion.start(target, 0.5));
-  EXPECT_EQ(Status::kInvalidArgumentRejected, motion.start(unit.state().q, 0.0));
-  EXPECT_EQ(Status::kInvalidArgumentRejected, motion.start(unit.state().q, NAN));
 }
 
 TEST_P(SafetyTest, PowerOffRefusesEverything) {

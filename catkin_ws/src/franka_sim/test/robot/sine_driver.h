@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
+#include <franka_core/limits.h>
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 
@@ -15,10 +16,6 @@
 
 namespace franka_sim::test {
 
-/// Joint speed limits [rad/s] (protocol 5.5).
-constexpr std::array<double, 7> kPandaSpeed{{2.175, 2.175, 2.175, 2.175, 2.61, 2.61, 2.61}};
-constexpr std::array<double, 7> kFr3Speed{{2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26}};
-
 /// Follows sine waves about the ready pose by computed torques without gravity, like a user's
 /// controller. Phases differ, so that speeds and accelerations occur in all combinations; starts
 /// softly.
@@ -26,7 +23,8 @@ class SineDriver {
  public:
   /// @param frequency [rad/s] @param fraction of the speed limits that is reached
   SineDriver(const ControlUnitParameters& parameters, const franka_core::Payload& payload,
-             double frequency, double fraction, const std::array<double, 7>& limit = kPandaSpeed)
+             double frequency, double fraction,
+             const std::array<double, 7>& limit = franka_core::kFerLimits.dq)
       : model_(parameters.model),
         payload_(payload),
         rotor_inertia_(parameters.rotor_inertia),

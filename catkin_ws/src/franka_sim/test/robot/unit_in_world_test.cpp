@@ -38,8 +38,7 @@ std::string handMass(const std::string& id, int more) {
 Eigen::Vector3d velocityOf(const World& world, const std::string& body,
                            const Eigen::Vector3d& point) {
   const BodyState state = bodyState(world, body);
-  const auto& q = state.pose.orientation;
-  const Eigen::Vector3d lever = Eigen::Quaterniond(q[0], q[1], q[2], q[3]) * point;
+  const Eigen::Vector3d lever = toEigen(state.pose).linear() * point;
   return Eigen::Vector3d(state.twist.linear.data()) +
          Eigen::Vector3d(state.twist.angular.data()).cross(lever);
 }
@@ -102,19 +101,6 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
     return gripper->outcome(ticket);
   }
 
-  Eigen::Vector3d forceOnStone(const std::string& link) const {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Contact& c : contacts(*world)) {
-      const Eigen::Vector3d force(c.force.data());
-      if (c.body1 == link && c.body2 == "stone") {
-        sum += force;
-      } else if (c.body2 == link && c.body1 == "stone") {
-        sum -= force;
-      }
-    }
-    return sum;
-  }
-
   /// Moves, then grasps the stone with 5 N.
   void graspTheStone() {
     run(10);
@@ -138,12 +124,9 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
 
   /// Where the stone is in the frame of the tool center point [m].
   Eigen::Vector3d stoneInHand() const {
-    const Pose hand_pose = bodyPose(*world, id() + "_hand_tcp");
-    const Pose stone = bodyPose(*world, "stone");
-    const Eigen::Quaterniond turn(hand_pose.orientation[0], hand_pose.orientation[1],
-                                  hand_pose.orientation[2], hand_pose.orientation[3]);
-    return turn.conjugate() *
-           (Eigen::Vector3d(stone.position.data()) - Eigen::Vector3d(hand_pose.position.data()));
+    return (toEigen(bodyPose(*world, id() + "_hand_tcp")).inverse() *
+            toEigen(bodyPose(*world, "stone")))
+        .translation();
   }
 
   std::array<double, 16> poseOfK() const {
@@ -175,35 +158,14 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
     }
   }
 
-  /// Holds the start pose by an impedance law of the joints in torque control; the push grows
-  /// within a second.
-  void holdByTorques(int ticks, const Wrench& push) {
-    tick();
-    ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
-    for (int k = 0; k < ticks; k++) {
-      const RobotState& state = unit->observe(arm->measure());
-      Wrench grown = push;
-      for (double& part : grown) {
-        part *= std::min(1.0, k / 1000.0);
-      }
-      pushAtK(grown);
-      const franka_core::Payload total{state.m_total, state.F_x_Ctotal, state.I_total};
-      franka_core::RobotCommand command;
-      command.tau_J_d = unit->configuration().model.coriolis(state.q, state.dq, total);
-      for (std::size_t i = 0; i < 7; i++) {
-        command.tau_J_d[i] += 600 * (kReady[i] - state.q[i]) - 30 * state.dq[i];
-      }
-      act(&command);
-    }
-    EXPECT_EQ(franka_core::RobotMode::kMove, unit->state().robot_mode);
+  const std::array<double, 7>& speedLimits() const {
+    return id() == "fr3" ? franka_core::kFr3Limits.dq : franka_core::kFerLimits.dq;
   }
 
   /// Brings joint 1 to a speed [rad/s] by commanded joint velocities.
   void turnFirstJoint(double speed) {
     tick();
-    franka_core::fci::MoveRequest move;
-    move.motion_generator_mode = franka_core::MotionGeneratorMode::kJointVelocity;
-    move.controller_mode = franka_core::ControllerMode::kJointImpedance;
+    const auto move = moveRequest(franka_core::MotionGeneratorMode::kJointVelocity);
     ASSERT_EQ(Status::kMotionStarted, unit->request(move));
     for (int i = 0; i < 600; i++) {
       franka_core::RobotCommand command;
@@ -221,35 +183,12 @@ class UnitInWorldTest : public ::testing::TestWithParam<const char*> {
   std::unique_ptr<GripperUnit> gripper;
 };
 
-TEST_P(UnitInWorldTest, ZeroTorqueDoesNotDriftAndReadsNoForce) {
-  start("empty");
-  tick();
-  ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
-  const franka_core::RobotCommand zero;
-  double force = 0.0;
-  double moment = 0.0;
-  for (int i = 0; i < 10000; i++) {
-    const RobotState& state = tick(&zero);
-    force = std::max(force, norm(state.O_F_ext_hat_K, 0, 3));
-    moment = std::max(moment, norm(state.O_F_ext_hat_K, 3, 3));
-  }
-  double drift = 0.0;
-  for (std::size_t i = 0; i < 7; i++) {
-    drift = std::max(drift, std::abs(unit->state().q[i] - kReady[i]));
-  }
-  std::printf("%s at rest for 10 s: drift %.3g rad, wrench %.3g N, %.3g Nm\n", GetParam(), drift,
-              force, moment);
-  EXPECT_LT(drift, 1e-4);
-  EXPECT_LT(force, 1e-3);
-  EXPECT_LT(moment, 1e-4);
-}
-
 TEST_P(UnitInWorldTest, FreeMotionAtNinetyPercentSpeedReadsNoForce) {
   start("empty");
   tick();
   ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
   SineDriver driver(unit->configuration(), unit->configuration().end_effector, 8.0, 0.9,
-                    id() == "fr3" ? kFr3Speed : kPandaSpeed);
+                    speedLimits());
   double force = 0.0;
   double moment = 0.0;
   std::array<double, 7> fastest{};
@@ -292,40 +231,6 @@ TEST_P(UnitInWorldTest, PushesOnTheHandAreReadWithinHalfAPercent) {
   }
 }
 
-TEST_P(UnitInWorldTest, PushesAndWeightsAreReadUnderAnImpedanceLaw) {
-  // Forces whose torques stay below the thresholds of collisions.
-  const Wrench push{{10, -10, 10, 2, -2, 2}};
-  start("empty");
-  holdByTorques(4000, push);
-  expectReads(push);
-
-  start("empty", handMass(id(), 0), handMass(id(), 1));  // 1 kg more than the unit knows
-  holdByTorques(4000, Wrench{});
-  const std::array<double, 6>& in_O = unit->state().O_F_ext_hat_K;
-  EXPECT_NEAR(0.0, in_O[0], 0.05);
-  EXPECT_NEAR(0.0, in_O[1], 0.05);
-  EXPECT_NEAR(9.81, in_O[2], 0.005 * 9.81);
-  EXPECT_NEAR(9.81, norm(unit->state().K_F_ext_hat_K, 0, 3), 0.005 * 9.81);
-}
-
-TEST_P(UnitInWorldTest, IdleHoldsAgainstAPushAndReturns) {
-  start("empty");
-  tick();
-  for (int i = 0; i < 2000; i++) {
-    pushBody(*world, id() + "_hand", {10, 0, 0}, {0, 0, 0}, 1);
-    tick();
-    ASSERT_EQ((std::array<double, 7>{}), unit->state().tau_J_d);
-  }
-  for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_NEAR(kReady[i], unit->state().q[i], 5e-3);
-  }
-  EXPECT_NEAR(-10, unit->state().O_F_ext_hat_K[0], 0.05);
-  run(3000);
-  for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_NEAR(kReady[i], unit->state().q[i], 1e-4);
-  }
-}
-
 TEST_P(UnitInWorldTest, UnconfiguredKilogramReadsWeightAndInertiaAtFullSpeed) {
   // A point of 1 kg at the hand's center of mass: the arm always exerts m (a - g) on it. Its
   // acceleration is the difference of its velocity in the world. The second difference of its
@@ -335,7 +240,7 @@ TEST_P(UnitInWorldTest, UnconfiguredKilogramReadsWeightAndInertiaAtFullSpeed) {
   tick();
   ASSERT_EQ(Status::kMotionStarted, unit->request(torqueControl()));
   SineDriver driver(unit->configuration(), unit->configuration().end_effector, 4.0, 0.5,
-                    id() == "fr3" ? kFr3Speed : kPandaSpeed);
+                    speedLimits());
   const Eigen::Vector3d in_hand = handCenter(id());
   constexpr double kSmoothing = 1e-3 / (1e-3 + 1.0 / (2 * 3.14159265358979324 * 100));
   Eigen::Vector3d velocity = Eigen::Vector3d::Zero();
@@ -440,38 +345,12 @@ TEST_P(UnitInWorldTest, UserStopKeepsTheGraspedStone) {
   EXPECT_LT((stoneInHand() - held).norm(), 1e-3);
 }
 
-TEST_P(UnitInWorldTest, HandMovesAndGraspsTheStone) {
-  start("stone");
-  graspTheStone();
-  const Pose pose = bodyPose(*world, id() + "_hand");
-  const Eigen::Vector3d across = Eigen::Quaterniond(pose.orientation[0], pose.orientation[1],
-                                                    pose.orientation[2], pose.orientation[3]) *
-                                 Eigen::Vector3d::UnitY();
-  EXPECT_NEAR(-2.5, forceOnStone(id() + "_leftfinger").dot(across), 0.25);
-  EXPECT_NEAR(2.5, forceOnStone(id() + "_rightfinger").dot(across), 0.25);
-
-  franka_core::Payload stone;
-  stone.mass = 0.1024;
-  stone.com = {{0, 0, 0.1034}};
-  EXPECT_NEAR(0.1024 * 9.81, unit->state().O_F_ext_hat_K[2], 0.02);
-  ASSERT_EQ(Status::kSuccess, unit->request(loadRequest(stone)));
-  run(1000);
-  EXPECT_NEAR(0.0, unit->state().O_F_ext_hat_K[2], 0.02);
-
-  gripper->stop();
-  run(1000);
-  EXPECT_FALSE(gripper->isGrasped());
-  EXPECT_GT(pose.position[2] - bodyPose(*world, "stone").position[2], 0.2) << "it has fallen";
-}
-
 TEST_P(UnitInWorldTest, CollisionRaisesAReflexWithinThreeMilliseconds) {
   // Down onto the ground with the fingers; the ground is completely rigid.
   over_fci = true;
   start("empty");
   tick();
-  franka_core::fci::MoveRequest move;
-  move.motion_generator_mode = franka_core::MotionGeneratorMode::kCartesianVelocity;
-  move.controller_mode = franka_core::ControllerMode::kJointImpedance;
+  const auto move = moveRequest(franka_core::MotionGeneratorMode::kCartesianVelocity);
   ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->request(move));
   const double threshold = unit->configuration().nominal.upper_force[2];
   int crossed = -1;
@@ -530,9 +409,9 @@ TEST_P(UnitInWorldTest, InternalControllersHaveTheConfiguredStiffness) {
     ASSERT_EQ(
         Status::kSuccess,
         unit->request(codec::SetJointImpedanceRequest{{{600, 600, 600, 600, 300, 300, 300}}}));
-    franka_core::fci::MoveRequest move;
-    move.controller_mode = cartesian ? franka_core::ControllerMode::kCartesianImpedance
-                                     : franka_core::ControllerMode::kJointImpedance;
+    const auto move = moveRequest(franka_core::MotionGeneratorMode::kJointPosition,
+                                  cartesian ? franka_core::ControllerMode::kCartesianImpedance
+                                            : franka_core::ControllerMode::kJointImpedance);
     ASSERT_EQ(franka_core::fci::Status::kMotionStarted, unit->request(move));
     franka_core::RobotCommand hold;
     hold.q_c = unit->state().q_d;

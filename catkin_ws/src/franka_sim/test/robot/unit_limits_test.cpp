@@ -81,12 +81,7 @@ class UnitLimits : public FciTest, public ::testing::WithParamInterface<unsigned
     EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
     EXPECT_GE(reached, 0.985);
     EXPECT_LT(reached, 1.0);
-    std::optional<Status> end;
-    for (int i = 0; i < 1000 && !end; i++) {
-      run(1);
-      end = unit.takeAnswer(PendingAnswer::kMotion);
-    }
-    EXPECT_EQ(Status::kSuccess, end);
+    EXPECT_EQ(Status::kSuccess, waitFor(PendingAnswer::kMotion));
   }
 
   void expectToFail(const Approach& approach) {
@@ -99,12 +94,7 @@ class UnitLimits : public FciTest, public ::testing::WithParamInterface<unsigned
 
   void recover() {
     EXPECT_FALSE(unit.request(codec::AutomaticErrorRecoveryRequest{}));
-    std::optional<Status> end;
-    for (int i = 0; i < 6000 && !end; i++) {
-      run(1);
-      end = unit.takeAnswer(PendingAnswer::kRecovery);
-    }
-    EXPECT_EQ(Status::kSuccess, end);
+    EXPECT_EQ(Status::kSuccess, waitFor(PendingAnswer::kRecovery));
     EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
     EXPECT_EQ(std::vector<int>{}, raised());
   }

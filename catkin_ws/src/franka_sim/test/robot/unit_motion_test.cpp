@@ -104,6 +104,11 @@ class UnitMotion : public FciTest {
     startMove(MotionGeneratorMode::kJointPosition, controller);
   }
 
+  void expectNoMotionStarts() {
+    const auto move = moveRequest(MotionGeneratorMode::kJointPosition);
+    EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(move));
+  }
+
   void reflex() {
     ignoreCollisions();
     tickWith([](ArmMeasurement& m) { m.tau_J[0] = 110; });
@@ -148,9 +153,7 @@ TEST_F(UnitMotion, FollowsAndReportsACartesianPose) {
     RobotCommand command;
     command.O_T_EE_c = start;
     command.O_T_EE_c[14] += 0.1 * smoothStep(1e-3 * (i + 1));
-    for (std::size_t k = 0; k < 16; k++) {
-      EXPECT_NEAR(state.O_T_EE_c[k], state.O_T_EE_d[k], 1e-11);
-    }
+    expectNear(state.O_T_EE_c, state.O_T_EE_d, 1e-11);
     EXPECT_NEAR(state.O_dP_EE_c[2], state.O_dP_EE_d[2], 2e-3);
     return command;
   });
@@ -169,16 +172,12 @@ TEST_F(UnitMotion, TorquesAndGeneratorRunTogether) {
 }
 
 TEST_F(UnitMotion, AccelerationThresholdsApplyToInternalControllersOnly) {
-  CollisionThresholds high = parameters.acceleration;
-  high.lower_torque.fill(1e6);
-  high.upper_torque.fill(1e6);
-  high.lower_force.fill(1e6);
-  high.upper_force.fill(1e6);
   for (const auto& [controller, mode] :
        {std::pair{ControllerMode::kJointImpedance, RobotMode::kMove},
         std::pair{ControllerMode::kExternalController, RobotMode::kReflex}}) {
     standAt(kReady);
-    ASSERT_EQ(Status::kSuccess, unit.request(collisionRequest(high, parameters.nominal)));
+    ASSERT_EQ(Status::kSuccess,
+              unit.request(collisionRequest(highThresholds(), parameters.nominal)));
     startSwing(controller);
     // Always accelerates by more than a tenth of the limit.
     drive(300, [&](int i, const RobotState& state) {
@@ -198,26 +197,11 @@ TEST_F(UnitMotion, AccelerationThresholdsApplyToInternalControllersOnly) {
   }
 }
 
-TEST_F(UnitMotion, InvalidRequestsAreRefused) {
-  const auto refused = [&](auto change) {
-    auto bad = request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance);
-    change(bad);
-    return unit.request(bad) == Status::kInvalidArgumentRejected &&
-           unit.state().robot_mode == RobotMode::kIdle;
-  };
-  EXPECT_TRUE(refused([](auto& r) { r.max_path_deviation.translation = 0; }));
-  EXPECT_TRUE(refused([](auto& r) { r.max_goal_deviation.elbow = std::nan(""); }));
-  EXPECT_TRUE(refused([](auto& r) { r.motion_generator_mode = MotionGeneratorMode::kNone; }));
-  EXPECT_TRUE(refused([](auto& r) { r.motion_generator_mode = MotionGeneratorMode::kIdle; }));
-  EXPECT_TRUE(refused([](auto& r) { r.controller_mode = ControllerMode::kOther; }));
-  EXPECT_TRUE(refused([](auto& r) { r.use_async_motion_generator = true; }));
-}
-
 TEST_F(UnitMotion, SingularStartIsReportedAfterTheStart) {
   // Stretched: shoulder, elbow and wrist on one line.
   standAt({{0, 0.5, 0, franka_core::kElbowFlip, 0, 1.5, 0}});
-  EXPECT_EQ(Status::kMotionStarted, unit.request(request(MotionGeneratorMode::kCartesianVelocity,
-                                                         ControllerMode::kJointImpedance)));
+  EXPECT_EQ(Status::kMotionStarted,
+            unit.request(moveRequest(MotionGeneratorMode::kCartesianVelocity)));
   EXPECT_EQ(Status::kStartAtSingularPoseRejected, unit.takeAnswer(PendingAnswer::kMotion));
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
 }
@@ -230,9 +214,7 @@ TEST_F(UnitMotion, StopMoveBrakesAndAnswersAtRest) {
   const double from = unit.state().q_d[0];
   EXPECT_FALSE(unit.request(codec::StopMoveRequest{}));
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
-  EXPECT_EQ(
-      Status::kCommandNotPossibleRejected,
-      unit.request(request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance)));
+  expectNoMotionStarts();
   int ticks = 0;
   while (unit.status().settling) {
     EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kStop));
@@ -251,9 +233,7 @@ TEST_F(UnitMotion, StopMoveBrakesAndAnswersAtRest) {
   const std::array<double, 7> held = unit.state().q_d;
   run(1000);
   EXPECT_EQ(held, unit.state().q_d);
-  for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_NEAR(held[i], arm.q()[i], 1e-4);
-  }
+  expectNear(held, arm.q(), 1e-4);
   startSwing();
 }
 
@@ -265,9 +245,7 @@ TEST_F(UnitMotion, SwitchingTheControlLawCausesNoTorqueStep) {
   std::array<double, 7> last = arm.torques();
   double step = 0.0;
   const auto measure = [&] {
-    for (std::size_t j = 0; j < 7; j++) {
-      step = std::max(step, std::abs(arm.torques()[j] - last[j]));
-    }
+    step = std::max(step, largestDifference(arm.torques(), last));
     last = arm.torques();
   };
   ASSERT_EQ(Status::kSuccess,
@@ -293,20 +271,13 @@ TEST_F(UnitMotion, ReflexBrakesYieldsAndRecoversAtRest) {
   drive(500, [&](int i, const RobotState&) { return swing(i); });
   ASSERT_EQ(RobotMode::kReflex, unit.state().robot_mode);
   EXPECT_EQ(Status::kReflexAborted, unit.takeAnswer(PendingAnswer::kMotion));
-  EXPECT_EQ(
-      Status::kCommandNotPossibleRejected,
-      unit.request(request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance)));
+  expectNoMotionStarts();
   EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(codec::StopMoveRequest{}));
   arm.push.fill(0.0);
   const auto reason = unit.state().reflex_reason;
   ASSERT_FALSE(unit.request(codec::AutomaticErrorRecoveryRequest{}));
   EXPECT_EQ(RobotMode::kAutomaticErrorRecovery, unit.state().robot_mode);
-  std::optional<Status> end;
-  for (int i = 0; i < 6000 && !end; i++) {
-    test::tick(unit, arm);
-    end = unit.takeAnswer(PendingAnswer::kRecovery);
-  }
-  EXPECT_EQ(Status::kSuccess, end);
+  EXPECT_EQ(Status::kSuccess, waitFor(PendingAnswer::kRecovery));
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
   EXPECT_TRUE(raised().empty());
   EXPECT_EQ((std::array<double, 6>{}), unit.state().cartesian_collision);
@@ -374,8 +345,9 @@ TEST_F(UnitMotion, UserStopEndsMotionAndRecovery) {
   unit.request(UserStop{true});
   EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
   EXPECT_EQ(Status::kEmergencyAborted, unit.takeAnswer(PendingAnswer::kMotion));
-  EXPECT_EQ(Status::kCommandNotPossibleRejected,
-            unit.request(request(MotionGeneratorMode::kNone, ControllerMode::kExternalController)));
+  EXPECT_EQ(
+      Status::kCommandNotPossibleRejected,
+      unit.request(moveRequest(MotionGeneratorMode::kNone, ControllerMode::kExternalController)));
   run(200);
   EXPECT_TRUE(unit.status().brakes_closed);
   unit.request(UserStop{false});
@@ -407,9 +379,7 @@ TEST_F(UnitMotion, BrakesGuidingAndFciEndAMotion) {
     EXPECT_EQ(mode, unit.state().robot_mode);
     EXPECT_EQ(Status::kAborted, unit.takeAnswer(PendingAnswer::kMotion));
     run(50);
-    EXPECT_EQ(Status::kCommandNotPossibleRejected,
-              unit.request(
-                  request(MotionGeneratorMode::kJointPosition, ControllerMode::kJointImpedance)));
+    expectNoMotionStarts();
     end_it(unit);
     EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
     run(50);
@@ -446,9 +416,7 @@ TEST_F(UnitMotion, GuidingFollowsPushesAlongFreeAxesOnly) {
   run(1000);
   const std::array<double, 7> left = arm.q();
   run(500);
-  for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_NEAR(left[i], arm.q()[i], 1e-5);
-  }
+  expectNear(left, arm.q(), 1e-5);
 }
 
 TEST_F(UnitMotion, SettersAreRefusedInMoveAndChecked) {

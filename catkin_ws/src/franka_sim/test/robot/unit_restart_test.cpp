@@ -31,9 +31,7 @@ class UnitRestart : public FciTest {
     run(500);
     EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
     EXPECT_EQ(std::vector<int>{}, raised());
-    for (std::size_t i = 0; i < 7; i++) {
-      EXPECT_NEAR(kElsewhere[i], arm.q()[i], 1e-6) << i;
-    }
+    expectNear(kElsewhere, arm.q(), 1e-6);
   }
 };
 
@@ -100,12 +98,7 @@ TEST_F(UnitRestart, LetsARecoveryFinish) {
   ASSERT_EQ(RobotMode::kReflex, unit.state().robot_mode);
   ASSERT_FALSE(unit.request(codec::AutomaticErrorRecoveryRequest{}));
   putElsewhere();
-  std::optional<Status> end;
-  for (int i = 0; i < 1000 && !end; i++) {
-    run(1);
-    end = unit.takeAnswer(PendingAnswer::kRecovery);
-  }
-  EXPECT_EQ(Status::kSuccess, end);
+  EXPECT_EQ(Status::kSuccess, waitFor(PendingAnswer::kRecovery));
   expectToStayElsewhere();
 }
 
@@ -127,9 +120,7 @@ TEST_F(UnitRestart, HoldsGuidedAxesAtTheNewPose) {
   run(10);
   putElsewhere();
   run(500);
-  for (std::size_t i = 0; i < 7; i++) {
-    EXPECT_NEAR(kElsewhere[i], arm.q()[i], 1e-3) << i;
-  }
+  expectNear(kElsewhere, arm.q(), 1e-3);
 }
 
 TEST_F(UnitRestart, AnswersAStopThatAReflexInterrupts) {

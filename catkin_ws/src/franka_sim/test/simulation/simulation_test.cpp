@@ -27,14 +27,6 @@ using franka_core::RobotMode;
 using franka_core::fci::MoveRequest;
 using Array7 = std::array<double, 7>;
 
-double farthest(const Array7& a, const Array7& b) {
-  double result = 0.0;
-  for (std::size_t i = 0; i < a.size(); i++) {
-    result = std::max(result, std::abs(a[i] - b[i]));
-  }
-  return result;
-}
-
 MoveRequest positions() {
   MoveRequest motion;
   motion.motion_generator_mode = franka_core::MotionGeneratorMode::kJointPosition;
@@ -55,15 +47,23 @@ class SimulationTest : public ::testing::TestWithParam<const char*> {
 };
 
 /// A robot whose ports the system has chosen.
-TEST(OperatorSwitches, FciStaysOffWhileAnotherProgramHasItsPort) {
-  const franka_core::ArmModel model = pandaModel();
-  FakeArm arm(model, kReady);
-  ControlUnitParameters unit = pandaWithHand();
-  unit.rules = InterfaceRules::kFci;
-  fci::RobotServerParameters server = fci::makeServerParameters("127.0.0.1", {6, 10}, pandaModel());
-  server.port = 0;
-  fci::SimRobot robot(unit, arm, server, std::nullopt);
-  robot.observe();
+class OperatorSwitches : public ::testing::Test {
+ protected:
+  OperatorSwitches() { robot.observe(); }
+
+  static fci::RobotServerParameters server() {
+    fci::RobotServerParameters parameters =
+        fci::makeServerParameters("127.0.0.1", {6, 10}, pandaModel());
+    parameters.port = 0;
+    return parameters;
+  }
+
+  FakeArm arm{pandaModel(), kReady};
+  FakeHand fingers;
+  fci::SimRobot robot{pandaOverFci(), arm, server(), fci::SimRobot::Hand{&fingers, {}, 0}};
+};
+
+TEST_F(OperatorSwitches, FciStaysOffWhileAnotherProgramHasItsPort) {
   for (const auto switch_to : {&setFci, &setPower}) {
     switch_to(robot, false);
     EXPECT_FALSE(robot.server().isOpen());
@@ -78,17 +78,8 @@ TEST(OperatorSwitches, FciStaysOffWhileAnotherProgramHasItsPort) {
   }
 }
 
-TEST(OperatorSwitches, EndEffectorStaysOffWhileAnotherProgramHasItsPort) {
-  const franka_core::ArmModel model = pandaModel();
-  FakeArm arm(model, kReady);
-  FakeHand fingers;
-  ControlUnitParameters unit = pandaWithHand();
-  unit.rules = InterfaceRules::kFci;
-  fci::RobotServerParameters server = fci::makeServerParameters("127.0.0.1", {6, 10}, pandaModel());
-  server.port = 0;
-  fci::SimRobot robot(unit, arm, server, fci::SimRobot::Hand{&fingers, {}, 0});
-  robot.observe();
-  const auto power = [&robot] { return robot.whole().safety().state().end_effector_power; };
+TEST_F(OperatorSwitches, EndEffectorStaysOffWhileAnotherProgramHasItsPort) {
+  const auto power = [this] { return robot.whole().safety().state().end_effector_power; };
   setEndEffectorPower(robot, false);
   {
     const fci::Listener other("127.0.0.1", robot.gripperPort());
@@ -121,7 +112,7 @@ TEST_P(SimulationTest, JointLawReachesItsTargetSmoothly) {
     ASSERT_EQ(RobotMode::kMove, robot.state().robot_mode) << i;
     fastest = std::max(fastest, robot.state().dq[0]);
   }
-  EXPECT_LT(farthest(target, robot.state().q), 2e-3);
+  EXPECT_LT(largestDifference(target, robot.state().q), 2e-3);
   EXPECT_NEAR(fastest, 0.2 * 1.875, 0.03) << "of a polynomial of fifth order";
 }
 
@@ -254,7 +245,7 @@ TEST_P(SimulationTest, AnArmIsPlacedWithinItsLimitsOnly) {
   simulation->place(robot, q);
   EXPECT_EQ(q, robot.state().q);
   simulation->step(1000);
-  EXPECT_LT(farthest(q, robot.state().q), 1e-6) << "it holds";
+  EXPECT_LT(largestDifference(q, robot.state().q), 1e-6) << "it holds";
   const Array7 before = robot.state().q;
   q[3] = 1.0;
   EXPECT_THROW(simulation->place(robot, q), std::invalid_argument);

@@ -18,22 +18,18 @@ namespace {
 
 using franka_core::ArmFrame;
 
-/// Of the Jacobian with a row for joint 3, by another decomposition than the tested one.
-double smallestSingularValue(const Joints& q) {
+/// The Jacobian with a row for joint 3.
+Eigen::MatrixXd jacobianOf(const Joints& q) {
   Eigen::Matrix<double, 7, 7> matrix = Eigen::Matrix<double, 7, 7>::Zero();
   const auto jacobian = model().zeroJacobian(ArmFrame::kEndEffector, q, kHandF_T_NE);
   matrix.topRows<6>() = Eigen::Map<const Eigen::Matrix<double, 6, 7>>(jacobian.data());
   matrix(6, 2) = 1.0;
-  return Eigen::JacobiSVD<Eigen::MatrixXd>(matrix).singularValues()(6);
+  return matrix;
 }
 
-template <std::size_t kSize>
-double largestDifference(const std::array<double, kSize>& a, const std::array<double, kSize>& b) {
-  double largest = 0.0;
-  for (std::size_t i = 0; i < kSize; i++) {
-    largest = std::max(largest, std::abs(a[i] - b[i]));
-  }
-  return largest;
+/// By another decomposition than the tested one.
+double smallestSingularValue(const Joints& q) {
+  return Eigen::JacobiSVD<Eigen::MatrixXd>(jacobianOf(q)).singularValues()(6);
 }
 
 Joints randomPose(std::mt19937& engine) {
@@ -96,11 +92,7 @@ TEST(InverseKinematics, TakesOneDampedStepNearASingularity) {
   const auto solution = InverseKinematics::solve(q, desired, q[2], kHandF_T_NE, model());
   EXPECT_TRUE(solution.near_singularity);
   // Closed form by another decomposition: q += sum v s / (s^2 + lambda^2) (u . e).
-  Eigen::Matrix<double, 7, 7> matrix = Eigen::Matrix<double, 7, 7>::Zero();
-  const auto jacobian = model().zeroJacobian(ArmFrame::kEndEffector, q, kHandF_T_NE);
-  matrix.topRows<6>() = Eigen::Map<const Eigen::Matrix<double, 6, 7>>(jacobian.data());
-  matrix(6, 2) = 1.0;
-  Eigen::JacobiSVD<Eigen::MatrixXd> svd(matrix, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::JacobiSVD<Eigen::MatrixXd> svd(jacobianOf(q), Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::VectorXd error = Eigen::VectorXd::Zero(7);
   error[0] = 1e-4;
   const double damping = (1.0 - std::pow(sigma / 0.02, 2)) * 0.02 * 0.02;

@@ -46,20 +46,6 @@ TEST(JointLimits, PositionsEndAtTheRangeWithTheFlagOfTheSystem) {
   }
 }
 
-TEST(JointLimits, VelocitiesEndAtTheRangeToo) {
-  Joints q = kReady;
-  q[0] = kReady[0] + 2.895;
-  Motion motion(5, MotionGeneratorMode::kJointVelocity, q);
-  Joints dq{};
-  ErrorSet fault;
-  while (!fault) {
-    dq[0] = std::min(dq[0] + 1e-3, 0.1);
-    fault = motion.step(jointVelocities(dq)).errors;
-  }
-  EXPECT_EQ(RobotError::kJointMotionGeneratorPositionLimitsViolation, fault);
-  EXPECT_NEAR(2.8973, motion.desired().q_d[0], 2e-4);
-}
-
 TEST(JointLimits, BeyondTheRangeOnlyMotionBackIsAllowed) {
   Joints q = kReady;
   q[0] = 2.91;

@@ -12,6 +12,7 @@
 #include <ostream>
 #include <string>
 
+#include "../../support/arrays.h"
 #include "../panda_arm.h"
 #include "robot/motion/motion_generator.h"
 
