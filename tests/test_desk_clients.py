@@ -1,6 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Genuine clients of Desk start a robot, move it over the FCI and lock it again."""
+"""Genuine clients of Desk start a robot, move it over the FCI and lock it again.
+
+One client of each generation in every form of the tests, the others in the long form.
+"""
 
 import pytest
 from desk_clients import (
@@ -19,7 +22,7 @@ from desk_server import PASSWORD, USER
 from genuine_clients import positronic_sources
 from tutorial import TOP, read
 
-SECOND = pytest.mark.long_form("further clients of a library, and further generations of the robot")
+FURTHER = pytest.mark.long_form("further clients of a generation of the robot")
 
 # ---- panda-python 1.1.1 -----------------------------------------------------------------------------------
 
@@ -32,7 +35,7 @@ PANDA_MOTION = """
 
 @pytest.mark.parametrize(
     "profile",
-    ["fer-spoc", *(pytest.param(each, marks=SECOND) for each in ("fer-old", "fr3-early", "fr3-v1"))],
+    ["fer-old", "fer-spoc", *(pytest.param(each, marks=FURTHER) for each in ("fr3-early", "fr3-v1"))],
 )
 def test_panda_python_starts_the_robot(desk_client, profile):
     with desk_client("panda", profile) as (desk, client):
@@ -72,7 +75,7 @@ BUTTONS = "[(event.button.value, event.pressed) for event in desk.poll_buttons(6
 
 
 @pytest.mark.parametrize(
-    "kind, profile", [("Desk", "fr3-v1"), pytest.param("DeskWebSession", "fr3-early", marks=SECOND)]
+    "kind, profile", [("Desk", "fr3-v1"), pytest.param("DeskWebSession", "fr3-early", marks=FURTHER)]
 )
 def test_franky_starts_the_robot(desk_client, kind, profile):
     with desk_client("franky", profile) as (desk, client):
@@ -105,7 +108,31 @@ def test_franky_starts_the_robot(desk_client, kind, profile):
 
 # ---- franka-desk 0.1.0, franka-deskapi 1.0.1 --------------------------------------------------------------
 
+# As in the client's own examples.
+INERTIA = {"x11": 0.001, "x12": 0, "x13": 0, "x22": 0.0025, "x23": 0, "x33": 0.0017}
+POSE = {"rotation": {"roll": 0.7, "pitch": 0, "yaw": 0}, "translation": {"x": 0, "y": 0, "z": 0.1034}}
+HAND = {"mass": 0.73, "centerOfMass": {"x": -0.01, "y": 0, "z": 0.03}, "inertia": INERTIA}
+HAND["transformation"] = POSE
+TOOL = {"endEffectorConfiguration": {"endEffector": {"name": "FrankaHand", "params": HAND}}}
+USERS = [{"name": USER, "password": PASSWORD, "role": "Admin"}]
+USERS.append({"name": "safety", "password": "another word", "role": "SafetyOperator"})
+SHOP_FLOOR = {"address": "172.16.0.2", "netmask": "255.255.255.0", "type": "Static"}
+NETWORK = {"robot": {"network": "192.168.0.0"}, "shopFloor": SHOP_FLOOR}
+EVERYTHING = {**TOOL, "networkConfiguration": NETWORK, "userConfiguration": {"users": USERS}}
+MOUNTING = {"orientation": {"pitch": 0.0, "roll": 0.0, "yaw": 0.0}}
+DESKAPI_READS = """
+    for name in ("operating_mode", "system_status", "system_state", "joint_state", "joint_warnings",
+                 "joint_info", "ee_power", "control_token", "token", "fci_status"):
+        assert getattr(desk, "get_" + name)(), name
+    import os, tempfile
+    os.chdir(tempfile.mkdtemp())  # for the files of some
+    for name in ("configuration", "software_update", "software", "arm_mounting",
+                 "log", "public_cyclic", "public_events", "software_status_token"):
+        getattr(desk, "get_" + name)()
+"""
 
+
+@FURTHER
 def test_franka_desk_brings_the_robot_up_and_down(desk_client):
     with desk_client("franka_desk", "fr3-v1", port=8443) as (desk, client):
         client.run(FRANKA_DESK + "    desk.take_control_token(); desk.unlock_joints()")
@@ -132,6 +159,7 @@ def test_franka_desk_brings_the_robot_up_and_down(desk_client):
         assert client.value("desk.get_control_token_info()['owner']") is None
 
 
+@FURTHER
 def test_franka_deskapi_starts_the_robot(desk_client):
     with desk_client("franka_deskapi", "fr3-v1", port=8443) as (desk, client):
         client.run(DESKAPI)
@@ -146,41 +174,11 @@ def test_franka_deskapi_starts_the_robot(desk_client):
         assert client.value("desk.get_operating_mode()")["status"] == "Programming"
         client.run("desk.lock_brakes()")
         assert is_locked(desk.report())
-        for name in ("operating_mode", "system_status", "system_state", "joint_state", "joint_warnings"):
-            assert client.value(f"desk.get_{name}()"), name
-        for name in ("joint_info", "ee_power", "control_token", "token", "fci_status"):
-            assert client.value(f"desk.get_{name}()"), name
-        for name in ("configuration", "software_update", "software", "arm_mounting"):
-            client.run(f"desk.get_{name}()")
-        client.run("import os, tempfile; os.chdir(tempfile.mkdtemp())")
-        for name in ("log", "public_cyclic", "public_events", "software_status_token"):
-            client.run(f"desk.get_{name}()")
-        client.run("desk.ee_poweroff(); desk.ee_poweron(); desk.delete_software_update()")
-        for name in ("initial_configuration", "patch_ee_configuration", "change_arm_mounting"):
-            client.run(f"desk.call_api({name!r}, config_data={configuration_of(name)!r})")
-        client.run("desk.close()")
-
-
-def configuration_of(name: str) -> dict:
-    """As in the client's own examples."""
-    inertia = {"x11": 0.001, "x12": 0, "x13": 0, "x22": 0.0025, "x23": 0, "x33": 0.0017}
-    rotation, center = {"roll": 0.7071, "pitch": 0, "yaw": 0}, {"x": -0.01, "y": 0, "z": 0.03}
-    transformation = {"rotation": rotation, "translation": {"x": 0, "y": 0, "z": 0.1034}}
-    parameters = {"mass": 0.73, "centerOfMass": center, "inertia": inertia, "transformation": transformation}
-    hand = {"endEffectorConfiguration": {"endEffector": {"name": "FrankaHand", "params": parameters}}}
-    users = [{"name": USER, "password": PASSWORD, "role": "Admin"}]
-    users.append({"name": "safety", "password": "another word", "role": "SafetyOperator"})
-    shop_floor = {"address": "172.16.0.2", "netmask": "255.255.255.0", "type": "Static"}
-    network = {"robot": {"network": "192.168.0.0"}, "shopFloor": shop_floor}
-    return {
-        "initial_configuration": {
-            **hand,
-            "networkConfiguration": network,
-            "userConfiguration": {"users": users},
-        },
-        "patch_ee_configuration": hand,
-        "change_arm_mounting": {"orientation": {"pitch": 0.0, "roll": 0.0, "yaw": 0.0}},
-    }[name]
+        client.run(f"desk.call_api('initial_configuration', config_data={EVERYTHING})")
+        client.run(f"desk.call_api('patch_ee_configuration', config_data={TOOL})")
+        client.run(f"desk.call_api('change_arm_mounting', config_data={MOUNTING})")
+        client.run(DESKAPI_READS)
+        client.run("desk.ee_poweroff(); desk.ee_poweron(); desk.delete_software_update(); desk.close()")
 
 
 # ---- aiofranka 0.9.0 --------------------------------------------------------------------------------------
@@ -205,6 +203,7 @@ AIOFRANKA_FILE = """
 """
 
 
+@FURTHER
 def test_aiofranka_unlocks_and_locks(desk_client):
     with desk_client("aiofranka", "fr3-v1") as (desk, client):
         client.run(AIOFRANKA + AIOFRANKA_FILE)
@@ -217,7 +216,7 @@ def test_aiofranka_unlocks_and_locks(desk_client):
         assert is_locked(desk.report())
 
 
-@SECOND
+@FURTHER
 def test_aiofranka_starts_its_own_server(desk_client):
     with desk_client("aiofranka", "fr3-v1") as (desk, client):
         client.run(AIOFRANKA + "    aiofranka.start(HOST, **names)")
@@ -226,7 +225,7 @@ def test_aiofranka_starts_its_own_server(desk_client):
         desk.wait(is_locked)
 
 
-@SECOND
+@FURTHER
 def test_aiofranka_lock_unlock_starts_the_robot(desk_client):
     with desk_client("aiofranka", "fer-spoc") as (desk, client):
         client.run(AIOFRANKA + "    from aiofranka.client import FrankaLockUnlock")
@@ -261,7 +260,7 @@ def test_rcs_fr3_starts_the_robot(desk_client):
         client.run("desk.release_control(); desk.logout()")  # without control, which only warns
 
 
-@SECOND
+@FURTHER
 def test_rcs_panda_starts_the_robot(desk_client):
     with desk_client("rcs", "fer-spoc") as (desk, client):
         client.run(rcs("rcs_panda"))
@@ -272,6 +271,7 @@ def test_rcs_panda_starts_the_robot(desk_client):
         assert is_locked(desk.report())
 
 
+@FURTHER
 def test_positronic_starts_the_robot(desk_client):
     with desk_client("positronic", "fr3-v1") as (desk, client):
         client.run(f"import sys; sys.path.insert(0, {str(positronic_sources())!r})")

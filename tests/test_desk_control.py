@@ -1,45 +1,31 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Who has control of a robot: requests, take-over and release, in both interfaces of Desk."""
+"""Control of a robot: requests, take-over and release, as rules and in both interfaces of Desk."""
 
 import asyncio
-import http.client
-import json
-import socket
-import threading
+import base64
+import contextlib
+import urllib.parse
 
 import pytest
-from desk_fixtures import desk_with_robot, fresh_desk, fresh_robot
 from desk_robot import OPEN
-from desk_server import basic
+from desk_server import SteppedLoop, basic
 from pyfranka.desk.fci import ATTEMPT
 from pyfranka.desk.tokens import Tokens
+from scripted_desk import desk_with_robot
 from waiting import wait_for
+
+pytest_plugins = ["desk_fixtures"]
 
 TOKEN = "/admin/api/control-token"
 TAKE, RELEASE = "/api/system/control-token:take", "/api/system/control-token:release"
 DEADLINE = 60.0  # [s]
 
 
-@pytest.fixture(scope="module")
-def place(tmp_path_factory):
-    with desk_with_robot(tmp_path_factory.mktemp("certificates")) as (robot, desk):
-        yield robot, desk
-
-
 @pytest.fixture
-def robot(place):
-    return fresh_robot(place, brakes=OPEN)
-
-
-@pytest.fixture
-def desk(place, robot):
-    return fresh_desk(place)
-
-
-@pytest.fixture
-def cookie(desk):
-    return desk.log_in()
+def robot(robot):
+    robot.report["brakes"] = OPEN
+    return robot
 
 
 def state(desk):
@@ -59,55 +45,77 @@ def take(desk, owner="other", **more):
     return desk.send("POST", TAKE, {"owner": owner, **more}, **basic())
 
 
-class Later(threading.Thread):
-    """A request on a connection of its own, which waits for its answer."""
+# ---- the rules -------------------------------------------------------------------------------------------
 
-    def __init__(self, desk, body):
-        super().__init__(daemon=True)
-        self._connection, self._body = desk.connection(), body
-        self.answer = None
-        self.start()
+FORCE_TIME = 30.0  # [s]
+# Steps; who then has control, who waits for it, and the answers to requests that did not get it.
+STEPS = [
+    ("request a", "a", None, {}),
+    ("force a", "a", None, {}),
+    ("request a, release a, unknown a", None, None, {}),
+    ("request a, request b", "a", "b", {}),
+    ("request a, request b, release a, unknown a", "b", None, {}),
+    ("request a, request b, release b, unknown b", "a", None, {"b": "withdrawn"}),
+    ("request a, request b, request c, unknown b", "a", "c", {"b": "replaced"}),
+    ("request a, request b, deny", "a", None, {"b": "denied"}),
+    ("request a, request b, accept", "b", None, {}),
+    ("request a, request b, circle", "a", "b", {}),
+    ("request a, force b, circle", "b", None, {}),
+    ("request a, force b, time 29.9", "a", "b", {}),
+    ("request a, force b, time 30.1", "a", None, {"b": "denied"}),
+    ("request a, force b, request c, time 30.1", "a", "c", {"b": "replaced"}),
+    ("request a, request b, gone b, release a", None, None, {"b": "withdrawn"}),
+    ("request a, request b, gone b, accept", "a", None, {"b": "withdrawn"}),
+    ("request a, force b, gone b, circle", "a", None, {"b": "withdrawn"}),
+    ("request a, request b, clear, unknown a", None, None, {"b": "withdrawn"}),
+]
 
-    def run(self):
-        try:
-            self._connection.request("POST", TAKE, json.dumps(self._body), basic())
-            response = self._connection.getresponse()
-            self.answer = response.status, json.loads(response.read())
-        except (OSError, http.client.HTTPException):
-            pass
 
-    def go_away(self):
-        self._connection.sock.shutdown(socket.SHUT_RDWR)
+@pytest.mark.parametrize("steps, active, pending, answers", STEPS, ids=str)
+def test_one_user_has_control_and_one_may_wait_for_it(steps, active, pending, answers):
+    async def follow():
+        loop, requests, gone = asyncio.get_running_loop(), {}, set()
+        loop.stop_clock()
+        tokens = Tokens(FORCE_TIME, lambda: None, lambda: None)
+        calls = {"accept": tokens.accept, "deny": tokens.deny, "clear": tokens.clear}
+        calls["circle"] = tokens.confirm_at_robot
+        for step in steps.split(", "):
+            what, _, word = step.partition(" ")
+            if what in ("request", "force"):
+                requests[word] = tokens.request(word, what == "force", lambda word=word: word not in gone)
+            elif what in ("release", "unknown"):
+                assert tokens.release(requests[word].token) == (what == "release")
+            elif what == "gone":
+                gone.add(word)
+            elif what == "time":
+                loop.ahead += float(word)
+                turn = loop.create_future()
+                loop.call_later(0.0, turn.set_result, None)  # behind the timers that are due
+                await turn
+            else:
+                calls[what]()
+        assert tokens.active is requests.get(active) and tokens.pending is requests.get(pending)
+        decided = {name: each.answer.result() for name, each in requests.items() if each.answer.done()}
+        assert {name: answer for name, answer in decided.items() if answer != "granted"} == answers
+        assert active is None or decided[active] == "granted"
 
-    def result(self):
-        self.join(DEADLINE)
-        return self.answer
+    with contextlib.closing(SteppedLoop()) as loop:
+        loop.run_until_complete(follow())
 
 
 # ---- the older interface ---------------------------------------------------------------------------------
 
 
-def test_request_is_granted_at_once_while_no_user_has_control(desk, cookie):
+def test_states_show_the_holder_and_the_pending_request(desk, cookie):
     assert state(desk) == {"activeToken": None, "fciActive": False, "tokenRequest": None}
-    request = desk.take_control("me", **cookie)
-    assert type(request["id"]) is int and type(request["token"]) is str
-    assert state(desk)["activeToken"] == {"id": request["id"], "ownedBy": "me"}
-
-
-def test_request_is_pending_until_the_holder_releases_control(desk, cookie):
-    first, second = desk.take_control("me", **cookie), desk.take_control("you", **cookie)
-    assert active_id(desk) == first["id"]
-    assert state(desk)["tokenRequest"]["id"] == second["id"]
-    assert release(desk, first, cookie).status == 200
-    assert active_id(desk) == second["id"] and state(desk)["tokenRequest"] is None
-
-
-def test_a_newer_request_replaces_a_pending_one(desk, cookie):
     first = desk.take_control("me", **cookie)
-    replaced, newest = desk.take_control("you", **cookie), desk.take_control("her", **cookie)
-    assert release(desk, replaced, cookie).json()["error"] == "ControlTokenUnknown"
-    release(desk, first, cookie)
-    assert active_id(desk) == newest["id"]
+    assert type(first["id"]) is int and type(first["token"]) is str
+    second = desk.take_control("you", **cookie)
+    assert state(desk)["activeToken"] == {"id": first["id"], "ownedBy": "me"}
+    assert state(desk)["tokenRequest"] == {"id": second["id"], "requestedBy": "you", "force": False}
+    assert release(desk, first, cookie).status == 200
+    assert state(desk)["activeToken"] == {"id": second["id"], "ownedBy": "you"}
+    assert state(desk)["tokenRequest"] is None
 
 
 def test_pending_request_can_be_withdrawn_in_two_ways(desk, cookie):
@@ -121,14 +129,6 @@ def test_pending_request_can_be_withdrawn_in_two_ways(desk, cookie):
     assert state(desk)["tokenRequest"] is None and active_id(desk) == first["id"]
 
 
-def test_a_released_token_is_unknown(desk, cookie):
-    request = desk.take_control(**cookie)
-    assert release(desk, request, cookie).status == 200
-    assert release(desk, request, cookie).status == 404
-    fci = desk.send("POST", f"{TOKEN}/fci", {"token": request["token"]}, **cookie)
-    assert fci.status == 404 and fci.json()["error"] == "ControlTokenUnknown"
-
-
 def test_a_pending_token_may_not_act(desk, cookie, robot):
     desk.take_control("me", **cookie)
     pending = desk.take_control("you", **cookie)
@@ -136,14 +136,6 @@ def test_a_pending_token_may_not_act(desk, cookie, robot):
     unlock = desk.send("POST", "/desk/api/joints/unlock", **cookie, X_Control_Token=pending["token"])
     assert unlock.status == 423
     assert robot.lines == []
-
-
-def test_release_switches_the_fci_off(desk, cookie, robot):
-    request = desk.take_control(**cookie)
-    assert desk.send("POST", f"{TOKEN}/fci", {"token": request["token"]}, **cookie).status == 200
-    assert state(desk)["fciActive"]
-    release(desk, request, cookie)
-    assert not state(desk)["fciActive"] and robot.lines == ["fci on", "fci off"]
 
 
 def test_logging_out_keeps_control(desk, cookie):
@@ -155,9 +147,6 @@ def test_logging_out_keeps_control(desk, cookie):
 
 @pytest.mark.parametrize("form", ["raw", "base64", "header"])
 def test_the_fci_takes_its_token_in_each_form_that_clients_send(desk, cookie, robot, form):
-    import base64
-    import urllib.parse
-
     token = desk.take_control(**cookie)["token"]
     field = token if form == "raw" else base64.b64encode(token.encode()).decode()
     body = b"" if form == "header" else b"token=" + urllib.parse.quote(field).encode()
@@ -165,9 +154,6 @@ def test_the_fci_takes_its_token_in_each_form_that_clients_send(desk, cookie, ro
     headers["Content_Type"] = "application/x-www-form-urlencoded"
     assert desk.send("POST", "/desk/api/system/fci", body, **cookie, **headers).status == 200
     assert robot.lines == ["fci on"]
-
-
-# ---- forced take-over ------------------------------------------------------------------------------------
 
 
 @pytest.mark.parametrize("query", ["?force", "?force=", "?force=true"])
@@ -179,47 +165,31 @@ def test_the_circle_button_confirms_a_forced_request(desk, cookie, robot, query)
     robot.report["buttons"]["circle"] = True
     wait_for(lambda: active_id(desk) == second["id"])
     wait_for(lambda: not state(desk)["fciActive"])
-    assert release(desk, first, cookie).status == 404
-
-
-def test_the_circle_button_does_not_grant_other_requests(desk, cookie, robot):
-    first = desk.take_control("me", **cookie)
-    desk.take_control("you", **cookie)
-    robot.report["buttons"]["circle"] = True
-    desk.refresh()
-    assert active_id(desk) == first["id"]
-
-
-def test_forced_request_is_granted_at_once_while_no_user_has_control(desk, cookie):
-    request = desk.take_control("me", "?force", **cookie)
-    assert active_id(desk) == request["id"]
-
-
-def test_forced_request_expires(desk, cookie):
-    limit = desk.send("GET", "/admin/api/safety", **cookie).json()["tokenForceTimeout"]
-    assert limit == 30
-    first = desk.take_control("me", **cookie)
-    with desk.stopped_clock():
-        second = desk.take_control("you", "?force", **cookie)
-        desk.advance(limit - 0.1)
-        assert state(desk)["tokenRequest"]["id"] == second["id"]
-        desk.advance(0.2)
-    wait_for(lambda: state(desk)["tokenRequest"] is None)
-    assert active_id(desk) == first["id"]
-    assert release(desk, second, cookie).json()["error"] == "ControlTokenUnknown"
+    answer = release(desk, first, cookie)
+    assert answer.status == 404 and answer.json()["error"] == "ControlTokenUnknown"
 
 
 # ---- the newer interface ---------------------------------------------------------------------------------
 
 
+def begin_to_take(desk, owner="you", **more):
+    """A request that waits; what its answer will be."""
+    answer = desk.begin("POST", TAKE, {"owner": owner, **more}, **basic())
+    wait_for(lambda: state(desk)["tokenRequest"], "The request")
+    return answer
+
+
+def code_of(answer):
+    """Status and code of what has been answered."""
+    answer = answer.result(DEADLINE)
+    return answer.status, answer.json().get("code")
+
+
 def test_both_interfaces_share_one_token(desk, cookie):
     taken = take(desk, "me").json()
     assert active_id(desk) == taken["tokenId"]
-    assert desk.send("GET", "/api/system/control-token").json() == {
-        "owner": "me",
-        "requester": None,
-        "tokenId": taken["tokenId"],
-    }
+    shown = {"owner": "me", "requester": None, "tokenId": taken["tokenId"]}
+    assert desk.send("GET", "/api/system/control-token").json() == shown
     assert desk.send("DELETE", TOKEN, {"token": taken["token"]}, **cookie).status == 200
     request = desk.take_control("me", **cookie)
     answer = desk.send("POST", RELEASE, **basic(), X_Control_Token=request["token"])
@@ -231,74 +201,33 @@ def test_both_interfaces_share_one_token(desk, cookie):
 def test_taking_waits_for_its_time_and_a_long_one_ends_before_the_clients_own_limit(desk, timeout, answered):
     take(desk, "me")
     with desk.stopped_clock():
-        later = Later(desk, {"owner": "me", "timeout": timeout})  # also for the same owner
-        wait_for(lambda: state(desk)["tokenRequest"])
+        later = begin_to_take(desk, "me", timeout=timeout)  # also for the same owner
         desk.advance(answered - 0.1)
         assert state(desk)["tokenRequest"]
         desk.advance(0.2)
-    status, body = later.result()
-    assert status == 424 and body["code"] == "Timeout"
+    assert code_of(later) == (424, "Timeout")
     assert state(desk)["tokenRequest"] is None
-
-
-def test_taking_is_answered_when_the_holder_releases(desk, cookie):
-    first = desk.take_control("me", **cookie)
-    later = Later(desk, {"owner": "you", "timeout": 2 * DEADLINE})
-    wait_for(lambda: state(desk)["tokenRequest"])
-    release(desk, first, cookie)
-    status, body = later.result()
-    assert status == 200 and active_id(desk) == body["tokenId"]
 
 
 def test_taking_ends_when_a_newer_request_replaces_it(desk, cookie):
     desk.take_control("me", **cookie)
-    later = Later(desk, {"owner": "you"})
-    wait_for(lambda: state(desk)["tokenRequest"])
+    later = begin_to_take(desk)
     assert take(desk, "her", timeout=0.01).status == 424
-    status, body = later.result()
-    assert status == 424 and body["code"] == "RequestOverride"
+    assert code_of(later) == (424, "RequestOverride")
 
 
 def test_a_client_that_goes_away_withdraws_its_request(desk, cookie):
     desk.take_control("me", **cookie)
-    later = Later(desk, {"owner": "you"})
-    wait_for(lambda: state(desk)["tokenRequest"])
-    later.go_away()
+    begin_to_take(desk).cancel()
     wait_for(lambda: state(desk)["tokenRequest"] is None)
-
-
-WAYS_TO_CONTROL = {
-    "release": lambda tokens: tokens.release(tokens.active.token),
-    "accept": lambda tokens: tokens.accept(),
-    "circle button": lambda tokens: tokens.confirm_at_robot(),
-}
-
-
-@pytest.mark.parametrize("is_waiting", [True, False])
-@pytest.mark.parametrize("way", WAYS_TO_CONTROL.values(), ids=WAYS_TO_CONTROL)
-def test_pending_request_gets_control_only_if_its_client_is_waiting(way, is_waiting):
-    async def decide():
-        tokens = Tokens(30.0, lambda: None, lambda: None)
-        holder = tokens.request("me")
-        pending = tokens.request("you", force=True, is_waiting=lambda: is_waiting)
-        way(tokens)
-        if is_waiting:
-            expected = pending
-        else:  # the holder keeps control, or has released it
-            expected = None if way is WAYS_TO_CONTROL["release"] else holder
-        assert tokens.active is expected and tokens.pending is None
-        assert await pending.answer == ("granted" if is_waiting else "withdrawn")
-
-    asyncio.run(decide())
 
 
 def test_client_that_has_just_gone_does_not_get_control(desk, cookie):
     first = desk.take_control("me", **cookie)
     with desk.stopped_clock():  # so that no time passes in which Desk could look for it
-        later = Later(desk, {"owner": "you"})
-        wait_for(lambda: state(desk)["tokenRequest"])
+        later = begin_to_take(desk)
         connections = len(desk.desk.gate._guards)
-        later.go_away()
+        later.cancel()
         wait_for(lambda: len(desk.desk.gate._guards) < connections)
         assert release(desk, first, cookie).status == 200
         assert active_id(desk) is None
@@ -306,8 +235,7 @@ def test_client_that_has_just_gone_does_not_get_control(desk, cookie):
 
 def test_client_that_goes_while_control_is_granted_releases_it(desk, cookie):
     first = desk.take_control("me", **cookie)
-    later = Later(desk, {"owner": "you"})
-    wait_for(lambda: state(desk)["tokenRequest"])
+    later = begin_to_take(desk)
 
     async def grant_and_disconnect():
         tokens = desk.desk.tokens
@@ -320,32 +248,23 @@ def test_client_that_goes_while_control_is_granted_releases_it(desk, cookie):
 
     desk.call(grant_and_disconnect())
     desk.close_connection()
+    assert later.exception(DEADLINE)
     wait_for(lambda: active_id(desk) is None)
-    later.result()
-
-
-@pytest.mark.parametrize("timeout", [0, -1, "1", True, [], 1e999])
-def test_a_timeout_is_a_positive_number(desk, timeout):
-    answer = take(desk, timeout=timeout)
-    assert answer.status == 400 and answer.json()["message"].endswith(".")
 
 
 def test_the_holder_denies_or_accepts_a_request_on_the_page(desk, cookie):
     token = desk.take_control("me", **cookie)["token"]
     headers = {**cookie, "X_Control_Token": token, "Content_Type": "application/json"}
-    for what, expected in (("deny", 424), ("accept", 200)):
-        later = Later(desk, {"owner": "you"})
-        wait_for(lambda: state(desk)["tokenRequest"])
+    for what, expected in (("deny", (424, "Timeout")), ("accept", (200, None))):
+        later = begin_to_take(desk)
         answer = desk.send("POST", "/page/control", {"what": what}, **headers)
         assert answer.status == 200 and answer.json()["control"]["request"] is None
-        status, body = later.result()
-        assert status == expected
-        assert what == "accept" or body["code"] == "Timeout"
-    assert active_id(desk) == body["tokenId"]
+        assert code_of(later) == expected
+    assert active_id(desk) == later.result().json()["tokenId"]
     assert answer.json()["control"]["owner"] == "you"
 
 
-# ---- options ---------------------------------------------------------------------------------------------
+# ---- options and generations -----------------------------------------------------------------------------
 
 
 def test_options_select_behavior_on_which_sources_disagree(tmp_path):
@@ -362,18 +281,11 @@ def test_options_select_behavior_on_which_sources_disagree(tmp_path):
 
 def test_the_older_generation_of_the_panda_has_no_tokens_and_its_fci_is_always_on(tmp_path):
     with desk_with_robot(tmp_path, "fer-old") as (robot, desk):
-        answer = desk.send("GET", TOKEN)
-        assert (answer.status, answer.text) == (404, "File not found")
-        cookie = desk.log_in()
-        headers = {**cookie, "X_Control_Token": ""}
-        body = (
-            b'--x\r\nContent-Disposition: form-data; name="force"; filename="force"\r\n\r\nfalse\r\n--x--\r\n'
-        )
-        multipart = {"Content_Type": "multipart/form-data; boundary=x"}
-        assert desk.send("POST", "/desk/api/robot/open-brakes", body, **headers, **multipart).status == 200
+        headers = {**desk.log_in(), "X_Control_Token": ""}
+        assert desk.send("POST", "/desk/api/robot/open-brakes", **headers).status == 200
         wait_for(lambda: robot.lines == ["joints unlock", "fci on"])
         desk.advance(2 * ATTEMPT)
-        assert desk.send("POST", "/desk/api/robot/close-brakes", b"force=false", **headers).status == 200
+        assert desk.send("POST", "/desk/api/robot/close-brakes", **headers).status == 200
         assert robot.lines[2:] == ["fci off", "joints lock"]
 
 

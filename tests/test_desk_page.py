@@ -4,15 +4,15 @@
 
 import json
 import os
-import threading
 import time
 import urllib.request
+from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import numpy
 import page_browser
-import pyfranka
 import pytest
+from desk_clients import move
 from desk_server import unverified
 from page_browser import PASSWORD, browser, wait_for
 from pyfranka.desk.sessions import digest_of
@@ -30,7 +30,14 @@ CLOSED, OPEN = [True] * 7, [False] * 7
 
 
 @pytest.fixture(scope="module")
-def sim():
+def executor():
+    """For motions of clients, which end with the robots."""
+    with ThreadPoolExecutor() as executor:
+        yield executor
+
+
+@pytest.fixture(scope="module")
+def sim(executor):
     """A panda and an fr3 in one world, locked, with Desk."""
     robots = (Panda(realism="ideal"), FR3(base=(0, 1.0, 0), realism="ideal"))
     with FrankaSim(*robots, pace="patient", desk="127.0.0.1:0", desk_password=PASSWORD) as sim:
@@ -40,15 +47,10 @@ def sim():
 
 
 @pytest.fixture(scope="module")
-def address(sim) -> str:
-    return sim.robot.desk
-
-
-@pytest.fixture(scope="module")
-def tab(address):
+def tab(sim):
     """A tab with the page."""
     with browser() as tab:
-        tab.open(address)
+        tab.open(sim.robot.desk)
         yield tab
 
 
@@ -63,6 +65,10 @@ def page(tab):
     assert tab.errors() == []
 
 
+def wait_for_report(page, condition, what, robot=0):
+    wait_for(lambda: condition(page.report(robot)), what)
+
+
 def take_control(page, robot=0):
     if not page.run(f"desk.robots[{robot}].inControl"):
         page.click("Take control", robot)
@@ -73,66 +79,42 @@ def unlock(page, robot=0):
     take_control(page, robot)
     if page.report(robot)["brakes"] != OPEN:
         page.click("Unlock", robot)
-        wait_for(lambda: page.report(robot)["brakes"] == OPEN, "the joints are unlocked")
-
-
-def activate(page, robot=0):
-    unlock(page, robot)
-    if not page.report(robot)["fci"]:
-        page.click("FCI active", robot)
-        page.click("Activate")
-        wait_for(lambda: page.report(robot)["fci"], "the FCI is active")
+        wait_for_report(page, lambda now: now["brakes"] == OPEN, "the joints are unlocked", robot)
 
 
 @pytest.fixture
 def ready(page):
     """The page with control of the panda, which is unlocked with an active FCI."""
-    activate(page)
+    unlock(page)
+    if not page.report()["fci"]:
+        page.click("FCI active")
+        page.click("Activate")
+        wait_for_report(page, lambda now: now["fci"], "the FCI is active")
     return page
 
 
 @pytest.fixture
-def client(ready, sim):
-    """A client of the panda."""
-    return sim.robots[0].connect()
+def motion(ready, sim, executor):
+    """Starts a client's motion of the panda, by default a long one. Returns what will be its result."""
+
+    def start(seconds=600.0, amplitude=0.2):
+        motion = executor.submit(move, sim.robots[0], seconds, amplitude, back=False)
+        wait_for_report(ready, lambda now: now["mode"] == "Move" or motion.done(), "the client's motion")
+        return motion
+
+    return start
 
 
-class Motion(threading.Thread):
-    """A client's motion: joint 1 turns by an angle [rad] within a time [s]."""
-
-    def __init__(self, robot, duration: float, angle: float = 0.4):
-        super().__init__(daemon=True)
-        self.robot, self.duration, self.angle = robot, duration, angle
-        self.error = None
-        self.start()
-
-    def run(self):
-        elapsed, start = 0.0, None
-
-        def step(state, period):
-            nonlocal elapsed, start
-            elapsed += period.to_sec()
-            start = list(state.q_d) if start is None else start
-            turned = self.angle * 0.5 * (1 - numpy.cos(numpy.pi * min(elapsed / self.duration, 1.0)))
-            target = pyfranka.JointPositions([start[0] + turned, *start[1:]])
-            target.motion_finished = elapsed >= self.duration
-            return target
-
-        try:
-            self.robot.control_joint_positions(step)
-        except pyfranka.Exception as error:
-            self.error = str(error)  # the exception itself would keep the connection
-
-    def ended(self):
-        self.join(page_browser.LIMIT)
-        assert not self.is_alive(), "the client's motion has not ended"
-        return self.error
+def changed(before, after, box):
+    """Share of the pixels in a box that differ."""
+    pair = [numpy.asarray(picture.crop(box), dtype=int) for picture in (before, after)]
+    return float((abs(pair[0] - pair[1]).max(axis=2) > 12).mean())
 
 
-# ---- login, start-up -------------------------------------------------------------------------------------
+# ---- one case for all that an operator needs -------------------------------------------------------------
 
 
-def test_operator_logs_in_takes_control_and_activates_the_fci(tab, address):
+def test_operator_logs_in_takes_control_and_opens_the_brakes(tab, sim):
     tab.log_in(password="wrong")
     tab.shows("User or password is wrong.")
     assert all("401" in error for error in tab.errors())
@@ -147,24 +129,14 @@ def test_operator_logs_in_takes_control_and_activates_the_fci(tab, address):
     tab.shows("Activate the FCI?", "dialog")
     tab.click("Cancel")
     assert not tab.report()["fci"]
-    activate(tab)
-    assert tab.report()["light"]["color"] in ("green", "blue")
     loaded = tab.run("performance.getEntriesByType('resource').map((entry) => entry.name)")
     assert any(name.endswith("three.module.js") for name in loaded)
-    assert [name for name in loaded if not name.startswith(address)] == []
+    assert [name for name in loaded if not name.startswith(sim.robot.desk)] == []
     assert tab.errors() == []
 
 
-# ---- motions ---------------------------------------------------------------------------------------------
-
-
-def changed(before, after, box):
-    """Share of the pixels in a box that differ."""
-    pair = [numpy.asarray(picture.crop(box), dtype=int) for picture in (before, after)]
-    return float((abs(pair[0] - pair[1]).max(axis=2) > 12).mean())
-
-
-def test_a_clients_motion_changes_the_picture_of_the_3d_view(client, ready):
+def test_a_clients_motion_is_drawn_and_ended_by_the_user_stop(motion, ready):
+    assert ready.report()["light"]["color"] in ("green", "blue")
     ready.run("document.querySelector('.view').scrollIntoView({block: 'start'})")
     start, before = ready.place("panda_hand"), ready.picture()
 
@@ -172,55 +144,53 @@ def test_a_clients_motion_changes_the_picture_of_the_3d_view(client, ready):
         now = ready.place("panda_hand")
         return numpy.hypot(now["x"] - start["x"], now["y"] - start["y"])
 
-    assert Motion(client, 1.5, angle=0.6).ended() is None
+    motion(3.0, 0.6).result(page_browser.LIMIT)
     wait_for(lambda: distance() > 15, "the hand moves in the view")
     x, y = int(start["x"]), int(start["y"])
     box = (x - 30, y - 30, x + 30, y + 30)
     wait_for(lambda: changed(before, ready.picture(), box) > 0.05, "the picture of the hand has changed")
 
-
-def test_the_user_stop_ends_a_motion_and_recovery_goes_on(client, ready):
-    motion = Motion(client, 600.0)
-    wait_for(lambda: ready.report()["mode"] == "Move", "the client moves the arm")
+    moving = motion()
     ready.click("Stop panda")
-    assert motion.ended() is not None
-    wait_for(lambda: ready.report()["mode"] == "User stopped", "the robot is stopped")
+    assert moving.exception(page_browser.LIMIT) is not None
+    wait_for_report(ready, lambda now: now["mode"] == "User stopped", "the robot is stopped")
     ready.shows("User stopped")
     ready.click("Release stop panda")
-    wait_for(lambda: ready.report()["mode"] != "User stopped", "the stop is released")
+    wait_for_report(ready, lambda now: now["mode"] != "User stopped", "the stop is released")
     if ready.report()["errors"]:
         ready.click("Recover")
-    wait_for(lambda: not ready.report()["errors"], "the errors are gone")
     ready.shows("No errors.", '[data-robot="0"]')
-    activate(ready)
+
+
+# ---- one robot -------------------------------------------------------------------------------------------
 
 
 @LONG
-def test_errors_are_shown_in_words_and_recovered(client, ready):
-    motion = Motion(client, 600.0)
-    wait_for(lambda: ready.report()["mode"] == "Move", "the client moves the arm")
+def test_errors_are_shown_in_words_and_recovered(motion, ready):
+    moving = motion()
     ready.click("Push with numbers")
     field = ready.find(".view input[type=number]")
     field.clear()
     field.send_keys("150")
     ready.click("Push for 300 ms")
-    wait_for(lambda: ready.report()["mode"] == "Reflex", "the push has caused a reflex")
-    assert motion.ended() is not None
+    wait_for_report(ready, lambda now: now["mode"] == "Reflex", "the push has caused a reflex")
+    assert moving.exception(page_browser.LIMIT) is not None
     errors = ready.text('[data-robot="0"] .errors')
     assert errors and "exceeded its threshold" in errors
     ready.click("Recover")
-    wait_for(lambda: ready.report()["mode"] == "Idle", "the robot has recovered")
+    wait_for_report(ready, lambda now: now["mode"] == "Idle", "the robot has recovered")
     ready.shows("No errors.", '[data-robot="0"]')
 
 
 @LONG
-def test_client_receives_the_end_effector(client, ready):
+def test_client_receives_the_end_effector(ready, sim):
     ready.click("End effector")
     panel = ready.find('[data-robot="0"] details.end-effector')
     mass = panel.find_element("css selector", "input[type=number]")
     mass.clear()
     mass.send_keys("1.234")
     ready.click("Apply")
+    client = sim.robots[0].connect()
     wait_for(lambda: abs(client.read_once().m_ee - 1.234) < 1e-9, "the client sees the mass")
     ready.shows("In force: 1.234 kg", '[data-robot="0"]')
 
@@ -231,7 +201,7 @@ def test_operator_drags_the_hand_in_guiding(ready):
     ready.click("Safety")
     ready.click("X4 activation device")
     ready.click("Guide by hand")
-    wait_for(lambda: ready.report()["mode"] == "Guiding", "guiding is active")
+    wait_for_report(ready, lambda now: now["mode"] == "Guiding", "guiding is active")
     ready.run("document.querySelector('.view').scrollIntoView({block: 'start'})")
     before = numpy.array(ready.report()["q"])
 
@@ -242,9 +212,9 @@ def test_operator_drags_the_hand_in_guiding(ready):
     ready.drag(ready.place("panda_link7"), (70, 20), push)
     wait_for(lambda: not ready.text(".force-label"), "the force is gone")
     ready.click("Guide by hand")
-    wait_for(lambda: not ready.report()["guiding"]["active"], "guiding has ended")
+    wait_for_report(ready, lambda now: not now["guiding"]["active"], "guiding has ended")
     ready.click("X4 activation device")
-    wait_for(lambda: not ready.report()["inputs"]["x4"], "the activation device is released")
+    wait_for_report(ready, lambda now: not now["inputs"]["x4"], "the activation device is released")
 
 
 # ---- several robots, several users -----------------------------------------------------------------------
@@ -269,34 +239,24 @@ def test_two_robots_are_operated_side_by_side(page):
     assert page.report(0)["brakes"] == first
 
 
-class Anna:
-    """Another user of one robot's Desk: a program."""
-
-    def __init__(self, address: str):
-        self.address, self.cookie = address, ""
-        body = {"login": page_browser.USER, "password": digest_of(page_browser.USER, PASSWORD)}
-        self.cookie = "authorization=" + self._post("/admin/api/login", body)
-
-    def _post(self, path: str, body: dict) -> str:
-        headers = {"Content-Type": "application/json", "Cookie": self.cookie}
-        request = urllib.request.Request(self.address + path, json.dumps(body).encode(), headers)
-        with urllib.request.urlopen(request, context=unverified(), timeout=page_browser.LIMIT) as answer:
-            return answer.read().decode()
-
-    def ask(self) -> None:
-        """Asks for control."""
-        self._post("/admin/api/control-token/request", {"requestedBy": "anna"})
+def post(address: str, path: str, body: dict, cookie: str = "") -> str:
+    headers = {"Content-Type": "application/json", "Cookie": cookie}
+    request = urllib.request.Request(address + path, json.dumps(body).encode(), headers)
+    with urllib.request.urlopen(request, context=unverified(), timeout=page_browser.LIMIT) as answer:
+        return answer.read().decode()
 
 
 @LONG
 def test_holder_is_asked_and_forced_take_over_works(page, sim):
     take_control(page, 1)
-    anna = Anna(sim.robots[1].desk)
-    anna.ask()
+    desk, digest = sim.robots[1].desk, digest_of(page_browser.USER, PASSWORD)
+    token = post(desk, "/admin/api/login", {"login": page_browser.USER, "password": digest})
+    request = "/admin/api/control-token/request", {"requestedBy": "anna"}, f"authorization={token}"
+    post(desk, *request)
     page.shows("anna requests control of fr3.")
     page.click("Deny", 1)
     page.shows("You control fr3.")
-    anna.ask()
+    post(desk, *request)
     page.shows("anna requests control of fr3.")
     page.click("Accept", 1)
     page.shows("anna controls fr3. You can watch it.")

@@ -9,7 +9,6 @@ import json
 import os
 import re
 import signal
-import socket
 import subprocess
 import sys
 from pathlib import Path
@@ -90,38 +89,35 @@ def get(place, path, headers):
     return response.status, body
 
 
+KINDS = ("panda", "fr3")
+
+
 @pytest.fixture(scope="module")
 def served(tmp_path_factory):
-    """The program and its place. The password is in the environment. The policy of the scheduler is one that
-    any user may choose, which is inherited like that of real time."""
+    """The program for two robots, and its places. The password is in the environment. The policy of the
+    scheduler is one that any user may choose, which is inherited like that of real time."""
 
     def control_a_robot():
         os.sched_setscheduler(0, os.SCHED_BATCH, os.sched_param(0))
 
     folder = str(tmp_path_factory.mktemp("cache"))
     environment = {**os.environ, "XDG_CACHE_HOME": folder, "FRANKA_DESK_PASSWORD": WORD}
-    with ScriptedRobot() as robot:
-        words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0", "--user=anna"]
-        with program(environment, *words, preexec_fn=control_a_robot) as process:
-            before, (place,) = places(process, 1)
-            assert before == []
-            yield process, place
+    with contextlib.ExitStack() as stack:
+        robots = [stack.enter_context(ScriptedRobot(type=kind, arm_id=kind)) for kind in KINDS]
+        words = [f"--robot=127.0.0.1:{robot.port}" for robot in robots]
+        words += [f"--listen={OWN_ADDRESS}:{FIRST_PORT}", "--user=anna", "--option", "version=5.1.0"]
+        process = stack.enter_context(program(environment, *words, preexec_fn=control_a_robot))
+        before, found = places(process, len(KINDS))
+        assert before == []
+        yield process, found
 
 
 def test_a_password_of_the_environment_is_not_shown(served):
-    process, place = served
-    assert get(place, "/api/configuration", basic("anna", WORD))[0] == 200
-    assert get(place, "/api/configuration", basic("anna", ""))[0] == 401
+    process, (place, _) = served
+    assert get(place, "/admin/api/features", basic("anna", WORD))[0] == 200
+    assert get(place, "/admin/api/features", basic("anna", ""))[0] == 401
     with open(f"/proc/{process.pid}/cmdline") as file:
         assert WORD not in file.read()
-
-
-def test_it_sends_no_session_tickets(served):
-    plain = socket.create_connection(served[1], timeout=DEADLINE)
-    with plain, unverified().wrap_socket(plain) as secured:
-        secured.sendall(b"GET /admin/api/startup-phase HTTP/1.1\r\nHost: localhost\r\n\r\n")
-        assert secured.recv(4096).startswith(b"HTTP/1.1 200")
-        assert not secured.session.has_ticket
 
 
 def test_it_does_not_keep_the_priority_of_the_program_that_starts_it(served):
@@ -129,29 +125,15 @@ def test_it_does_not_keep_the_priority_of_the_program_that_starts_it(served):
     assert os.getpriority(os.PRIO_PROCESS, served[0].pid) > 0
 
 
-def test_each_robot_has_a_desk_of_its_own_and_its_paths_at_the_others(environment):
-    kinds = {"panda": ["/robots/0", "/robots/1"], "fr3": ["/robots/1", "/robots/0"]}
-    with contextlib.ExitStack() as stack:
-        robots = [stack.enter_context(ScriptedRobot(type=kind, arm_id=kind)) for kind in kinds]
-        words = [f"--robot=127.0.0.1:{robot.port}" for robot in robots]
-        environment["FRANKA_DESK_PASSWORD"] = WORD
-        process = stack.enter_context(program(environment, *words, f"--listen={OWN_ADDRESS}:{FIRST_PORT}"))
-        _, found = places(process, 2)
-        assert found[1][1] == found[0][1] + 1
-        for number, kind in enumerate(kinds):
-            for place, prefix in ((found[number], ""), *((each, f"/robots/{number}") for each in found)):
-                status, body = get(place, f"{prefix}/admin/api/robot/nameplate", basic("franka", WORD))
-                assert status == 200 and json.loads(body)["armId"] == kind
-        assert get(found[0], "/robots/2/admin/api/system-version", {})[0] == 404
-
-
-def test_profile_and_options_are_accepted(environment):
-    with ScriptedRobot() as robot:
-        words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0", "--profile=fr3-early"]
-        with program(environment, *words, "--option", "version=5.1.0") as process:
-            _, (place,) = places(process, 1)
-            assert get(place, "/api/system", {})[0] == 404
-            assert json.loads(get(place, "/admin/api/system-version", {})[1]).startswith("5.1.0\n")
+def test_each_robot_has_a_desk_of_its_own_and_its_paths_at_the_others(served):
+    _, found = served
+    assert found == [(OWN_ADDRESS, FIRST_PORT), (OWN_ADDRESS, FIRST_PORT + 1)]
+    for number, kind in enumerate(KINDS):
+        for place, prefix in ((found[number], ""), *((each, f"/robots/{number}") for each in found)):
+            status, body = get(place, f"{prefix}/admin/api/robot/nameplate", basic("anna", WORD))
+            assert status == 200 and json.loads(body)["armId"] == kind
+    assert get(found[0], "/robots/2/admin/api/system-version", {})[0] == 404
+    assert json.loads(get(found[0], "/admin/api/system-version", {})[1]).startswith("5.1.0\n")
 
 
 def wait_for_control(place, password):
@@ -166,9 +148,9 @@ def wait_for_control(place, password):
 
 def test_it_ends_on_request_and_each_time_has_a_new_password(environment):
     passwords = set()
-    with ScriptedRobot() as robot:
+    with ScriptedRobot(protocol=[6, 7]) as robot:
+        words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0", "--profile=fr3-v1"]
         for how in (signal.SIGTERM, signal.SIGINT, "end of input"):
-            words = [f"--robot=127.0.0.1:{robot.port}", "--listen=127.0.0.1:0"]
             with child_program(environment, *words) as (process, addresses):
                 (line,), (place,) = places(process, 1)
                 assert addresses.read() == f"https://{place[0]}:{place[1]}\n"

@@ -7,11 +7,12 @@ In headers and bodies, {token}, {id}, {login} and {digest} stand for what earlie
 
 import base64
 import hashlib
+import re
 from dataclasses import dataclass
 
 import pytest
-from desk_fixtures import desk_with_robot
 from desk_server import PASSWORD, USER
+from scripted_desk import desk_with_robot
 from waiting import wait_for
 
 JSON, FORM = "application/json", "application/x-www-form-urlencoded"
@@ -154,6 +155,7 @@ class Player:
         answer = self._desk.send(method, path, body, **headers)
         assert answer.status == step.status and step.has in answer.text, (step, answer)
         if step is LOGIN:
+            assert re.fullmatch(r"[\w.-]+", answer.text) and "Set-Cookie" not in answer.headers
             self._given["login"] = answer.text
         elif "/request" in path:
             self._given.update(answer.json())

@@ -110,8 +110,8 @@ def desk_and_client(folder: Path, name: str, profile: str, port: int = 443):
                 yield desk, client
 
 
-def move(robot, seconds: float = 0.3, amplitude: float = 0.01) -> None:
-    """A motion of this project's own client there and back. Raises pyfranka's exceptions."""
+def move(robot, seconds: float = 0.3, amplitude: float = 0.01, back: bool = True) -> None:
+    """A motion of this project's own client there, and back. Raises pyfranka's exceptions."""
     import pyfranka
 
     connection = robot.connect()
@@ -123,7 +123,7 @@ def move(robot, seconds: float = 0.3, amplitude: float = 0.01) -> None:
         nonlocal passed, first
         passed += period
         first = first or list(state.q_d)
-        x = min(passed / seconds, 1.0)
+        x = min(passed / seconds, 1.0) * (1.0 if back else 0.5)
         q = list(first)
         q[3] += amplitude * (16.0 * x * x * (1.0 - x) * (1.0 - x)) ** 2
         command = pyfranka.JointPositions(q)

@@ -1,38 +1,43 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A scripted robot with its Desk, for tests that need one generation only."""
+"""A plugin of pytest with fixtures: a scripted robot with its Desk in this process."""
 
-import contextlib
-import copy
-
-from desk_robot import REPORT, ScriptedRobot
-from desk_server import LIMITS, DeskServer
-from pyfranka.desk import Options
-from pyfranka.desk.profiles import PROFILES
+import pytest
+from scripted_desk import desk_with_robot
 
 
-@contextlib.contextmanager
-def desk_with_robot(folder, profile="fr3-v1", limits=LIMITS, report=None, **options):
-    """A robot and its Desk. report: what the robot reports first, beside the usual; options: of Desk."""
-    kind = "fr3" if PROFILES[profile].fr3 else "panda"
-    with ScriptedRobot(type=kind, arm_id=kind, **(report or {})) as robot:
-        with DeskServer("127.0.0.1", robot.port, folder, profile, Options(**options), limits) as desk:
-            yield robot, desk
+@pytest.fixture(scope="module")
+def place(tmp_path_factory):
+    """A robot and its Desk, of the newest generation, for all tests of a file."""
+    with desk_with_robot(tmp_path_factory.mktemp("certificates")) as (robot, desk):
+        yield robot, desk
 
 
-def fresh_robot(place, **report):
-    """The robot of a module's place, as at first. report: what it reports beside the usual."""
+@pytest.fixture
+def robot(place):
+    """The robot as it was first: it is locked."""
     robot, _ = place
-    robot.report.update(copy.deepcopy(REPORT), **report)
-    robot.answers.clear()
-    robot.raw_report = None
+    robot.reset()
     return robot
 
 
-def fresh_desk(place):
-    """The Desk of a module's place without logins, after its robot is as at first."""
-    robot, desk = place
+@pytest.fixture
+def desk(place, robot):
+    """Its Desk without logins and without control."""
+    _, desk = place
     desk.clear()
     desk.refresh()
     robot.lines.clear()
     return desk
+
+
+@pytest.fixture
+def cookie(desk):
+    """The headers of a user who has logged in."""
+    return desk.log_in()
+
+
+@pytest.fixture
+def control(desk, cookie):
+    """The headers of a user who has control."""
+    return {**cookie, "X_Control_Token": desk.take_control(**cookie)["token"]}

@@ -72,13 +72,18 @@ class ScriptedRobot:
     serves in a thread of its own."""
 
     def __init__(self, **changes):
-        self.report = {**copy.deepcopy(REPORT), **changes}
-        self.answers = {}
-        self.lines = []
-        self.raw_report = None  # instead of the report
+        self._first = {**REPORT, **changes}
+        self.reset()
         self.reports = 0  # answered
         self.port = 0
         self._writers = set()
+
+    def reset(self):
+        """Is again as it was first."""
+        self.report = copy.deepcopy(self._first)
+        self.raw_report = None  # instead of the report
+        self.answers = {}
+        self.lines = []
 
     def __enter__(self):
         self.start()

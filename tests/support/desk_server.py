@@ -6,6 +6,7 @@ from __future__ import annotations
 
 import asyncio
 import base64
+import concurrent.futures
 import contextlib
 import http.client
 import json
@@ -14,11 +15,11 @@ import threading
 import typing
 from dataclasses import dataclass, field
 
+import aiohttp
 from pyfranka.desk import DeskRobot, Limits, Options, Settings
 from pyfranka.desk.certificate import tls_context
 from pyfranka.desk.server import Site, app_of, make_desks
 from pyfranka.desk.sessions import digest_of
-from waiting import wait_for
 
 USER, PASSWORD = "franka", "open-sesame"
 # Tests send wrong passwords and many requests.
@@ -74,7 +75,7 @@ class SteppedLoop(asyncio.SelectorEventLoop):
 
 @dataclass
 class DeskServer:
-    """A running Desk of one robot. profile: empty: by the robot. lines: those that it has sent."""
+    """A running Desk of one robot. profile: empty: by the robot."""
 
     robot_address: str
     robot_port: int
@@ -107,8 +108,6 @@ class DeskServer:
     async def _start(self) -> None:
         robot = DeskRobot(self.robot_address, self.robot_port)
         await robot.start(30.0)
-        self.lines: list[str] = []
-        self._record(robot)
         settings = Settings(PASSWORD, USER, self.profile, self.options, self.limits)
         desks = make_desks([robot], settings)
         self.desk = desks[0]
@@ -117,21 +116,6 @@ class DeskServer:
         self.desk.power.site = self.site
         await self.site.open()
         self.port = self.site.port
-
-    def _record(self, robot: DeskRobot) -> None:
-        send = robot.send
-
-        def recorded(line: str, urgent: bool = False):
-            self.lines.append(line)
-            return send(line, urgent)
-
-        robot.send = recorded
-
-    def prepare(self, lines: typing.Iterable[str]) -> None:
-        """Sends lines to the robot when its self-test, if there is one, has ended."""
-        wait_for(lambda: not self.call(self.desk.robot.refresh()).self_test.running, "The self-test's end")
-        for line in lines:
-            self.call(self.desk.robot.send(line))
 
     @contextlib.contextmanager
     def stopped_clock(self):
@@ -162,6 +146,10 @@ class DeskServer:
         await self.site.cleanup()
         await self.desk.close()
         await self.desk.robot.stop()
+        rest = asyncio.all_tasks() - {asyncio.current_task()}
+        for task in rest:  # as asyncio.run, with which the program ends
+            task.cancel()
+        await asyncio.gather(*rest, return_exceptions=True)
 
     # ---- requests ----------------------------------------------------------------------------------------
 
@@ -176,6 +164,47 @@ class DeskServer:
         self._connection.request(method, path, body, named)
         with self._connection.getresponse() as response:
             return Answer(response.status, dict(response.getheaders()), response.read())
+
+    def begin(
+        self, method: str, path: str, body: typing.Any = None, **headers: str
+    ) -> concurrent.futures.Future[Answer]:
+        """A request on a connection of its own, whose answer may take its time. Cancelling it closes the
+        connection, as a client does that goes away."""
+
+        async def answer() -> Answer:
+            async with self._session(headers) as session:
+                async with session.request(method, self._url + path, json=body) as response:
+                    return Answer(response.status, dict(response.headers), await response.read())
+
+        return asyncio.run_coroutine_threadsafe(answer(), self.loop)
+
+    @contextlib.contextmanager
+    def socket(self, path: str, headers: dict[str, str] | None = None, **options: typing.Any):
+        """An open WebSocket, by default with a login. Raises aiohttp.WSServerHandshakeError if Desk refuses
+        it. options: of aiohttp."""
+        login = {"Authorization": basic()["Authorization"]}
+
+        async def connect() -> tuple[aiohttp.ClientSession, aiohttp.ClientWebSocketResponse]:
+            session = self._session(login if headers is None else headers)
+            try:
+                return session, await session.ws_connect(self._url + path, **options)
+            except aiohttp.WSServerHandshakeError:
+                await session.close()
+                raise
+
+        session, opened = self.call(connect())
+        try:
+            yield Socket(self, opened)
+        finally:
+            self.call(session.close())
+
+    @property
+    def _url(self) -> str:
+        return f"https://{self.address}:{self.port}"
+
+    def _session(self, headers: dict[str, str]) -> aiohttp.ClientSession:
+        named = {name.replace("_", "-"): value for name, value in headers.items()}
+        return aiohttp.ClientSession(headers=named, connector=aiohttp.TCPConnector(ssl=unverified()))
 
     def connection(self) -> http.client.HTTPSConnection:
         """A new one."""
@@ -216,3 +245,22 @@ class DeskServer:
     def refresh(self) -> None:
         """What follows shows what the robot is now."""
         self.call(self.desk.robot.refresh())
+
+
+@dataclass
+class Socket:
+    """A WebSocket of a DeskServer; its work runs in the server's thread."""
+
+    desk: DeskServer
+    opened: aiohttp.ClientWebSocketResponse
+
+    def receive(self) -> aiohttp.WSMessage:
+        return self.desk.call(self.opened.receive())
+
+    def next(self) -> typing.Any:
+        """The value of the next message."""
+        return json.loads(self.desk.call(self.opened.receive_str()))
+
+    def send(self, message: str | bytes) -> None:
+        send = self.opened.send_str if isinstance(message, str) else self.opened.send_bytes
+        self.desk.call(send(message))
