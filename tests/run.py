@@ -47,6 +47,7 @@ HISTORY = TOP / "out" / "test-history.jsonl"
 WORKERS = round(1.5 * (os.cpu_count() or 2))
 STRIDE = 7
 RECENT = 10  # runs of the history, with this one, in two of which a case may not be flaky
+KEPT = 50  # runs of the history (chosen here): one takes less than a megabyte
 AGAIN = 30  # cases that failed: if there are more, it is the product, and none runs again (chosen here)
 
 
@@ -156,13 +157,17 @@ def often_flaky(flaky: list[str]) -> list[str]:
 
 
 def write_history(tally: Tally) -> None:
-    """Appends a line a case; `load` is the machine's average of five minutes at the end of the run."""
+    """Adds a line a case; `load` is the machine's average of five minutes at the end of the run."""
     now, load = round(time.time()), os.getloadavg()[1]
-    with HISTORY.open("a", encoding="utf-8") as file:
-        for case in tally.cases:
-            verdict = "flaky" if case.name in tally.flaky else case.verdict
-            line = {"run": now, "case": case.name, "verdict": verdict, "seconds": case.seconds, "load": load}
-            file.write(json.dumps(line) + "\n")
+    lines = history()
+    recent = sorted({line["run"] for line in lines})[1 - KEPT :]
+    lines = [line for line in lines if line["run"] in recent]
+    for case in tally.cases:
+        verdict = "flaky" if case.name in tally.flaky else case.verdict
+        lines.append(
+            {"run": now, "case": case.name, "verdict": verdict, "seconds": case.seconds, "load": load}
+        )
+    HISTORY.write_text("".join(json.dumps(line) + "\n" for line in lines), encoding="utf-8")
 
 
 def print_history() -> int:

@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The style checks: our own rules, ruff, mypy, clang-format, shellcheck, codespell, clang-tidy, and noexcept
-functions that call what throws (nothrow.py).
+"""The style checks: our own rules, ruff, mypy, import-linter, clang-format, shellcheck, codespell,
+clang-tidy, and noexcept functions that call what throws (nothrow.py).
 
 Called by `./franka test --style`, by continuous integration and by the hooks of pre-commit. Each finding is
 a line `file:line: what`. Exit status 1 if a check has findings or its tool is missing.
 """
 
 import argparse
-import ast
 import json
 import os
 import re
@@ -46,8 +45,6 @@ INCLUDE_RULES = [
         "sockets stand in libfranka/src, fci/ and serve/ only",
     ),
 ]
-# Its docstring lists the modules of Desk by layers, the lowest first.
-LAYERS = "python/src/pyfranka/desk/__init__.py"
 READS_BY_LOCALE = (
     r"\b(strto(d|f|ld)|sto(d|f|ld)|atof|sscanf|Query(Double|Float)\w*|(Double|Float)(Text|Attribute|Value))\("
 )
@@ -57,7 +54,7 @@ WRITES_BY_LOCALE = (
     r"\b(sn?printf|ROS_(DEBUG|INFO|WARN|ERROR|FATAL)\w*)"
     r"\((?:[^;\"]|\"[^\"]*\")*?\"[^\"]*%[-+#0-9.*]*[aefgAEFG]"
 )
-MARKERS = re.compile(r"\b(TO" r"DO|FIX" r"ME|XX" r"X|HA" r"CK)\b")
+MARKERS = re.compile(r"\b(TODO|FIXME|XXX|HACK)\b")
 # A word between two lines of a comment or of a documentation text.
 GAP = r"(?:[ -]|\s*\n\s*(?:///?|#|\*)?\s*)"
 # Every spelling of a note on threads or real-time safety, and the three that are allowed (CONTRIBUTING.md).
@@ -164,38 +161,6 @@ def include_findings(name: str, lines: list[str]) -> Iterator[str]:
                 yield f"{name}:{number}: {reason}: {line.strip()}"
 
 
-def imports_of(text: str, package: str) -> Iterator[tuple[int, str]]:
-    """Line and name of what a source of a package imports from it: also in functions, for types only, or by a
-    text with a module's name."""
-    own = re.compile(rf"{re.escape(package)}(?:\.(\w+))?\b")
-    for node in ast.walk(ast.parse(text)):
-        names: list[str] = []
-        if isinstance(node, ast.ImportFrom):
-            module = ".".join([package] * (node.level > 0) + [node.module] * (node.module is not None))
-            names = [f"{module}.{alias.name}" for alias in node.names]
-        elif isinstance(node, ast.Import):
-            names = [alias.name for alias in node.names]
-        elif isinstance(node, ast.Constant) and own.fullmatch(str(node.value)):
-            names = [str(node.value)]
-        for match in filter(None, map(own.match, names)):
-            yield node.lineno, match[1] or package
-
-
-def layer_findings(name: str, text: str, layers: str) -> Iterator[str]:
-    """Imports of a module of Desk that are not of a module listed before it in the text of the layers."""
-    listed = re.findall(r"\w+", " ".join(re.findall(r"^    (\w+(?:, \w+)*)$", layers, re.MULTILINE)))
-    own = Path(name).stem
-    if own in ("__init__", "__main__"):
-        return
-    if own not in listed:
-        yield f"{name}:1: the layers in {LAYERS} do not list this module"
-        return
-    package = ".".join(Path(LAYERS).parent.parts[2:])
-    for line, module in imports_of(text, package):
-        if module not in listed[: listed.index(own)]:
-            yield f"{name}:{line}: imports {module}, which {LAYERS} does not list before {own}"
-
-
 def note_findings(name: str, text: str) -> Iterator[str]:
     """Notes on threads and real-time safety that a search for the fixed sentences does not find."""
     fixed = [match.span() for match in FIXED_NOTE.finditer(text)]
@@ -250,15 +215,11 @@ def text_findings(path: Path) -> Iterator[str]:
         yield from wall_clock.findings(name, text)
     if name not in {"tests/style.py", "tests/test_style.py", "docs/glossary.md"}:
         yield from word_findings(name, text)
-    if path.suffix == ".py" and path.parent == (TOP / LAYERS).parent:
-        yield from layer_findings(name, text, (TOP / LAYERS).read_text(encoding="utf-8"))
     for number, line in enumerate(lines, 1):
-        if path.suffix != ".md" and name != "tests/style.py" and MARKERS.search(line):
+        if path.suffix not in {".md", ".py"} and MARKERS.search(line):  # ruff finds those of Python
             yield f"{name}:{number}: a left-over marker: {line.strip()}"
         if name != "tests/style.py" and MACHINE_PATH.search(line):
             yield f"{name}:{number}: names a machine's path: {line.strip()}"
-        if path.suffix in {".cpp", ".h", ".py"} and line != line.rstrip():
-            yield f"{name}:{number}: blanks at the end of the line"
 
 
 def check_text(files: list[Path], long: bool) -> bool:
@@ -317,6 +278,16 @@ def check_mypy(files: list[Path], long: bool) -> bool:
         scripts = [] if module_of(group[0]) == "__main__" else ["--scripts-are-modules"]
         clean = passes([*mypy, *scripts], group) and clean
     return clean
+
+
+def check_imports(files: list[Path], long: bool) -> bool:
+    """The layers of Python's modules, in .importlinter."""
+    command = [pinned_tool("lint-imports"), "--no-cache", "--no-logo"]
+    environment = {**os.environ, "PYTHONPATH": str(TOP / "python" / "src")}
+    result = subprocess.run(command, cwd=TOP, env=environment, capture_output=True, text=True)
+    if result.returncode:
+        print(result.stdout + result.stderr)
+    return result.returncode == 0
 
 
 def check_clang_format(files: list[Path], long: bool) -> bool:
@@ -436,6 +407,7 @@ CHECKS: dict[str, Callable[[list[Path], bool], bool]] = {
     "text": check_text,
     "ruff": check_ruff,
     "mypy": check_mypy,
+    "imports": check_imports,
     "clang-format": check_clang_format,
     "shellcheck": check_shellcheck,
     "codespell": check_codespell,

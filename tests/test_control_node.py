@@ -3,6 +3,7 @@
 """Each service, each topic and each report of franka_control_node."""
 
 import csv
+import re
 import subprocess
 from pathlib import Path
 
@@ -332,7 +333,7 @@ def test_cartesian_impedance_and_thresholds_of_torques_take_effect(resting):
     assert not any(last.cartesian_contact) and any(last.joint_contact)
 
 
-def test_a_reflex_is_published_and_logged(robot, resting):
+def test_a_reflex_is_published_and_logged(robot, resting, tmp_path):
     """A push above a threshold, and the node's reports about it."""
     arm = resting.arm
     resting.sets("set_full_collision_behavior", **thresholds(upper_force=4.0))
@@ -351,6 +352,10 @@ def test_a_reflex_is_published_and_logged(robot, resting):
     printed = subprocess.check_output(["bash", "-c", echo], text=True, timeout=60)
     abort = next(yaml.safe_load_all(printed))["data"]
     assert "cartesian_reflex" in abort.splitlines()[0]
+    plot = read(TOP / "docs/how_to/plots.md").block_with("franka_plot log")
+    plot = re.sub(r"\S+\.csv", abort.splitlines()[-1].split(": ", 1)[1], plot)
+    subprocess.run(["bash", "-ec", plot], cwd=tmp_path, check=True, timeout=60)
+    assert (tmp_path / "abort.png").stat().st_size > 10_000
     check_log(abort, arm.state, NEWEST[robot])
     assert resting.recover() == SUCCEEDED
     wait_for(lambda: not arm.has_error, "The end of the error")

@@ -113,6 +113,14 @@ def test_data_can_be_read(block):
         ET.fromstring(f"<part>{text}</part>")
 
 
+@pytest.mark.parametrize("block", of("dockerfile"), ids=named)
+def test_dockerfile_has_no_findings(block):
+    # The image is the reader's own: it has no version.
+    hadolint = [TOP / ".venv" / "bin" / "hadolint", "--no-color", "-"]
+    result = subprocess.run(hadolint, input=block.text, text=True, capture_output=True, timeout=60)
+    assert result.returncode == 0, result.stdout + result.stderr
+
+
 # ---- C++ -------------------------------------------------------------------------------------------------
 
 INCLUDES = re.compile(r"^\s*#\s*include.*$", re.M)

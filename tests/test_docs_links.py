@@ -1,8 +1,9 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Links of the documentation site: internal ones resolve, external ones are addresses.
+"""Links of the documentation: internal ones lead somewhere, external ones are addresses.
 
-Pages load nothing from outside, so that the site works without a network.
+Pages load nothing from outside, so that the site works without a network. Sphinx finds dead links in
+generated pages.
 """
 
 import re
@@ -13,51 +14,13 @@ import pytest
 from docsite import pages as site_sources
 from docsite.paths import TOP
 from docsite.tree import Tree
-from site_pages import Page, follow, pages_of, read_page
+from site_pages import pages_of
 
 builds_the_site = pytest.mark.long_form("builds the documentation site")
 
 
 def is_external(target: str) -> bool:
     return bool(re.match(r"[a-z][a-z+.-]*:", target))
-
-
-def dead_links(page: Page, site: Path) -> list[str]:
-    dead = []
-    for link in page.links:
-        if is_external(link):
-            continue
-        path, anchor = follow(page, link)
-        if not path.is_file() or site not in path.parents:
-            dead.append(f"{page.path.relative_to(site)}: {link}")
-        elif path.suffix == ".html" and anchor and anchor not in read_page(path).anchors:
-            dead.append(f"{page.path.relative_to(site)}: {link}: no such anchor")
-    return dead
-
-
-@builds_the_site
-def test_every_internal_link_leads_to_a_page_and_its_anchor(site):
-    pages = pages_of(site)
-    assert len(pages) > 60
-    assert sum(len(page.links) for page in pages) > 5000
-    assert not [each for page in pages for each in dead_links(page, site)]
-
-
-def test_dead_links_are_found(tmp_path):
-    (tmp_path / "there.html").write_text("<h1 id='a'>A</h1>")
-    page = tmp_path / "page.html"
-    links = [
-        "there.html#a",
-        "there.html",
-        "gone.html",
-        "there.html#b",
-        "#c",
-        "https://example.org",
-        "../x.html",
-    ]
-    page.write_text("".join(f"<a href='{link}'>x</a>" for link in links))
-    found = [line.split(": ")[1] for line in dead_links(Page(page), tmp_path)]
-    assert found == ["gone.html", "there.html#b", "#c", "../x.html"]
 
 
 @builds_the_site
@@ -80,22 +43,6 @@ def test_nothing_is_loaded_from_outside(site):
     assert styles and not [
         found for text in styles for found in re.findall(r"url\(['\"]?(?:https?:)?//[^)]*\)", text)
     ]
-
-
-@builds_the_site
-def test_every_page_can_be_reached_from_the_start_page(site):
-    seen, new = set(), {site / "index.html"}
-    while new:
-        seen |= new
-        found = {
-            follow(read_page(path), link)[0]
-            for path in new
-            for link in read_page(path).own_links
-            if not is_external(link)
-        }
-        new = {path for path in found if path.suffix == ".html" and path.is_file()} - seen
-    made = {"genindex.html", "search.html", "py-modindex.html", "cpp-modindex.html"}
-    assert not {str(page.path.relative_to(site)) for page in pages_of(site) if page.path not in seen} - made
 
 
 def anchors(file: Path) -> set[str]:

@@ -9,8 +9,10 @@ from pathlib import Path
 
 import pytest
 from overlay import Overlay
+from tutorial import read
 
-DEVEL = Path(__file__).resolve().parent.parent / "catkin_ws" / "devel"
+TOP = Path(__file__).resolve().parent.parent
+DEVEL = TOP / "catkin_ws" / "devel"
 PROGRAM = DEVEL.parent / "src/franka_example_controllers/scripts/new_controller"
 NEW = "rosrun franka_example_controllers new_controller"
 
@@ -39,7 +41,10 @@ def test_the_printed_command_succeeds_and_fails_with_the_test(tmp_path):
     create = f"{NEW} my_script MyLaw --interfaces joint_velocity --python --folder {sources}"
     created = overlay.shell(create, DEVEL, 60)
     assert created.returncode == 0, created.stderr
-    command = f"cd {tmp_path} && " + created.stdout.strip().splitlines()[-1]
+    printed = created.stdout.strip().splitlines()[-1]
+    on_page = read(TOP / "docs/how_to/shell.md").block_with("catkin_test_results").strip()
+    assert printed.endswith(on_page.replace("my_package", "my_script"))
+    command = f"cd {tmp_path} && {printed}"
     green = overlay.shell(command, DEVEL, 300)
     assert green.returncode == 0, green.stdout[-4000:] + green.stderr[-2000:]
     (test,) = (sources / "my_script" / "test").glob("*.test")

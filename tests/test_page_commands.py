@@ -37,6 +37,7 @@ def test_commands_of_a_page_could_run(page):
         ("rostopic pub -1 /joint_states franka_msgs/Weight '{}'", "no type franka_msgs/Weight"),
         ("rostopic pub -r 10 /joint_states sensor_msgs/JointState '{size: 1}'", "size"),
         ("rostopic echo -n 1 /no_such_topic", "no /no_such_topic"),
+        ("docker build --target runtim .", "no runtim"),
         ("echo 'dance' | nc -q 1 127.0.0.1 1340", "no line dance"),
     ],
 )

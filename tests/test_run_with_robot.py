@@ -19,6 +19,7 @@ from xmlrpc.server import SimpleXMLRPCServer
 import pytest
 import yaml
 from pyfranka.run import reserve_port
+from tutorial import read
 
 TOP = Path(__file__).resolve().parent.parent
 DEVEL = TOP / "catkin_ws" / "devel"
@@ -252,6 +253,7 @@ def test_without_ros_a_launch_is_refused(tmp_path):
 
 # ---- forms for continuous integration --------------------------------------------------------------------
 
+PAGE = read(TOP / "docs/how_to/ci.md")
 ACTION = yaml.safe_load((TOP / "ci" / "github" / "action.yml").read_text(encoding="utf-8"))
 GITLAB = yaml.safe_load((TOP / "ci" / "gitlab" / "franka.yml").read_text(encoding="utf-8"))[".franka"]
 
@@ -297,13 +299,54 @@ def action(folder: Path, **inputs: str) -> subprocess.CompletedProcess:
     return done
 
 
-def test_the_action_runs_a_users_pytest(tmp_path):
-    (tmp_path / "test_mine.py").write_text(
+def write_tests(folder: Path) -> None:
+    """A user's folder tests/."""
+    (folder / "tests").mkdir(parents=True)
+    (folder / "tests" / "test_mine.py").write_text(
         READ + "def test_mode():\n    assert robot.read_once().robot_mode == pyfranka.RobotMode.Idle\n"
     )
-    done = action(
-        tmp_path, robot="fr3", run=f"{sys.executable} -m pytest -q -p no:cacheprovider test_mine.py"
+
+
+def with_our_pytest(command: str) -> str:
+    """A job's image has the program pytest."""
+    assert "pytest tests" in command
+    return command.replace("pytest", f"{sys.executable} -m pytest -q -p no:cacheprovider")
+
+
+def write_package(folder: Path, name: str) -> str:
+    """A user's package with a test of rostest; returns where packages are found then."""
+    (folder / name).mkdir(parents=True)
+    (folder / name / "package.xml").write_text(f"<package><name>{name}</name></package>")
+    (folder / name / "my.test").write_text(
+        '<launch><test test-name="mine" pkg="rostest" type="publishtest"><rosparam>\n'
+        "topics: [{name: /joint_states, timeout: 30, negative: False}]\n"
+        "</rosparam></test></launch>"
     )
+    return f"{folder}:{os.environ['ROS_PACKAGE_PATH']}"
+
+
+def test_the_commands_of_the_page_run_a_users_tests(tmp_path):
+    write_tests(tmp_path)
+    packages = write_package(tmp_path, "my_package")
+    block = with_our_pytest(PAGE.block_with("pyfranka-run --robot")).replace("pyfranka-run", str(RUN))
+    done = subprocess.run(
+        ["bash", "-ec", block],
+        env={**os.environ, "ROS_PACKAGE_PATH": packages},
+        cwd=tmp_path,
+        text=True,
+        capture_output=True,
+        timeout=300,
+        stdin=subprocess.DEVNULL,
+    )
+    assert done.returncode == 0, done.stdout + done.stderr
+    assert "1 passed" in done.stdout and "ERRORS: 0" in done.stdout
+
+
+def test_the_action_runs_a_users_pytest(tmp_path):
+    write_tests(tmp_path)
+    (job,) = yaml.safe_load(PAGE.block_with("ci/github"))["jobs"].values()
+    inputs = job["steps"][-1]["with"]
+    done = action(tmp_path, **inputs | {"run": with_our_pytest(inputs["run"])})
     assert done.returncode == 0 and "1 passed" in done.stdout, done.stdout + done.stderr
 
 
@@ -332,36 +375,40 @@ def source(tmp_path):
     return f"file://{folder}"
 
 
-def test_the_job_of_gitlab_runs_a_users_rostest(tmp_path, source):
-    package = tmp_path / "mine"
-    package.mkdir()
-    (package / "package.xml").write_text("<package><name>mine</name></package>")
-    (package / "mine.test").write_text(
-        '<launch><test test-name="mine" pkg="rostest" type="publishtest"><rosparam>\n'
-        "topics: [{name: /joint_states, timeout: 30, negative: False}]\n"
-        "</rosparam></test></launch>"
-    )
-    setup = tmp_path / "setup.bash"
-    setup.write_text(f"export ROS_PACKAGE_PATH={tmp_path}:$ROS_PACKAGE_PATH\n")
-    project = tmp_path / "project"
-    project.mkdir()
-    variables = GITLAB["variables"] | {
-        "FRANKA_SOURCE": source,
-        "FRANKA_LAUNCH": "franka_gazebo fr3.launch headless:=true "
-        "controller:=joint_impedance_example_controller",
-        "FRANKA_SETUP": str(setup),
-        "FRANKA_RUN": "rosservice call /controller_manager/list_controllers | grep -A1 joint_impedance | "
-        "grep -q running && rostest --text --reuse-master mine mine.test",
-        "CI_PROJECT_DIR": str(project),
-    }
+def job_of_gitlab(folder: Path, **variables: str) -> subprocess.CompletedProcess:
+    project = folder / "project"
+    project.mkdir(exist_ok=True)
     script = "\n".join([*GITLAB["before_script"], *GITLAB["script"]])
-    done = subprocess.run(
+    return subprocess.run(
         ["bash", "-eo", "pipefail", "-c", script],
-        env=of_service(tmp_path, **variables),
+        env=of_service(folder, **GITLAB["variables"] | variables | {"CI_PROJECT_DIR": str(project)}),
         cwd=project,
         text=True,
         capture_output=True,
         timeout=200,
+    )
+
+
+def test_the_job_of_gitlab_runs_a_users_pytest(tmp_path, source):
+    write_tests(tmp_path / "project")
+    variables = yaml.safe_load(PAGE.block_with("extends: .franka"))["robot"]["variables"]
+    run = with_our_pytest(variables["FRANKA_RUN"])
+    done = job_of_gitlab(tmp_path, **variables | {"FRANKA_SOURCE": source, "FRANKA_RUN": run})
+    assert done.returncode == 0 and "1 passed" in done.stdout, done.stdout + done.stderr
+
+
+def test_the_job_of_gitlab_runs_a_users_rostest(tmp_path, source):
+    write_package(tmp_path, "mine")
+    setup = tmp_path / "setup.bash"
+    setup.write_text(f"export ROS_PACKAGE_PATH={tmp_path}:$ROS_PACKAGE_PATH\n")
+    done = job_of_gitlab(
+        tmp_path,
+        FRANKA_SOURCE=source,
+        FRANKA_LAUNCH="franka_gazebo fr3.launch headless:=true "
+        "controller:=joint_impedance_example_controller",
+        FRANKA_SETUP=str(setup),
+        FRANKA_RUN="rosservice call /controller_manager/list_controllers | grep -A1 joint_impedance | "
+        "grep -q running && rostest --text --reuse-master mine my.test",
     )
     assert done.returncode == 0, done.stdout + done.stderr
     assert "SUMMARY" in done.stdout and "ERRORS: 0" in done.stdout

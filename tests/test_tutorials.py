@@ -140,6 +140,7 @@ def test_pictures_that_are_made_are_shown_and_show_something():
     [
         ("```bash\nfalse\n```", "`false` ended with status 1"),
         ("<!-- fails -->\n```bash\ntrue\n```", "`true` ended with status 0"),
+        ("<!-- status: 0 or 1 -->\n```bash\n(exit 3)\n```", "`(exit 3)` ended with status 3"),
         ("```bash\necho one\n```\n```text\ntwo\n```", "the line `two` was not printed"),
         ("```bash\necho two\necho one\n```\n```text\none\ntwo\n```", "the line `two` was not printed"),
         ("```bash\necho one\n```\n<!-- expect: two -->", "`two` was not printed"),
@@ -177,9 +178,18 @@ def test_page_commands_are_typed_unchanged(tmp_path):
     page.write_text(
         """# A page
 <!-- with an FR3: panda is fr3 -->
+<!-- with a simulated robot: 172.16.0.2 is 127.0.0.1 -->
 <!-- file: ~/folder/file.txt -->
 ```python
 "the panda"
+```
+<!-- status: 0 or 1 -->
+```bash
+grep 172.16.0.2 ~/folder/file.txt
+```
+<!-- only parsed: changes the system -->
+```bash
+sudo false
 ```
 ```bash
 cat ~/folder/file.txt

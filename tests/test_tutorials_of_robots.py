@@ -11,6 +11,7 @@ from pathlib import Path
 import page_commands
 import pyfranka
 import pytest
+from bare_debian import bare_debian
 from fci_session import simulated
 from overlay import Overlay
 from tutorial import read
@@ -42,6 +43,19 @@ def test_debian_has_the_named_packages():
     has_lists = len(listing) > 20000
     assert sorted(names - set(listing) - (set() if has_lists else NOT_INSTALLED)) == []
     assert not [package for package in listing if "moveit" in package]  # as step 6 says
+
+
+@pytest.mark.long_form("makes a bare Debian")
+def test_a_bare_debian_takes_the_settings_of_the_page(tmp_path):
+    """The programs that read the settings find them."""
+    settings = read(TOP / "docs/tutorials/real_robot.md")
+    with bare_debian(tmp_path, "adduser", "ifupdown", "sudo", "systemd") as bare:
+        bare.must("adduser", "--disabled-password", "--gecos", "", "reader")
+        for text in ("addgroup realtime", "interfaces.d/robot", "performance.service"):
+            bare.must("sh", "-ec", f"export USER=reader\n{settings.block_with(text)}")
+        assert "realtime" in bare.must("groups", "reader").split()
+        assert "address: 172.16.0.1\n" in bare.must("ifquery", "enp3s0")
+        assert bare.must("systemctl", "is-enabled", "performance.service") == "enabled\n"
 
 
 def test_commands_of_the_rehearsal_are_accepted():

@@ -17,15 +17,13 @@ from screen import virtual_screen
 from test_tutorials import follow
 from tutorial import (
     MORE_PAGES,
-    NOT_RUN,
     PAGES,
     PICTURES,
-    RUN_BY,
     SCREEN,
     TOP,
     PageError,
     Reader,
-    check_reason,
+    check_mark,
     read,
 )
 
@@ -81,43 +79,37 @@ def test_what_a_page_assumes_stands_in_its_text(path):
         assert f"`{step.text}`" in prose, f"{path.name}:{step.line}: the text has no {step.text}"
 
 
-def blocks_that_are_not_run() -> list[tuple[str, int, str, str]]:
-    """Page, line, reason and text of each block that is not run."""
-    found = []
-    for path in [*PAGES, *MORE_PAGES]:
-        lines = path.read_text(encoding="utf-8").splitlines()
-        for number, line in enumerate(lines, 1):
-            reason = re.fullmatch(r"\s*<!-- not run: (.*) -->", line)
-            if reason:
-                end = next(i for i in range(number + 1, len(lines)) if lines[i].strip() == "```")
-                found.append((named(path), number, reason[1], "\n".join(lines[number + 1 : end])))
-    return found
-
-
-def test_blocks_that_are_not_run_show_their_reason():
-    blocks = blocks_that_are_not_run()
-    assert len(blocks) > 15
-    wrong = [
-        f"{page}:{line}: {reason}"
-        for page, line, reason, text in blocks
-        if not RUN_BY.fullmatch(reason) and not re.search(NOT_RUN[reason], text, re.M)
-    ]
-    assert not wrong
-
-
 def reads_the_page(source: str, page: str) -> bool:
     """Whether the source of a test has the page's name, such as read(TOP / "docs/how_to/packages.md")."""
     return re.search(rf'"(docs/)?{re.escape(page)}"', source) is not None
 
 
-def test_blocks_that_other_tests_run_are_read_from_the_page():
-    run = [(page, line, RUN_BY.fullmatch(reason)) for page, line, reason, _ in blocks_that_are_not_run()]
-    wrong = [
-        f"{page}:{line}: {test[1]} does not read this page"
-        for page, line, test in run
-        if test and not reads_the_page((TOP / test[1]).read_text(encoding="utf-8"), page)
-    ]
-    assert not wrong
+@pytest.mark.parametrize("path", [*PAGES, *MORE_PAGES], ids=named)
+def test_blocks_that_other_tests_run_are_read_from_the_page(path):
+    marks = [step.mark for step in read(path).of("bash") if step.mark.startswith("run by: ")]
+    tests = {mark.removeprefix("run by: ").partition("::")[0] for mark in marks}
+    assert not [name for name in tests if not reads_the_page((TOP / name).read_text(), named(path))]
+
+
+def documented_statuses() -> dict[str, set[str]]:
+    """The exit codes 0 to 2 of each program in the table of docs/how_to/shell.md."""
+    table = re.findall(r"^\| (`.*) \|$", (TOP / "docs/how_to/shell.md").read_text(), re.M)
+    rows = [row.split(" | ") for row in table]
+    return {
+        name: {str(status) for status, meaning in enumerate(meanings[:3]) if meaning.strip()}
+        for names, *meanings in rows
+        for name in re.findall(r"`([^`]+)`", names)
+    }
+
+
+@pytest.mark.parametrize("path", [*PAGES, *MORE_PAGES], ids=named)
+def test_accepted_statuses_are_documented(path):
+    documented = documented_statuses()
+    for step in read(path).of("bash"):
+        program = re.split(r"\s+", step.text.splitlines()[-1].removeprefix("./franka shell "))[0]
+        for option in step.options:
+            if option.startswith("status: "):
+                assert set(option.removeprefix("status: ").split(" or ")) <= documented[program], step
 
 
 def test_a_test_that_does_not_read_its_page_is_found():
@@ -127,12 +119,18 @@ def test_a_test_that_does_not_read_its_page_is_found():
 
 
 @pytest.mark.parametrize(
-    "reason",
-    ["it is too much work", "run by tests/test_none.py::test_it", "run by tests/test_deb.py::test_none"],
+    ("mark", "language", "text"),
+    [
+        ("only parsed: it is too much work", "bash", "sudo reboot"),
+        ("only parsed: changes the system", "bash", "reboot"),
+        ("only parsed: changes the system", "text", "sudo reboot"),
+        ("run by: tests/test_none.py::test_it", "bash", "true"),
+        ("run by: tests/test_deb.py::test_none", "bash", "true"),
+    ],
 )
-def test_other_reasons_are_refused(reason):
+def test_other_marks_are_refused(mark, language, text):
     with pytest.raises(PageError):
-        check_reason(reason, "page.md:1")
+        check_mark(mark, language, text, "page.md:1")
 
 
 def test_a_page_whose_program_fails_is_found(tmp_path):

@@ -281,8 +281,23 @@ def check_line(words: Words) -> str:
     return "" if word in control_lines() else f"no line {word} of the control port"
 
 
+# ---- images ----------------------------------------------------------------------------------------------
+
+
+def check_docker(words: Words) -> str:
+    """The stages and the arguments of the Dockerfile that a build names."""
+    text = (TOP / "Dockerfile").read_text(encoding="utf-8")
+    for option, value in zip(words, words[1:], strict=False):
+        name = value.partition("=")[0]
+        pattern = {"--target": rf"^FROM .* AS {name}$", "--build-arg": rf"^ARG {name}\b"}.get(option)
+        if pattern and not re.search(pattern, text, re.MULTILINE):
+            return f"the Dockerfile has no {name}"
+    return ""
+
+
 CHECKS = {
     "./franka": check_franka,
+    "docker": check_docker,
     "roslaunch": check_roslaunch,
     "rosrun": check_rosrun,
     "rostopic": check_rostopic,

@@ -18,9 +18,12 @@ Comments, each on a line of its own, say what a reader knows from the text:
 * `<!-- keeps running -->`: the last command of the next block does not end.
 * `<!-- press Ctrl-C in terminal 1 -->`
 * `<!-- fails -->`: the last command of the next block ends with an error.
-* `<!-- may fail: REASON -->`: the last command of the next block may end with an error.
+* `<!-- status: 0 or 1 -->`: the last command of the next block ends with one of these.
 * `<!-- takes minutes -->`: a command of the next block may take half an hour.
-* `<!-- not run: REASON -->`: the next block is only checked. The reason is one of NOT_RUN.
+* `<!-- run by: tests/test_x.py::test_y -->`: the next block is not typed, but used by this test.
+* `<!-- only parsed: REASON -->`: the next block is not typed. What it is written in can read it, and the
+  commands that it names exist (test_docs_code.py, test_page_commands.py). The reason is one of ONLY_PARSED.
+* `<!-- with a simulated robot: 172.16.0.2 is 127.0.0.1 -->`: what is typed here instead, in all blocks.
 * `<!-- expect: TEXT -->`: printed by the last block of this terminal, sooner or later.
 * `<!-- await: COMMAND == TEXT -->`: the reader waits until a command prints this.
 * `<!-- picture: ~/made.png is name.png -->`: a picture that the commands have made.
@@ -59,20 +62,13 @@ MORE_PAGES = [
     ),
     TOP / "README.md",
 ]
-# Why a block cannot be run here, and what it then has in it.
-NOT_RUN = {
+# Why a block can only be parsed here, and what it then has in it.
+ONLY_PARSED = {
     "needs Docker": r"\bdocker\b|^FROM ",
-    "needs GitHub": r"uses: actions/",
-    "needs GitLab": r"extends: \.franka",
-    "needs a real robot": r"172\.16\.",
-    "it is a formula": r" = ",
-    "needs a display": r"--gui|rviz:=true|--viewer",
-    "changes the system": r"\b(sudo|apt-get|reboot)\b|/etc/|dpkg",
-    "the workspace of the tests is built already": r"\./franka (build|install|demo|test|deb)|^cmake ",
-    "the names are yours": r"\bmy_\w+|\bmy\.\w+|NAME|FILE|demo\.bag|\d{4}-\d\d-\d\d",
+    "changes the system": r"\bsudo\b",
 }
-# The same, with the test that runs it: `run by tests/test_x.py::test_y`.
-RUN_BY = re.compile(r"run by ([\w/]+\.py)::(\w+)")
+# Languages whose blocks test_docs_code.py reads as their programs do.
+PARSED = {"bash", "dockerfile"}
 PICTURES = TOP / "docs" / "pictures" / "tutorials"
 SCREEN = "2400x900x24"  # for virtual_screen
 WINDOWS_AT = 1200  # [pixels] from the left: beside the simulation's own window
@@ -105,6 +101,7 @@ class Step:
     path: str = ""  # of a file
     language: str = ""
     options: set[str] = field(default_factory=set)  # of a bash block
+    mark: str = ""  # of a block that is not typed: `run by: ...` or `only parsed: ...`
 
 
 @dataclass
@@ -120,14 +117,16 @@ class Page:
         return [step for step in self.steps if step.kind == kind]
 
     def block_with(self, text: str) -> str:
-        """The only block of commands, or block that is not run, with this text in it."""
+        """The only block of commands, or block that a test uses, with this text in it."""
         (block,) = (step.text for step in self.of("bash") if text in step.text)
         return block
 
 
 VARIANT = "<!-- with an FR3: "
+SIMULATED = "<!-- with a simulated robot: "
 COMMENTS = ("terminal", "press", "type:", "expect:", "await:", "picture:", "window:", "drag:")
-OPTIONS = ("keeps running", "fails", "may fail", "not run", "takes minutes")
+OPTIONS = ("keeps running", "fails", "status", "takes minutes")
+MARKS = ("run by", "only parsed")
 
 
 def has_variant(path: Path) -> bool:
@@ -138,13 +137,13 @@ def has_variant(path: Path) -> bool:
 def read(path: Path, variant: bool = False) -> Page:
     """Reads a page, as it stands or with what changes with an FR3. Raises PageError for a comment or a block
     that means nothing."""
-    steps, prose, options, file, command, first = [], [], set(), "", "", ""
+    steps, prose, options, file, command, mark, first = [], [], set(), "", "", "", ""
     fence, block, begin = None, [], 0
     lines = path.read_text(encoding="utf-8").splitlines()
-    changes = [line.removeprefix(VARIANT).removesuffix(" -->") for line in lines if line.startswith(VARIANT)]
-    if variant:
+    for kind in (SIMULATED, *([VARIANT] if variant else [])):
+        changes = [line.removeprefix(kind).removesuffix(" -->") for line in lines if line.startswith(kind)]
         for old, new in (change.split(" is ") for change in changes):
-            lines = [line if line.startswith(VARIANT) else line.replace(old, new) for line in lines]
+            lines = [line if line.startswith(kind) else line.replace(old, new) for line in lines]
     for number, line in enumerate(lines, 1):
         where = f"{path.name}:{number}"
         if fence is not None:
@@ -156,20 +155,22 @@ def read(path: Path, variant: bool = False) -> Page:
                 steps.append(Step("file", text, begin, file, language))
             elif command:
                 steps.append(Step("program", text, begin, command, language))
-            elif language == "bash" or language and "not run" in options:
-                steps.append(Step("bash", text, begin, language=language, options=options))
+            elif language == "bash" or mark:
+                if mark:
+                    check_mark(mark, language, text, where)
+                steps.append(Step("bash", text, begin, language=language, options=options, mark=mark))
             elif language == "text":
                 steps.append(Step("text", text, begin, language=language))
             elif language:
                 raise PageError(f"{where}: a block of {language} without <!-- file: ... -->")
-            fence, options, file, command = None, set(), "", ""
+            fence, options, file, command, mark = None, set(), "", "", ""
             continue
         opened, comment = FENCE.match(line), COMMENT.match(line)
         if opened:
             fence, block, begin = opened.groups(), [], number
         elif not comment:
             prose.append(line)
-        elif line.startswith(VARIANT):
+        elif line.startswith((VARIANT, SIMULATED)):
             continue
         elif comment[1].startswith("file: "):
             file = comment[1].removeprefix("file: ")
@@ -177,10 +178,10 @@ def read(path: Path, variant: bool = False) -> Page:
             command = comment[1].removeprefix("run with: ")
         elif comment[1].startswith("terminals: "):
             first = comment[1].removeprefix("terminals: ")
-        elif option := next((o for o in OPTIONS if comment[1].split(":")[0] == o), None):
-            options.add(option)
-            if option == "not run":
-                check_reason(comment[1].partition(": ")[2], where)
+        elif comment[1].partition(":")[0] in OPTIONS:
+            options.add(comment[1])
+        elif comment[1].partition(":")[0] in MARKS:
+            mark = comment[1]
         elif kind := next((k for k in COMMENTS if comment[1].startswith(k + " ")), None):
             steps.append(Step(kind.rstrip(":"), comment[1].removeprefix(kind).strip(), number))
         else:
@@ -190,15 +191,17 @@ def read(path: Path, variant: bool = False) -> Page:
     return Page(path, steps, "\n".join(prose), first)
 
 
-def check_reason(reason: str, where: str) -> None:
-    """Raises PageError for a reason that nobody has accepted, or a test that does not exist."""
-    test = RUN_BY.fullmatch(reason)
-    if test:
-        file = TOP / test[1]
-        if not file.is_file() or f"def {test[2]}(" not in file.read_text(encoding="utf-8"):
-            raise PageError(f"{where}: there is no test {test[1]}::{test[2]}")
-    elif reason not in NOT_RUN:
-        raise PageError(f"{where}: `{reason}` is not in NOT_RUN")
+def check_mark(mark: str, language: str, text: str, where: str) -> None:
+    """Raises PageError for a test that does not exist, or a block that cannot be parsed or could be run."""
+    kind, _, value = mark.partition(": ")
+    if kind == "run by":
+        file, _, case = value.partition("::")
+        if not (TOP / file).is_file() or f"def {case}(" not in (TOP / file).read_text(encoding="utf-8"):
+            raise PageError(f"{where}: there is no test {value}")
+    elif value not in ONLY_PARSED:
+        raise PageError(f"{where}: `{value}` is not in ONLY_PARSED")
+    elif language not in PARSED or not re.search(ONLY_PARSED[value], text, re.M):
+        raise PageError(f"{where}: this block of {language} does not show that it {value}")
 
 
 def lines_in_order(expected: str, printed: str) -> str | None:
@@ -215,6 +218,14 @@ def lines_in_order(expected: str, printed: str) -> str | None:
         else:
             return line
     return None
+
+
+def is_expected(status: str, options: set[str]) -> bool:
+    """Whether the last command of a block may end with this status."""
+    for option in options:
+        if option.startswith("status: "):
+            return status in option.removeprefix("status: ").split(" or ")
+    return (status not in ("0", "more")) == ("fails" in options)
 
 
 class Terminal:
@@ -274,8 +285,7 @@ class Terminal:
             status = self._prompt(begin, limit)
             if status is None:
                 raise PageError(f"`{line}` did not end within {limit:.0f} s:\n{self.tail()}")
-            failed = status not in ("0", "more")
-            if failed != (last and "fails" in options) and not (last and "may fail" in options):
+            if not (is_expected(status, options) if last else status in ("0", "more")):
                 raise PageError(f"`{line}` ended with status {status}:\n{self.tail()}")
             if last and status == "more":
                 raise PageError(f"`{line}` is not a complete command")
@@ -389,7 +399,7 @@ class Reader:
                 print(f"{page.path.name}:{step.line}: {step.kind} {took:.1f} s", flush=True)
 
     def _do_bash(self, step: Step) -> None:
-        if "not run" not in step.options:
+        if not step.mark:
             self._terminal.type(step.text, step.options)
 
     def _do_text(self, step: Step) -> None:

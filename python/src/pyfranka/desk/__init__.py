@@ -9,7 +9,7 @@ For programs that log in to a robot before they use the FCI, and for browsers, i
 talks to the robot over its control interface only (docs/franka_sim.md).
 
 Layers of modules, the lowest first. A module imports only those that are listed before it, also for types
-and in functions (tests/style.py):
+and in functions (.importlinter):
 
     errors, checks, settings, profiles, certificate, addresses
     robot, sessions, tokens, throttle, login_throttle, limits

@@ -17,9 +17,9 @@ namespace franka_example_controllers {
 /// constructor, and computeTorque() when it throws.
 class JointWall {
  public:
-  /// @param soft_upper_joint_position_limit, @param soft_lower_joint_position_limit [rad]
-  /// @param PD_zone_width, @param D_zone_width [rad] @param PD_zone_stiffness [Nm/rad]
-  /// @param PD_zone_damping, @param D_zone_damping [Nm s/rad]
+  /// @param soft_upper_joint_position_limit,soft_lower_joint_position_limit [rad]
+  /// @param PD_zone_width,D_zone_width [rad] @param PD_zone_stiffness [Nm/rad]
+  /// @param PD_zone_damping,D_zone_damping [Nm s/rad]
   /// Negative widths, stiffness and damping are taken as positive, with a warning.
   JointWall(double soft_upper_joint_position_limit, double soft_lower_joint_position_limit,
             double PD_zone_width, double D_zone_width, double PD_zone_stiffness,

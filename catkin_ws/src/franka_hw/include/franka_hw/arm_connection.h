@@ -148,7 +148,7 @@ class ArmConnection {
   /// @{
   /// Reads the parameter `reconnect`. @returns false, after logging the reason, if it is wrong
   bool init(const ros::NodeHandle& nh) { return reconnection_.init(nh); }
-  /// Offers services, action and topics. @param nh their namespace @param arm_id for messages
+  /// Offers services, action and topics in this namespace. `arm_id` is for messages.
   void offer(const ros::NodeHandle& nh, const std::string& arm_id);
   /// Withdraws what was offered, and waits for calls under way. Called after the robot's thread has
   /// ended.

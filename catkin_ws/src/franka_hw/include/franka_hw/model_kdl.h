@@ -28,7 +28,7 @@ namespace franka_hw {
 /// every thread.
 class ModelKDL : public ModelBase {
  public:
-  /// @param model the parsed URDF, with <inertial> in the arm's seven moving links
+  /// @param model the parsed URDF, with `<inertial>` in the arm's seven moving links
   /// @param root base of the arm, `<arm_id>_link0`
   /// @param tip the flange, `<arm_id>_link8`
   /// @param singularity_threshold the smallest singular value of J*J^T below which a warning is

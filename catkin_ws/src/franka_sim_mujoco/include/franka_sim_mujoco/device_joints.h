@@ -24,9 +24,9 @@ namespace franka_sim_mujoco {
 ///   efforts:     the effort acts [Nm|N];
 ///   positions:   the joint moves to the position and holds it, or a PID does;
 ///   velocities:  the joint moves at the velocity, or a PID does.
-/// A PID is used if the parameters <namespace>/gazebo_ros_control/pid_gains/<joint>/{p,i,d,...} are
-/// set. With and without a PID the effort is limited to the URDF's (none, or 0: it is not limited),
-/// and for commanded positions without a PID to that of a controller, too
+/// A PID is used if the parameters `<namespace>/gazebo_ros_control/pid_gains/<joint>/{p,i,d,...}`
+/// are set. With and without a PID the effort is limited to the URDF's (none, or 0: it is not
+/// limited), and for commanded positions without a PID to that of a controller, too
 /// (JointEffortLimitInterface). Without a controller, joints with position or velocity commands
 /// hold their position, and joints with only effort commands move freely.
 ///

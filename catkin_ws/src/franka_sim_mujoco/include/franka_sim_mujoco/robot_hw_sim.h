@@ -41,13 +41,13 @@ struct RobotHandle {
   std::string name;          ///< of the robot in the world
   std::string urdf;          ///< text of its description
   /// Runs a function between two ticks; by default at once, for a world that nothing steps.
-  BetweenTicks between_ticks{[](const std::function<void()>& work) { work(); }};
+  BetweenTicks between_ticks = [](const std::function<void()>& work) { work(); };
   std::vector<SimulatedArm> arms;  ///< not empty; the first has no type in a robot without arms
   int control_ticks{1};            ///< ticks from one update of the controllers to the next
 };
 
 /// Base class of simulated hardware, shaped like gazebo_ros_control's (decision 34): plugins of
-/// this type are named by the URDF's <robotSimType>. initSim runs once, in the thread of the
+/// this type are named by the URDF's `<robotSimType>`. initSim runs once, in the thread of the
 /// request that adds the robot, because calls of the ROS master may take long: the other robots are
 /// stepped meanwhile, and this one is in the world only within `between_ticks`. Then readSim and
 /// writeSim run in every tick of 1 ms, in the stepping thread, and between them, once per

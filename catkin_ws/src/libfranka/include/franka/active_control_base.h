@@ -62,13 +62,13 @@ class ActiveControlBase {
   /// @param motion_generator_input twist of EE in O [m/s, rad/s].
   virtual void writeOnce(const CartesianVelocities& motion_generator_input,
                          const std::optional<const Torques>& control_input) = 0;
-  /// @copydoc writeOnce(const JointPositions&, const std::optional<const Torques>&)
+  /// As writeOnce(const Torques&). @param motion_generator_input joint positions [rad].
   virtual void writeOnce(const JointPositions& motion_generator_input) = 0;
-  /// @copydoc writeOnce(const JointVelocities&, const std::optional<const Torques>&)
+  /// As writeOnce(const Torques&). @param motion_generator_input joint velocities [rad/s].
   virtual void writeOnce(const JointVelocities& motion_generator_input) = 0;
-  /// @copydoc writeOnce(const CartesianPose&, const std::optional<const Torques>&)
+  /// As writeOnce(const Torques&). @param motion_generator_input pose of EE in O.
   virtual void writeOnce(const CartesianPose& motion_generator_input) = 0;
-  /// @copydoc writeOnce(const CartesianVelocities&, const std::optional<const Torques>&)
+  /// As writeOnce(const Torques&). @param motion_generator_input twist of EE in O [m/s, rad/s].
   virtual void writeOnce(const CartesianVelocities& motion_generator_input) = 0;
 
  protected:

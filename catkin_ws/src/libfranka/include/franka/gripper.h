@@ -45,7 +45,7 @@ class Gripper {
   /// Grasps an object. It counts as grasped if the distance d between the fingers is
   /// width - epsilon_inner < d < width + epsilon_outer.
   /// @param width of the object [m] @param speed [m/s] @param force [N]
-  /// @param epsilon_inner, @param epsilon_outer tolerances [m]
+  /// @param epsilon_inner,epsilon_outer tolerances [m]
   /// @returns whether the object is grasped. @throws as homing.
   bool grasp(double width, double speed, double force, double epsilon_inner = 0.005,
              double epsilon_outer = 0.005) const;

@@ -140,17 +140,17 @@ class Robot {
       const research_interface::robot::Move::ControllerMode& control_type);
   std::unique_ptr<ActiveControlBase> startCartesianVelocityControl(
       const research_interface::robot::Move::ControllerMode& control_type);
+  /// @}
 #if __cplusplus >= 201703L
   /// The robot plans its own motion to each commanded joint position (protocol 10). Commands need
   /// not come every millisecond.
-  /// @param maximum_velocities seven limits of the joint velocities [rad/s].
+  /// @param control_type the controller @param maximum_velocities of the seven joints [rad/s]
   /// @throws CommandException if the robot's system has no such motion.
   /// @throws std::invalid_argument without seven limits, or for one that is not positive.
   std::unique_ptr<ActiveControlBase> startAsyncJointPositionControl(
       const research_interface::robot::Move::ControllerMode& control_type,
       const std::optional<std::vector<double>>& maximum_velocities);
 #endif
-  /// @}
 
   /// Calls back with every new state until the callback returns false. For monitoring a robot that
   /// something else moves; not from within a control callback. The first state is that of readOnce.

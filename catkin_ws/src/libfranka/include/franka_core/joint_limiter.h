@@ -60,7 +60,7 @@ inline JointVelocityRange rangeAt(const PositionVelocityLimits& limits,
 
 /// The velocity nearest to the desired one within jerk and acceleration limits, with the
 /// acceleration ending at the velocity limit; the two velocity limits may differ (protocol 5.6).
-/// @param lowest @param highest velocity [rad/s] @param dt a cycle [s]
+/// @param lowest,highest velocity [rad/s] @param dt a cycle [s]
 /// @param last_velocity [rad/s] @param last_acceleration [rad/s^2] of the cycle before
 inline double limitVelocity(double lowest, double highest, double max_acceleration, double max_jerk,
                             double velocity, double last_velocity, double last_acceleration,

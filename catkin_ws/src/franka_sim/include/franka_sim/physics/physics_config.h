@@ -30,7 +30,7 @@ struct RobotPhysics {
 RobotPhysics readRobotPhysics(const std::string& file, const std::string& robot_type,
                               const Realism& realism);
 
-/// Sets the properties for the joints <arm_id>_joint1 to 7 and the links <arm_id>_link1 to 8.
+/// Sets the properties for the joints `<arm_id>_joint1` to 7 and the links `<arm_id>_link1` to 8.
 void applyPhysics(const RobotPhysics& physics, const std::string& arm_id,
                   RobotDescription& description);
 

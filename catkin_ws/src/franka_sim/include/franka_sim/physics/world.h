@@ -46,8 +46,8 @@ struct RobotDescription {
   Pose base;                 ///< of the URDF's root, unless that is a link named `world`
   std::map<std::string, double> initial_positions;  ///< joint name -> [rad] or [m]
   std::map<std::string, double> rotor_inertia;      ///< joint name -> armature [kg m^2]; else none
-  /// Joint name -> friction, beside that of the URDF's <dynamics>, which the joints of Franka arms
-  /// and hands do not have.
+  /// Joint name -> friction, beside that of the URDF's `<dynamics>`, which the joints of Franka
+  /// arms and hands do not have.
   std::map<std::string, JointFriction> friction;
   /// Joint name -> offset of its torque sensor [Nm]: an arm's motors produce the reading, not the
   /// torque itself, to the commanded value.
@@ -116,7 +116,7 @@ class World {
   void removeRobot(const std::string& name);  ///< its state is lost
   std::vector<std::string> robots() const;    ///< names
 
-  /// Adds an object: SDF with one model, MJCF with bodies, a lone MJCF <body>, or the URDF of an
+  /// Adds an object: SDF with one model, MJCF with bodies, a lone MJCF `<body>`, or the URDF of an
   /// object (urdf_text.h). The state of everything else is kept; nothing changes when it throws.
   /// @param pose of the text's origin in the world
   void addObject(const std::string& name, const std::string& text, const Pose& pose);

@@ -70,7 +70,7 @@ struct WorldModel {
   bool is_static{false};           ///< whether nothing of it can move
 };
 
-/// A camera fixed to the world or to a body: MJCF's <camera> or SDF's camera sensor.
+/// A camera fixed to the world or to a body: MJCF's `<camera>` or SDF's camera sensor.
 struct WorldCamera {
   std::string name;             ///< in the world
   double field_of_view{45};     ///< vertical [deg]

@@ -17,7 +17,7 @@ namespace franka_sim {
 std::string readFile(const std::string& name);
 
 /// A file of a package of this workspace: from the install space that this library is part of
-/// (../share/<package>), or else from the sources. Empty if there is none.
+/// (`../share/<package>`), or else from the sources. Empty if there is none.
 std::string packageFile(const std::string& package, const std::string& file);
 
 /// The file of a world: a file's name, or the name of one that is installed with franka_sim
@@ -35,7 +35,7 @@ std::string fileOfUri(const std::string& uri, const PackageFinder& find);
 
 /// Converts `package://name/path`, `model://name` and addresses of files to file names; empty if
 /// unknown. Where ROS is (ROS_PACKAGE_PATH is set), its packages are searched too: themselves, and
-/// the folders that they export with <gazebo_ros gazebo_model_path="..."/>.
+/// the folders that they export with `<gazebo_ros gazebo_model_path="..."/>`.
 std::string resolveUri(const std::string& uri);
 
 /// A robot of a world, as the user describes it.

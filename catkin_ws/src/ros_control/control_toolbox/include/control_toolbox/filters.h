@@ -23,7 +23,8 @@ inline double exponentialSmoothing(double current_raw_value, double last_smoothe
 }
 
 }  // namespace filters
-
+/// @cond
 namespace control_toolbox {
 namespace filters = ::filters;
 }
+/// @endcond

@@ -28,20 +28,20 @@ class ControllerBase {
   ControllerBase(ControllerBase&&) = delete;
   ControllerBase& operator=(ControllerBase&&) = delete;
 
-  /// Called once before the first update. @param time of this cycle
+  /// Called once before the first update, with the time of this cycle.
   virtual void starting(const ros::Time& /*time*/) {}
 
   /// Called in every cycle while running.
   /// @param time of this cycle @param period since the cycle before
   virtual void update(const ros::Time& time, const ros::Duration& period) = 0;
 
-  /// Called once after the last update. @param time of this cycle
+  /// Called once after the last update, with the time of this cycle.
   virtual void stopping(const ros::Time& /*time*/) {}
 
-  /// Called in every cycle while the start waits for the robot. @param time of this cycle
+  /// Called in every cycle while the start waits for the robot, with the time of this cycle.
   virtual void waiting(const ros::Time& /*time*/) {}
 
-  /// Called when the start is aborted. @param time of this cycle
+  /// Called when the start is aborted, with the time of this cycle.
   virtual void aborting(const ros::Time& /*time*/) {}
 
   /// @name The state of the controller

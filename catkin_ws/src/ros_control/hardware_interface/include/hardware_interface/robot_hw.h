@@ -79,12 +79,12 @@ class RobotHW : public InterfaceManager {
     return SwitchState::DONE;
   }
 
-  /// Reads the robot's state. Called by the control loop. Real-time safe.
-  /// @param time of this cycle @param period since the one before
+  /// Reads the robot's state. Called by the control loop, with the time of this cycle and the
+  /// period since the one before. Real-time safe.
   virtual void read(const ros::Time& /*time*/, const ros::Duration& /*period*/) {}
 
-  /// Sends the controllers' commands. Called by the control loop. Real-time safe.
-  /// @param time of this cycle @param period since the one before
+  /// Sends the controllers' commands. Called by the control loop, with the time of this cycle and
+  /// the period since the one before. Real-time safe.
   virtual void write(const ros::Time& /*time*/, const ros::Duration& /*period*/) {}
 };
 

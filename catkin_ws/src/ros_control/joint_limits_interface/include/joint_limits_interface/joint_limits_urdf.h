@@ -10,7 +10,7 @@ namespace joint_limits_interface {
 
 /// Reads the limits of a URDF joint. URDF has neither acceleration nor jerk: the flag of the former
 /// is cleared, the latter is unchanged. @returns false, with `limits` unchanged, without a joint or
-/// its <limit>.
+/// its `<limit>`.
 inline bool getJointLimits(urdf::JointConstSharedPtr urdf_joint, JointLimits& limits) {
   if (!urdf_joint || !urdf_joint->limits) {
     return false;
@@ -32,7 +32,7 @@ inline bool getJointLimits(urdf::JointConstSharedPtr urdf_joint, JointLimits& li
   return true;
 }
 
-/// Reads the soft limits from a URDF joint's <safety_controller>. @returns false, with
+/// Reads the soft limits from a URDF joint's `<safety_controller>`. @returns false, with
 /// `soft_limits` unchanged, without a joint or that element.
 inline bool getSoftJointLimits(urdf::JointConstSharedPtr urdf_joint, SoftJointLimits& soft_limits) {
   if (!urdf_joint || !urdf_joint->safety) {

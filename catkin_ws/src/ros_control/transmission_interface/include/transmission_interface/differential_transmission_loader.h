@@ -8,7 +8,7 @@
 namespace transmission_interface {
 
 /// Creates a DifferentialTransmission; see PairTransmissionLoader for its elements. Both joints may
-/// have the element <ignoreTransmissionAbsoluteEncoder/>.
+/// have the element `<ignoreTransmissionAbsoluteEncoder/>`.
 class DifferentialTransmissionLoader : public internal::PairTransmissionLoader {
  public:
   TransmissionSharedPtr load(const TransmissionInfo& transmission_info) override;

@@ -7,8 +7,8 @@
 
 namespace transmission_interface {
 
-/// Creates a SimpleTransmission. The actuator has a <mechanicalReduction>, the joint optionally an
-/// <offset> [rad] or [m].
+/// Creates a SimpleTransmission. The actuator has a `<mechanicalReduction>`, the joint optionally
+/// an `<offset>` [rad] or [m].
 class SimpleTransmissionLoader : public TransmissionLoader {
  public:
   TransmissionSharedPtr load(const TransmissionInfo& transmission_info) override;

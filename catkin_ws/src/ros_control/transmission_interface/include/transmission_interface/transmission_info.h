@@ -12,14 +12,14 @@ struct JointInfo {
   std::string name_;                              ///< of the joint
   std::vector<std::string> hardware_interfaces_;  ///< at least one
   std::string role_;                              ///< empty if not in the URDF
-  std::string xml_element_;                       ///< the whole <joint> element
+  std::string xml_element_;                       ///< the whole `<joint>` element
 };
 
 /// An actuator of a transmission, from the URDF.
 struct ActuatorInfo {
   std::string name_;                              ///< of the actuator
   std::vector<std::string> hardware_interfaces_;  ///< may be empty
-  std::string xml_element_;                       ///< the whole <actuator> element
+  std::string xml_element_;                       ///< the whole `<actuator>` element
 };
 
 /// A transmission, from the URDF.

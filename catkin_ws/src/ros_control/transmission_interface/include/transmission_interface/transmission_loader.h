@@ -41,25 +41,25 @@ class TransmissionLoader {
   // Each of these reads one child of a joint's or actuator's element. A missing one is logged if
   // `required`; an invalid one always. The value is then unchanged.
 
-  /// <mechanicalReduction>: a finite number
+  /// `<mechanicalReduction>`: a finite number
   static ParseStatus getActuatorReduction(const TiXmlElement& parent_el,
                                           const std::string& actuator_name,
                                           const std::string& transmission_name, bool required,
                                           double& reduction);
-  /// <mechanicalReduction>: a finite number
+  /// `<mechanicalReduction>`: a finite number
   static ParseStatus getJointReduction(const TiXmlElement& parent_el, const std::string& joint_name,
                                        const std::string& transmission_name, bool required,
                                        double& reduction);
-  /// <offset>: a finite number [rad] or [m]
+  /// `<offset>`: a finite number [rad] or [m]
   static ParseStatus getJointOffset(const TiXmlElement& parent_el, const std::string& joint_name,
                                     const std::string& transmission_name, bool required,
                                     double& offset);
-  /// <role>: a word
+  /// `<role>`: a word
   static ParseStatus getActuatorRole(const TiXmlElement& parent_el,
                                      const std::string& actuator_name,
                                      const std::string& transmission_name, bool required,
                                      std::string& role);
-  /// <role>: a word
+  /// `<role>`: a word
   static ParseStatus getJointRole(const TiXmlElement& parent_el, const std::string& joint_name,
                                   const std::string& transmission_name, bool required,
                                   std::string& role);

@@ -12,7 +12,7 @@
 
 namespace transmission_interface {
 
-/// Reads the <transmission> elements of a URDF. Without state. Thread-safe. Not real-time safe.
+/// Reads the `<transmission>` elements of a URDF. Without state. Thread-safe. Not real-time safe.
 class TransmissionParser {
  public:
   /// Appends the transmissions of a robot description. Invalid ones are logged and skipped.
@@ -21,11 +21,11 @@ class TransmissionParser {
   static bool parse(const std::string& urdf_string, std::vector<TransmissionInfo>& transmissions);
 
  protected:
-  /// The joints of one <transmission> element.
+  /// The joints of one `<transmission>` element.
   /// @returns false without a valid one, or if one has no name attribute.
   static bool parseJoints(TiXmlElement* trans_it, std::vector<JointInfo>& joints);
 
-  /// The actuators of one <transmission> element.
+  /// The actuators of one `<transmission>` element.
   /// @returns false without a valid one, or if one has no name attribute.
   static bool parseActuators(TiXmlElement* trans_it, std::vector<ActuatorInfo>& actuators);
 };

@@ -11,8 +11,8 @@ namespace transmission_interface {
 namespace internal {
 
 /// Reads the descriptions of transmissions with two actuators and two joints. Actuators have the
-/// <role> actuator1 or actuator2 and a <mechanicalReduction>; joints have the <role> joint1 or
-/// joint2 and optionally a <mechanicalReduction> (default 1) and an <offset>.
+/// `<role>` actuator1 or actuator2 and a `<mechanicalReduction>`; joints have the `<role>` joint1
+/// or joint2 and optionally a `<mechanicalReduction>` (default 1) and an `<offset>`.
 class PairTransmissionLoader : public TransmissionLoader {
  protected:
   /// Values in the order of the roles, independent of the description's order.
