@@ -114,6 +114,7 @@ def test_two_arms_hold_their_relative_pose_while_the_marker_is_dragged(robot, tm
 
 
 @pytest.mark.own_process
+@pytest.mark.long_form("its stiff law tolerates no late torques, which a busy machine has")
 def test_the_follower_follows_a_pushed_leader(robot, tmp_path):
     """Patient robots wait for the loop, because the follower's stiff law tolerates no constant torques."""
     addresses = [f"leader_ip:={LEADER}", "follower_ip:=127.0.7.14"]

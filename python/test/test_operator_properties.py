@@ -73,11 +73,12 @@ class LinesMachine(state_machines.Machine):
                 remote.send(f"step {int(1e3 * SELF_TEST) + 100}")
             for line in ("guiding off", "user_stop off", *(f"input {name} off" for name in INPUTS)):
                 remote.send(line)
+        self.remotes["fr3"].send("reset")  # no recovery with a joint beyond its limits
+        for kind, remote in self.remotes.items():
             for line in ("brakes open", "fci on", "wait"):
                 remote.send(line)
             if self.report(kind).mode == "Reflex":
                 remote.send("recover")
-        self.remotes["fr3"].send("reset")
         self.user_stop = dict.fromkeys(KINDS, False)
         self.inputs = {kind: dict.fromkeys(INPUTS, False) for kind in KINDS}
         self.closed = dict.fromkeys(KINDS, False)
