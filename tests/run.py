@@ -167,7 +167,9 @@ def write_history(tally: Tally) -> None:
         lines.append(
             {"run": now, "case": case.name, "verdict": verdict, "seconds": case.seconds, "load": load}
         )
-    HISTORY.write_text("".join(json.dumps(line) + "\n" for line in lines), encoding="utf-8")
+    written = HISTORY.with_suffix(".new")
+    written.write_text("".join(json.dumps(line) + "\n" for line in lines), encoding="utf-8")
+    written.replace(HISTORY)  # a run that is killed meanwhile leaves the earlier history
 
 
 def print_history() -> int:

@@ -293,7 +293,7 @@ def node(request, tmp_path_factory):
         controllers.load(*names)
         NodeMachine.goals, NodeMachine.goals_of_rest = [
             Action(f"{controllers.namespace}/{name}/follow_joint_trajectory", FollowJointTrajectoryAction)
-            for name in (CONTROLLER, names[count > 1])
+            for name in (CONTROLLER, REST if count > 1 else CONTROLLER)
         ]
         yield NodeMachine
 

@@ -8,17 +8,7 @@ For programs that log in to a robot before they use the FCI, and for browsers, i
 (docs/desk.md). It needs aiohttp and cryptography: the wheel's extra `desk`, or Debian's packages. Desk
 talks to the robot over its control interface only (docs/franka_sim.md).
 
-Layers of modules, the lowest first. A module imports only those that are listed before it, also for types
-and in functions (.importlinter):
-
-    errors, checks, settings, profiles, certificate, addresses
-    robot, sessions, tokens, throttle, login_throttle, limits
-    end_effectors, configuration, fci, power
-    desk
-    status, actions, routes, access, request_body
-    legacy, v1, sockets, page_lines, page_live, page_api
-    server
-    cli
+The order of its modules, of which each imports only what is below it, is in .importlinter.
 """
 
 from __future__ import annotations
