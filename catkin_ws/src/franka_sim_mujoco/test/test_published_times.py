@@ -88,16 +88,21 @@ def test_each_message_that_is_due_is_published(rate):
         (Times("/tf", TFMessage, link_1), rate),
         (Times("/franka_state_controller/franka_states", FrankaState), 30),
     ]
-    # Faster than rospy takes them, subscribers lose messages.
+    # Faster than rospy takes them, subscribers lose messages: as fast as possible goes in pieces, after each
+    # of which all have arrived, because a subscriber that gets no processor for a second misses 86,000 ticks.
     for factor in (0, 20) if rate < 1000 else (2,):
         assert call("/gazebo/set_real_time_factor", SetRealTimeFactor, factor).success
-        begin = round(step(1).time.to_sec() / TICK)
-        call("/gazebo/unpause_physics", Empty)
-        times[0][0].wait_for(begin + 5000, "joint states")
-        call("/gazebo/pause_physics", Empty)
-        end = round(step(1).time.to_sec() / TICK)
+        begin = end = round(step(1).time.to_sec() / TICK)
+        while end < begin + 5000:
+            if factor == 0:
+                step(1000)
+            else:
+                call("/gazebo/unpause_physics", Empty)
+                times[0][0].wait_for(begin + 5000, "joint states")
+                call("/gazebo/pause_physics", Empty)
+            end = round(step(1).time.to_sec() / TICK)
+            for each, frequency in times:
+                each.wait_for(end - 1000 / frequency - 1, "messages")
         for each, frequency in times:
-            period = 1000 / frequency
-            each.wait_for(end - period - 1, "messages")
             ticks = np.array(sorted({tick for tick in each.ticks if begin <= tick <= end}))
-            assert np.diff(ticks).max() <= np.ceil(period), (each.topic, factor)
+            assert np.diff(ticks).max() <= np.ceil(1000 / frequency), (each.topic, factor)
