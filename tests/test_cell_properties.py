@@ -7,7 +7,6 @@ without effect, and the states never end. A stop is pressed while any of its sou
 """
 
 import pytest
-import state_machines
 from cell import (
     ARMS,
     GRIPPER,
@@ -35,8 +34,9 @@ from franka_sim_mujoco.srv import (
 )
 from geometry_msgs.msg import Point, Pose, Quaternion, Vector3
 from hypothesis import strategies as st
-from hypothesis.stateful import initialize, invariant, precondition, rule
+from hypothesis.stateful import initialize, invariant
 from ros_client import call
+from state_machines import Machine, rule, run
 
 BRAKING = 500  # [ticks] after which an arm rests, and its brakes have opened
 SOURCES = ("service", "user_stop", "input x31", "input x32", "input x33")  # of the served robot's stop
@@ -118,7 +118,7 @@ def some_of(requests: dict):
     return st.lists(st.sampled_from(list(requests)), min_size=1, max_size=4)
 
 
-class CellMachine(state_machines.Machine):
+class CellMachine(Machine):
     """Steps on the cell. Arms that none has named are on their reference, which is a run without steps."""
 
     cell = None
@@ -190,10 +190,8 @@ class CellMachine(state_machines.Machine):
         """The present step may change the motion of this arm."""
         self.named.add(arm)
 
-    @precondition(lambda self: self.cell.age < HORIZON)
-    @rule(ticks=st.sampled_from([1, 5, 30, 100]))
+    @rule(when=lambda self: self.cell.age < HORIZON, ticks=st.sampled_from([1, 5, 30, 100]))
     def step(self, ticks):
-        self.begins_step()
         self.cell.step(ticks)
 
     def check_refused(self, table: dict, requests: list[str], arm: str) -> None:
@@ -205,23 +203,19 @@ class CellMachine(state_machines.Machine):
 
     @rule(arm=NAMES, requests=some_of(OF_ARM))
     def refused_by_the_arm(self, arm, requests):
-        self.begins_step()
         self.check_refused(OF_ARM, requests, arm)
 
     @rule(arm=NAMES, requests=some_of(OF_MANAGER))
     def refused_by_the_controller_manager(self, arm, requests):
-        self.begins_step()
         self.check_refused(OF_MANAGER, requests, arm)
 
     @rule(arm=NAMES, requests=some_of(OF_WORLD))
     def refused_by_the_world(self, arm, requests):
-        self.begins_step()
         self.check_refused(OF_WORLD, requests, arm)
 
     @rule(arm=NAMES, start=st.sets(KINDS, max_size=2), stop=st.booleans())
     def switch(self, arm, start, stop):
         """Controllers that run may be stopped with it."""
-        self.begins_step()
         stopped = self.running[arm] & set(MOTIONS) if stop else set()
         if self.cell.switch(arm, start, stopped):
             self.running[arm] = (self.running[arm] - stopped) | start
@@ -233,7 +227,6 @@ class CellMachine(state_machines.Machine):
     @rule(arm=NAMES, kind=st.sampled_from(["twist", "pose"]))
     def switch_at_a_singular_pose(self, arm, kind):
         """To a Cartesian motion, which the arm refuses there: what runs goes on."""
-        self.begins_step()
         runs = self.commanded(arm)
         self.put(arm, SINGULAR)
         if runs and not runs & {"twist", "pose"} and arm not in self.stopped | self.apart | self.unrecovered:
@@ -248,7 +241,6 @@ class CellMachine(state_machines.Machine):
 
     @rule(arm=NAMES)
     def switch_gripper(self, arm):
-        self.begins_step()
         on = GRIPPER not in self.running[arm]
         assert self.cell.switch(arm, [GRIPPER] * on, [GRIPPER] * (not on))
         self.running[arm] ^= {GRIPPER}
@@ -256,7 +248,6 @@ class CellMachine(state_machines.Machine):
 
     @rule(arm=NAMES, position=st.sampled_from([START[3], -2.0]))
     def place(self, arm, position):
-        self.begins_step()
         request = self.cell.arms[arm]
         answer = self.cell.during_steps(lambda: request.place([request.joints[3]], [position]))
         assert answer.success, answer.error
@@ -265,7 +256,6 @@ class CellMachine(state_machines.Machine):
     @rule(arm=NAMES, position=st.sampled_from([START[3], -2.0]))
     def put_by_the_world(self, arm, position):
         """The door that knows joints only."""
-        self.begins_step()
         self.put(arm, position)
 
     def put(self, arm: str, position: float) -> None:
@@ -273,12 +263,10 @@ class CellMachine(state_machines.Machine):
         assert world("set_joint_states", SetJointStates, names=names, positions=[position])
         self.name(arm)
 
-    @precondition(lambda self: self.named == set(ARMS))
-    @rule()
+    @rule(when=lambda self: self.named == set(ARMS))
     def reset_the_world(self):
         """All arms go on from their start: not as at first, because hands and filters keep what they had.
         Only when there is nothing left to compare with a run without steps."""
-        self.begins_step()
         self.cell.reset()
         for arm in ARMS:
             self.name(arm)
@@ -286,13 +274,11 @@ class CellMachine(state_machines.Machine):
     @rule(by=st.sampled_from([-1000, 1000]))
     def jump_clock(self, by):
         """A clock of somebody else, then again that of the simulation."""
-        self.begins_step()
         self.cell.jump_clock(by)
 
     @rule(arm=NAMES, right=st.booleans())
     def send_goal(self, arm, right):
         """To the trajectory controller, which may not run."""
-        self.begins_step()
         accepted = self.cell.accepts_goal(arm, right)
         assert accepted == (right and "trajectory" in self.running[arm])
         if accepted:
@@ -300,7 +286,6 @@ class CellMachine(state_machines.Machine):
 
     @rule()
     def spawn_and_delete_a_robot(self):
-        self.begins_step()
         self.tolerance = SAME_AFTER_SPAWN
         self.cell.spawn("guest")
         self.cell.step(3)
@@ -308,7 +293,6 @@ class CellMachine(state_machines.Machine):
 
     @rule(arm=NAMES, pressed=st.booleans())
     def press_user_stop(self, arm, pressed):
-        self.begins_step()
         if pressed != (arm in self.stopped):
             self.name(arm)
             self.unrecovered.add(arm)
@@ -317,7 +301,6 @@ class CellMachine(state_machines.Machine):
 
     @rule(arm=NAMES)
     def recover(self, arm):
-        self.begins_step()
         recovered = self.cell.recover(arm)
         assert not recovered or arm not in self.stopped
         if recovered:
@@ -326,7 +309,6 @@ class CellMachine(state_machines.Machine):
 
     @rule(arm=NAMES, connected=st.booleans())
     def connect(self, arm, connected):
-        self.begins_step()
         request = self.cell.arms[arm]
         answer = (request.connect if connected else request.disconnect)()
         possible = (arm in self.apart) if connected else arm not in self.apart and not self.commanded(arm)
@@ -340,19 +322,16 @@ class CellMachine(state_machines.Machine):
 
     @rule(arm=NAMES, mass=st.sampled_from([0.0, 0.4]))
     def set_load(self, arm, mass):
-        self.begins_step()
         if self.cell.arms[arm].set_load(**load_of(mass)).success:
             self.name(arm)
 
     @rule(arm=NAMES, force=st.sampled_from([1.0, 300.0]))
     def push(self, arm, force):
-        self.begins_step()
         assert world("push_body", PushBody, body=f"{arm}_link6", force=Vector3(x=force), ticks=30)
         self.name(arm)
 
     @rule(presses=st.lists(st.tuples(st.sampled_from(SOURCES), st.booleans()), min_size=1, max_size=5))
     def press_stops_of_the_served_robot(self, presses):
-        self.begins_step()
         for source, on in presses:
             self.press_served(source, on)
             mode = self.cell.operator.state().mode
@@ -361,12 +340,10 @@ class CellMachine(state_machines.Machine):
 
     @rule()
     def take_a_snapshot(self):
-        self.begins_step()
         assert world("take_snapshot", TakeSnapshot, name="one")
 
     @rule()
     def spawn_and_delete_an_object(self):
-        self.begins_step()
         self.tolerance = SAME_AFTER_SPAWN
         answer = call("/gazebo/spawn_object", SpawnObject, name="box", xml=BOX.format("box"), pose=FAR)
         assert answer.success, answer.error
@@ -376,7 +353,6 @@ class CellMachine(state_machines.Machine):
     @rule()
     def watch(self):
         """What the states say of each arm."""
-        self.begins_step()
         self.cell.fresh_states()
         for name, arm in self.cell.arms.items():
             mode = arm.state.robot_mode
@@ -414,10 +390,10 @@ def cell(tmp_path_factory):
 
 @pytest.mark.own_process
 def test_steps_on_arms_in_the_simulation_change_what_they_name(cell):
-    state_machines.run(cell, sequences=16, steps=15, random=False)
+    run(cell, sequences=16, steps=15, seed=1)
 
 
 @pytest.mark.own_process
 @pytest.mark.long_form("other sequences each time")
 def test_random_steps_on_arms_in_the_simulation(cell):
-    state_machines.run(cell, sequences=1000, steps=40, random=True)
+    run(cell, sequences=1000, steps=40)

@@ -8,16 +8,16 @@ without effect. The states of every arm go on through errors, stops, recoveries 
 
 import pytest
 import rospy
-import state_machines
 from actionlib_msgs.msg import GoalStatus
 from cell import load_of
 from control_msgs.msg import FollowJointTrajectoryAction
 from control_nodes import SUCCEEDED, ControlNode, arms_and_launch
 from franka_msgs.srv import SetLoad
 from hypothesis import strategies as st
-from hypothesis.stateful import initialize, rule
+from hypothesis.stateful import initialize
 from pyfranka.remote import LineRefused
 from ros_client import Action, call, launched, outcome, trajectory, trigger
+from state_machines import Machine, rule, run
 from waiting import holds, wait_for
 
 PATIENCE_FOR_STATES = 10.0  # [s] of the robots' time
@@ -26,9 +26,10 @@ REST, LAST = "all_but_the_last", "the_last"  # controllers of all joints but the
 SETUPS = [("panda", 1), ("panda", 2), ("fr3", 3)]  # robot, number of arms
 STOPS = {"panda": ["user_stop", "input x4"], "fr3": ["user_stop", "input x33"]}  # sources of the stop
 SIDES = st.integers(0, 2)  # of an arm; modulo their number
+SEQUENCES = {1: 4, 2: 16, 3: 6}  # by the number of arms
 
 
-class NodeMachine(state_machines.Machine):
+class NodeMachine(Machine):
     """Steps on franka_control_node with one arm, on franka_combined_control_node with several.
 
     All arms wait while one has an error of its own, because one controller moves them.
@@ -69,6 +70,13 @@ class NodeMachine(state_machines.Machine):
             return False
         return True
 
+    def is_off(self) -> bool:
+        """franka_control_node without its robot has no loop, and so no states, recovery and switches."""
+        return self.node.alone and bool(self.lost)
+
+    def waits(self) -> bool:
+        return bool(self.lost | self.unsure | self.failed | self.needy)
+
     def arm(self, side: int):
         return self.node.arms[side % len(self.node.arms)]
 
@@ -90,9 +98,9 @@ class NodeMachine(state_machines.Machine):
             self.node.wait_until_all_are("moving" if self.runs else "idle")
 
     def check_that_states_go_on(self) -> None:
-        """Measured in the time of the robots. franka_control_node without its robot has no states."""
+        """Measured in the time of the robots."""
         arms = self.node.arms
-        if self.node.alone and self.lost:
+        if self.is_off():
             return
         before = [arm.states for arm in arms]
         end = arms[0].operator.time + PATIENCE_FOR_STATES
@@ -113,7 +121,6 @@ class NodeMachine(state_machines.Machine):
     @rule(sides=st.sets(SIDES, min_size=1), recovered=st.none() | SIDES)
     def push(self, sides, recovered):
         """Arms that are not stopped have a reflex, all in their motion; then one arm may be recovered."""
-        self.begins_step()
         arms = {self.arm(side) for side in sides}
         arms = [arm for arm in arms if not self.pressed[arm.name] and arm.name not in self.lost]
         for arm in arms:
@@ -131,7 +138,6 @@ class NodeMachine(state_machines.Machine):
 
     @rule(side=SIDES, second=st.booleans(), on=st.booleans())
     def press(self, side, second, on):
-        self.begins_step()
         arm, source = self.arm(side), STOPS[self.robot][second]
         stopped = bool(self.pressed[arm.name])
         others = [other for other in self.node.arms if other is not arm]
@@ -152,7 +158,6 @@ class NodeMachine(state_machines.Machine):
     @rule(side=SIDES)
     def lose(self, side):
         """The robot ends the connection."""
-        self.begins_step()
         arm = self.arm(side)
         if arm.name in self.failed | self.needy or self.lost:
             self.unsure.add(arm.name)
@@ -162,9 +167,8 @@ class NodeMachine(state_machines.Machine):
         self.lost.add(arm.name)
         self.check()
 
-    @rule()
+    @rule(when=lambda self: self.lost)
     def connect_again(self):
-        self.begins_step()
         self.connect_all()
         self.check()
 
@@ -179,7 +183,6 @@ class NodeMachine(state_machines.Machine):
 
     @rule(side=SIDES)
     def recover_one(self, side):
-        self.begins_step()
         self.recover(self.arm(side))
 
     def recover(self, arm) -> None:
@@ -198,45 +201,33 @@ class NodeMachine(state_machines.Machine):
         for errors in (self.failed, self.needy, self.unsure):
             errors -= names
 
-    @rule()
+    @rule(when=lambda self: not self.is_off())
     def recover_all(self):
-        self.begins_step()
-        if self.node.alone and self.lost:
-            return
         self.node.recover()
         self.forget_errors({name for name, by in self.pressed.items() if not by} - self.lost)
         self.check()
 
-    @rule(start=st.booleans())
+    @rule(when=lambda self: not self.is_off(), start=st.booleans())
     def switch(self, start):
-        """franka_control_node without its robot has no loop, for which a switch waits."""
-        self.begins_step()
-        if self.node.alone and self.lost:
-            return
         names = [CONTROLLER]
         if self.node.controllers.switches(**({"start": names} if start else {"stop": names})):
             self.runs = start
         self.check()
 
-    @rule(by=st.sampled_from([0.01, -0.01]), refused=st.booleans())
+    @rule(when=lambda self: not self.waits(), by=st.sampled_from([0.01, -0.01]), refused=st.booleans())
     def send_goal(self, by, refused):
         """Of a trajectory, which succeeds if no arm waits, also if a switch is refused meanwhile."""
-        self.begins_step()
-        if not self.lost | self.unsure | self.failed | self.needy:
-            motion = self.goals.send(patient(targets(self.node.arms, by), 0.5 if refused else 0.1))
-            if refused and self.runs:
-                assert not self.node.controllers.switches(start=["nothing"], stop=[CONTROLLER])
-            ended = outcome(motion)
-            assert (ended[0] == GoalStatus.SUCCEEDED) == self.runs, ended
+        motion = self.goals.send(patient(targets(self.node.arms, by), 0.5 if refused else 0.1))
+        if refused and self.runs:
+            assert not self.node.controllers.switches(start=["nothing"], stop=[CONTROLLER])
+        ended = outcome(motion)
+        assert (ended[0] == GoalStatus.SUCCEEDED) == self.runs, ended
         self.check()
 
-    @rule()
+    @rule(when=lambda self: not self.node.alone and not self.waits() and not any(self.pressed.values()))
     def switch_refused_by_a_disconnected_arm(self):
         """The motion of the other arms goes on."""
-        self.begins_step()
         *others, last = self.node.arms
-        if not others or self.lost | self.unsure | self.failed | self.needy or any(self.pressed.values()):
-            return
         switches = self.node.controllers.switches
         assert not self.runs or switches(stop=[CONTROLLER])
         self.node.wait_until_all_are("idle")
@@ -254,7 +245,6 @@ class NodeMachine(state_machines.Machine):
 
     @rule(side=SIDES)
     def refused(self, side):
-        self.begins_step()
         assert not self.node.controllers.switches(start=["nothing"])
         arm = self.arm(side)
         if arm.name not in self.lost:
@@ -300,10 +290,11 @@ def node(request, tmp_path_factory):
 
 @pytest.mark.own_process("node")
 def test_steps_on_arms_of_hardware_change_what_they_name(node):
-    state_machines.run(node, sequences=6, steps=12, random=False, shrink=False)
+    arms = len(node.node.arms)
+    run(node, SEQUENCES[arms], steps=12, seed=arms, shrink=False)
 
 
 @pytest.mark.own_process("node")
 @pytest.mark.long_form("other sequences each time")
 def test_random_steps_on_arms_of_hardware(node):
-    state_machines.run(node, sequences=100, steps=20, random=True, shrink=False)
+    run(node, sequences=100, steps=20, shrink=False)

@@ -106,6 +106,7 @@ def complete(request, wheel, archive, tmp_path_factory) -> Environment:
     if request.param == "locked":
         return Environment(folder, wheel, "wheel-extras", ALL_EXTRAS)
     environment = Environment(folder, wheel)
+    environment.install(*files("wheel-pytest"))
     resolution = {"oldest": "lowest-direct", "newest": "highest"}[request.param]
     # The wheel's requirements are given directly: the oldest versions are chosen for these alone.
     requirements = [
@@ -119,7 +120,6 @@ def complete(request, wheel, archive, tmp_path_factory) -> Environment:
     options = [f"--resolution={resolution}", "--only-binary=:all:", f"--python={environment.bin / 'python'}"]
     command = [tools / "bin" / "uv", "pip", "install", "--upgrade", *options, *requirements]
     subprocess.run(command, check=True, timeout=1200)
-    environment.install(*files("wheel-pytest"))
     return environment
 
 

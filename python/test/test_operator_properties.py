@@ -7,11 +7,11 @@ stays as it is, the other robot included, and a refused line changes nothing.
 """
 
 import pytest
-import state_machines
 from hypothesis import strategies as st
-from hypothesis.stateful import initialize, invariant, rule
+from hypothesis.stateful import initialize, invariant
 from pyfranka.remote import LineRefused
 from pyfranka.sim import FR3, Panda
+from state_machines import Machine, rule, run
 
 KINDS = ("panda", "fr3")
 STOPS = {"panda": ("x4",), "fr3": ("x31", "x32", "x33")}
@@ -61,7 +61,7 @@ def discrete(report) -> dict:
     } | {"self-test": report.self_test.running}
 
 
-class LinesMachine(state_machines.Machine):
+class LinesMachine(Machine):
     """Lines to both robots, whose world stands still between them."""
 
     remotes = None
@@ -91,7 +91,6 @@ class LinesMachine(state_machines.Machine):
 
     def accepts(self, kind: str, line: str) -> bool:
         """Whether a robot takes a line. The other one must be as before, and this one too if it does not."""
-        self.begins_step()
         before = {name: discrete(self.report(name)) for name in KINDS}
         try:
             self.remotes[kind].send(line)
@@ -157,12 +156,10 @@ class LinesMachine(state_machines.Machine):
 
     @rule(ticks=st.sampled_from([1, 50, int(1e3 * SELF_TEST) + 100]))
     def step(self, ticks):
-        self.begins_step()
         self.remotes["panda"].send(f"step {ticks}")
 
     @rule()
     def reset(self):
-        self.begins_step()
         before = {kind: self.report(kind) for kind in KINDS}
         self.remotes["panda"].send("reset")
         for kind in KINDS:
@@ -203,9 +200,9 @@ def machine(franka_sim_session):
 
 
 def test_stops_and_switches_have_the_effect_of_all_their_sources(machine):
-    state_machines.run(machine, sequences=60, steps=30, random=False)
+    run(machine, sequences=60, steps=30, seed=1)
 
 
 @pytest.mark.long_form("other sequences each time")
 def test_random_sequences(machine):
-    state_machines.run(machine, sequences=2000, steps=60, random=True)
+    run(machine, sequences=2000, steps=60)

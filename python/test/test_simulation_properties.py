@@ -13,12 +13,12 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pytest
-import state_machines
 from hypothesis import strategies as st
-from hypothesis.stateful import initialize, invariant, precondition, rule
+from hypothesis.stateful import initialize, invariant
 from pyfranka import RobotMode, RobotState
 from pyfranka.sim import FR3, Panda, SimulatedRobot, Simulation
 from sentences import ERRORS, unlike_ours
+from state_machines import Machine, rule, run
 
 # The solver of constraints, such as those of fingers, friction and stops, couples all robots of a world in
 # the last bits. Robots with fingers and friction stand alone.
@@ -263,7 +263,7 @@ def difference(first: SimulatedRobot, second: SimulatedRobot, several: bool) -> 
     return "" if same else f"{first.name}: {modes[0]}, alone: {modes[1]}; other values of {fields}"
 
 
-class CallsMachine(state_machines.Machine):
+class CallsMachine(Machine):
     """Calls on a world with robots."""
 
     folder = None
@@ -323,7 +323,6 @@ class CallsMachine(state_machines.Machine):
         self.make(which, name, size, index, spoil)
 
     def make(self, which, name, size, index, change) -> None:
-        self.begins_step()
         robot, pair = self.pair(which)
         function, arguments = CALLS[name]
         if function.startswith("gripper") and not pair.among.setup.hand:
@@ -352,7 +351,6 @@ class CallsMachine(state_machines.Machine):
 
     @rule(function=st.sampled_from(list(OF_WORLD)), spoiled=INDICES, wrong=st.integers(0, len(WRONG) - 1))
     def call_of_the_world_with_a_wrong_value(self, function, spoiled, wrong):
-        self.begins_step()
         name = list(OF_WORLD[function])[spoiled % len(OF_WORLD[function])]
         arguments = {**OF_WORLD[function], name: WRONG[wrong]}
         error, _ = refusal(lambda: getattr(self.cell.sim, function)(**arguments))
@@ -365,7 +363,6 @@ class CallsMachine(state_machines.Machine):
 
     @rule(name=st.sampled_from(list(REFUSED)))
     def refused_call(self, name):
-        self.begins_step()
         before = self.cell.sim.state_hash()
         error, _ = refusal(REFUSED[name], self.cell.sim)
         assert error, f"{name} was accepted."
@@ -373,7 +370,6 @@ class CallsMachine(state_machines.Machine):
 
     @rule(ticks=TICKS)
     def step(self, ticks):
-        self.begins_step()
         times = {name: round(1e3 * pair.among.state.time) for name, pair in self.cell.pairs.items()}
         for world in self.cell.worlds:
             world.step(ticks)
@@ -397,21 +393,18 @@ class CallsMachine(state_machines.Machine):
 
     @rule(which=INDICES, link=st.integers(1, 7), force=st.sampled_from([0.5, 30.0, 300.0]), ticks=TICKS)
     def push(self, which, link, force, ticks):
-        self.begins_step()
         name, pair = self.pair(which)
         for world in (self.cell.sim, pair.world):
             world.push(f"{name}_link{link}", [0, force, force], ticks=ticks)
 
     @rule(x=st.floats(0.5, 2.0))
     def place_the_ball(self, x):
-        self.begins_step()
         for world in self.cell.worlds:
             world.place_body("ball", [x, -3, 1])
 
     @rule(which=INDICES, size=SIZES, index=INDICES)
     def reset(self, which, size, index):
         """To a pose of one robot; the others begin at theirs."""
-        self.begins_step()
         name, pair = self.pair(which)
         q = pair.among.state.q + size * unit(index)
         error, _ = refusal(lambda: self.cell.sim.reset(q={name: q}, objects={"ball": [1, -3, 1]}))
@@ -423,15 +416,12 @@ class CallsMachine(state_machines.Machine):
 
     @rule()
     def take_a_snapshot(self):
-        self.begins_step()
         self.kept.append(
             (self.cell.snapshot(), pickle.dumps((self.stopped, self.closed, self.ending, self.shown)))
         )
 
-    @precondition(lambda self: self.kept)
-    @rule(which=INDICES)
+    @rule(when=lambda self: self.kept, which=INDICES)
     def restore_a_snapshot(self, which):
-        self.begins_step()
         snapshots, known = self.kept[which % len(self.kept)]
         self.cell.restore(snapshots)
         self.stopped, self.closed, self.ending, self.shown = pickle.loads(known)
@@ -456,9 +446,9 @@ def machine(tmp_path):
 
 
 def test_each_robot_is_as_if_alone_and_refused_calls_change_nothing(machine):
-    state_machines.run(machine, sequences=150, steps=40, random=False)
+    run(machine, sequences=150, steps=40, seed=1)
 
 
 @pytest.mark.long_form("other sequences each time")
 def test_random_sequences(machine):
-    state_machines.run(machine, sequences=2000, steps=60, random=True)
+    run(machine, sequences=2000, steps=60)

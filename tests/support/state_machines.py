@@ -6,12 +6,15 @@ A failure prints the smallest sequence that Hypothesis finds, and after how many
 fails only after the sequences before it cannot be repeated: the failure then has the steps of its sequence.
 """
 
+import random
 import sys
 
+import hypothesis
+import hypothesis.stateful
 from hypothesis import HealthCheck, Phase, settings
+from hypothesis import strategies as st
 from hypothesis.errors import Flaky
 from hypothesis.internal.conjecture.providers import AVAILABLE_PROVIDERS, HypothesisProvider
-from hypothesis.stateful import RuleBasedStateMachine, run_state_machine_as_test
 
 # Sequences that do not depend on each other. Hypothesis itself begins with short ones and varies each:
 # of 16 sequences, six were then empty, two repeated one rule, and four differed in one argument (measured).
@@ -20,23 +23,47 @@ AVAILABLE_PROVIDERS[INDEPENDENT] = HypothesisProvider
 NOT_CHECKED = [HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large]
 
 
-class Machine(RuleBasedStateMachine):
-    """Counts its sequences and steps until the first failure. Each rule calls `begins_step` first."""
+def rule(when=lambda machine: True, **arguments):
+    """Marks a method of a Machine as a step.
+
+    Args:
+        when: whether the step is possible, as a function of the machine.
+        arguments: strategies of the method's arguments.
+    """
+
+    def mark(method):
+        method.when, method.arguments = when, arguments
+        return method
+
+    return mark
+
+
+class Machine(hypothesis.stateful.RuleBasedStateMachine):
+    """Draws each step from all that are possible, and counts sequences and steps until the first failure."""
 
     sequences = steps = 0
     failure: Exception | None = None  # the first one
+    step_names: tuple[str, ...] = ()
+
+    def __init_subclass__(cls):
+        cls.step_names = tuple(name for name, value in vars(cls).items() if hasattr(value, "arguments"))
 
     def __init__(self):
         super().__init__()
         type(self).sequences += 1
         self._done: list[str] = []
 
-    def begins_step(self) -> None:
+    @hypothesis.stateful.rule(data=st.data())
+    def take_a_step(self, data):
+        """One rule for all steps, because Hypothesis leaves some of its rules out of each sequence."""
+        possible = [
+            name for name in self.step_names if (when := getattr(self, name).when) is None or when(self)
+        ]
+        name = data.draw(st.sampled_from(possible))
+        arguments = data.draw(st.fixed_dictionaries(getattr(self, name).arguments))
         type(self).steps += 1
-        rule = sys._getframe(1)
-        names = rule.f_code.co_varnames[1 : rule.f_code.co_argcount]
-        arguments = (f"{name}={rule.f_locals[name]!r}" for name in names)
-        self._done.append(f"{rule.f_code.co_name}({', '.join(arguments)})")
+        self._done.append(f"{name}({', '.join(f'{key}={value!r}' for key, value in arguments.items())})")
+        getattr(self, name)(**arguments)
 
     def teardown(self):
         error = sys.exc_info()[1]  # Hypothesis has some of its own, with which it ends a sequence
@@ -47,21 +74,23 @@ class Machine(RuleBasedStateMachine):
             type(self).failure = error
 
 
-def run(machine: type[Machine], sequences: int, steps: int, random: bool, shrink: bool = True) -> None:
+def run(
+    machine: type[Machine], sequences: int, steps: int, seed: int | None = None, shrink: bool = True
+) -> None:
     """Runs sequences of at most so many steps, until one fails.
 
     Args:
-        machine: the rules and invariants.
-        random: whether other sequences than at the last time; otherwise they are the same in each run.
+        machine: the steps and invariants.
+        seed: of the sequences, which are the same in each run with it. None: another one in each run.
         shrink: whether to search for the smallest sequence that fails.
     """
     machine.sequences = machine.steps = 0
     machine.failure = None
+    seed = random.getrandbits(32) if seed is None else seed
     phases = [Phase.explicit, Phase.generate] + [Phase.shrink] * shrink
     options = settings(
         max_examples=sequences,
         stateful_step_count=steps,
-        derandomize=not random,
         backend=INDEPENDENT,
         database=None,
         deadline=None,
@@ -70,11 +99,11 @@ def run(machine: type[Machine], sequences: int, steps: int, random: bool, shrink
         suppress_health_check=NOT_CHECKED,
     )
     try:
-        run_state_machine_as_test(machine, settings=options)
-    except Flaky as error:
-        raise machine.failure or error from error
+        hypothesis.stateful.run_state_machine_as_test(hypothesis.seed(seed)(machine), settings=options)
     except Exception as error:
-        if machine.failure is not None and error is not machine.failure:
-            for note in machine.failure.__notes__:
-                error.add_note(note)
-        raise
+        found = machine.failure or error
+        shown = found if isinstance(error, Flaky) else error
+        for note in found.__notes__ if shown is not found else ():
+            shown.add_note(note)
+        shown.add_note(f"The seed was {seed}.")
+        raise shown from (error if shown is not error else None)

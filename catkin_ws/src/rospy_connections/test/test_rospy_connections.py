@@ -9,10 +9,11 @@ from collections import defaultdict
 import pytest
 import rospy
 import rospy_connections
-from rospy.impl import registration
+from rospy.impl import registration, tcpros_pubsub
 from rospy.impl.registration import RegManager
 from rospy.impl.tcpros_pubsub import TCPROSHandler
-from rospy.topics import _PublisherImpl
+from rospy.impl.transport import INBOUND, Transport
+from rospy.topics import _PublisherImpl, _SubscriberImpl
 from std_msgs.msg import String
 from waiting import holds
 
@@ -52,8 +53,57 @@ def connections(*updates: list[str], expected: int) -> set:
     return set(connected[TOPIC])
 
 
+class Connection(Transport):
+    """To PUBLISHER, which refuses it because it has just ended; meanwhile `comes_back` is called."""
+
+    socket = protocol = None
+
+    def __init__(self, comes_back):
+        super().__init__(INBOUND)
+        self.endpoint_id = PUBLISHER
+        self.comes_back = comes_back
+        self.ends = socket.socketpair()
+
+    def fileno(self):
+        return self.ends[0].fileno()
+
+    def connect(self, *_, **__):
+        self.comes_back()
+        raise rospy.exceptions.TransportInitError
+
+
+def connects_to_what_came_back(monkeypatch) -> bool:
+    """Whether a publisher that was announced again before its old connection was given up is connected."""
+    topic, handler = _SubscriberImpl(TOPIC, String), Handler()
+    monkeypatch.setattr(registration.get_topic_manager(), "get_subscriber_impl", lambda _: topic)
+    connect, read, connected = handler._connect_topic, threading.Event(), threading.Event()
+
+    def connect_topic(name, uri):
+        if name == TOPIC:
+            (read if topic.has_connection(uri) else connected).set()
+        return connect(name, uri)
+
+    handler._connect_topic = connect_topic
+    manager = RegManager(handler)
+    thread = threading.Thread(target=manager.run)
+    thread.start()
+
+    def comes_back():
+        manager.publisher_update(TOPIC, [PUBLISHER])
+        assert read.wait(timeout=60.0)
+
+    connection = Connection(comes_back)
+    assert topic.add_connection(connection)
+    tcpros_pubsub.robust_connect_subscriber(connection, "", 0, PUBLISHER, None, TOPIC)
+    found = connected.wait(timeout=2.0)
+    handler.done = True
+    thread.join()
+    return found
+
+
 @pytest.fixture
 def mended(monkeypatch):
+    monkeypatch.setattr(tcpros_pubsub, "robust_connect_subscriber", tcpros_pubsub.robust_connect_subscriber)
     monkeypatch.setattr(RegManager, "publisher_update", RegManager.publisher_update)
     monkeypatch.setattr(TCPROSHandler, "topic_connection_handler", TCPROSHandler.topic_connection_handler)
     for function in (rospy.Rate.__init__, rospy.Timer.__init__):
@@ -88,6 +138,15 @@ def test_plain_rospy_loses_a_publisher_announced_before_the_masters_answer():
 )
 def test_no_publisher_is_lost(mended, updates, expected):
     assert connections(*updates, expected=len(expected)) == expected
+
+
+def test_plain_rospy_loses_a_publisher_that_comes_back(monkeypatch):
+    """If this fails, Debian has fixed rospy, and this part of the package is no longer needed."""
+    assert not connects_to_what_came_back(monkeypatch)
+
+
+def test_a_publisher_that_comes_back_is_connected_again(mended, monkeypatch):
+    assert connects_to_what_came_back(monkeypatch)
 
 
 def can_publish_before_the_subscriber_is_added(monkeypatch) -> bool:
@@ -154,6 +213,7 @@ def test_a_stopwatch_counts_no_jump(set_time):
 def test_init_node_passes_its_arguments_on(monkeypatch):
     monkeypatch.setattr(RegManager, "publisher_update", RegManager.publisher_update)
     monkeypatch.setattr(TCPROSHandler, "topic_connection_handler", TCPROSHandler.topic_connection_handler)
+    monkeypatch.setattr(tcpros_pubsub, "robust_connect_subscriber", tcpros_pubsub.robust_connect_subscriber)
     calls = []
     monkeypatch.setattr(rospy, "init_node", lambda *arguments, **options: calls.append((arguments, options)))
     rospy_connections.init_node("name", anonymous=True)

@@ -10,6 +10,12 @@ message, which is the outdated answer, and the subscriber waits forever for a pu
 action client whose server started in the same few milliseconds; it reports "no server"). Connecting to a
 publisher that has exited does no harm, so pending publishers are never removed.
 
+A publisher that ends and comes back in the same node counts as connected until its old connection is seen
+to end, and for ever if a connection was given up because the publisher had just ended. The subscriber ignores
+the master's update meanwhile, and is never connected (seen: the action error_recovery of a robot that was
+lost and connected again, in one of six runs with some twenty losses each). The end of a connection therefore
+asks again for the publishers that the master has named last.
+
 A publisher that gets a subscriber first confirms the connection to it and adds it to its subscribers
 afterwards. A message that is published in between is lost for this subscriber (seen on a busy machine: the
 result of an action whose client had just found the server). Publishing therefore waits until the subscriber
@@ -27,6 +33,7 @@ import threading
 from typing import Any
 
 import rospy
+from rospy.impl import tcpros_pubsub
 from rospy.impl.registration import RegManager, get_topic_manager
 from rospy.impl.tcpros_pubsub import TCPROSHandler
 
@@ -34,13 +41,34 @@ MAX_LAP = 1.0  # [s] of ROS time between two looks at the clock; more is a jump
 POLL = 0.05  # [s] between two looks
 MAX_WAIT = 1.0  # [s] for a publisher that is blocked by another subscriber, which must not hold up all others
 
+_publishers: dict[
+    str, tuple[Any, list[str]]
+] = {}  # by topic: the manager of its updates, and the last of them
+
 
 def _publisher_update(self: Any, resolved_name: str, uris: list[str]) -> None:
     """RegManager.publisher_update that keeps the publishers of an earlier, unread update."""
     with self.cond:
         waiting = [uri for name, queued in self.updates if name == resolved_name for uri in queued]
         self.updates.append((resolved_name, list(dict.fromkeys([*uris, *waiting]))))
+        _publishers[resolved_name] = self, uris
         self.cond.notify_all()
+
+
+_rospys_connect = tcpros_pubsub.robust_connect_subscriber
+
+
+def _robust_connect_subscriber(connection: Any, *arguments: Any) -> None:
+    """tcpros_pubsub.robust_connect_subscriber, which returns when a connection has ended or was given up.
+    Afterwards publishers without a connection get one."""
+    _rospys_connect(connection, *arguments)
+    name = arguments[-1]
+    topic = get_topic_manager().get_subscriber_impl(name)
+    if topic and name in _publishers:
+        topic.remove_connection(connection)
+        manager, uris = _publishers[name]
+        with manager.cond:  # without a notification it is read after half a second, however often it happens
+            manager.updates.append((name, uris))
 
 
 _rospys_handler = TCPROSHandler.topic_connection_handler
@@ -69,11 +97,12 @@ def answer_help(command: str, text: str) -> None:
 
 
 def init_node(*arguments: Any, **options: Any) -> None:
-    """rospy.init_node(), after which subscribers find their publishers in any order of start and miss no
-    message after that, and rates and timers continue when the clock jumps back."""
+    """rospy.init_node(), after which subscribers find their publishers in any order of start, also again, and
+    miss no message after that, and rates and timers continue when the clock jumps back."""
     rospy.Rate.__init__.__defaults__ = (True,)  # reset
     rospy.Timer.__init__.__defaults__ = (False, True)  # oneshot, reset
     RegManager.publisher_update = _publisher_update
+    tcpros_pubsub.robust_connect_subscriber = _robust_connect_subscriber
     TCPROSHandler.topic_connection_handler = _topic_connection_handler
     rospy.init_node(*arguments, **options)
 
