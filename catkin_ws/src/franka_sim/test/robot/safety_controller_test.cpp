@@ -201,11 +201,15 @@ TEST_P(SafetyTest, TheStopOutlastsGuidingAndPower) {
   EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
   EXPECT_EQ(Refusal::kEmergencyStopPressed, safety.guide(true));
   EXPECT_FALSE(safety.pressed(SafetyInput::kGuidingButton)) << "a refused request has no effect";
-  safety.switchOff();
-  safety.start(SafetyRules::kOpen);
-  settle();
-  EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
-  safety.press(stop, false);
+  for (const bool of_operator : {false, true}) {
+    safety.pressUserStop(of_operator);
+    safety.press(stop, !of_operator);
+    safety.switchOff();
+    safety.start(SafetyRules::kOpen);
+    settle();
+    EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode) << of_operator;
+  }
+  safety.pressUserStop(false);
   settle();
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
 }
