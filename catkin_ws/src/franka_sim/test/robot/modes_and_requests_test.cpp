@@ -258,6 +258,13 @@ TEST_F(ArmTest, LoadAndEndEffectorAreCombined) {
   EXPECT_EQ(load.inertia, state.I_load);
   EXPECT_EQ(ee.inertia, state.I_ee);
   EXPECT_GT(state.I_total[0], state.I_load[0] + state.I_ee[0]);
+
+  // An equal point mass 0.1 m below: both are 0.05 m from the common center.
+  ASSERT_EQ(Status::kSuccess,
+            unit.request(SetEndEffector{{0.24, {{0, 0, 0.1}}, {}}, parameters.F_T_NE}));
+  EXPECT_DOUBLE_EQ(0.48, state.m_total);
+  expectNear({{0, 0, 0.15}}, state.F_x_Ctotal, 1e-12);
+  expectNear({{2.2e-3, 0, 0, 0, 3.2e-3, 0, 0, 0, 3e-3}}, state.I_total, 1e-12);
 }
 
 TEST_F(ArmTest, ExcessiveLoadsAreRefusedWithValueLimitAndUnit) {
