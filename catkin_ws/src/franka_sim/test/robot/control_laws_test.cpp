@@ -51,12 +51,27 @@ TEST_F(Laws, JointStiffnessMatchesItsSetting) {
 }
 
 TEST_F(Laws, CartesianStiffnessMatchesItsSettingAlongEachAxisOfK) {
-  const std::array<double, 6> K{{300, 900, 2000, 20, 40, 80}};
-  for (std::size_t axis = 0; axis < 6; axis++) {
+  // K is away from the end effector, and turned about z.
+  const Transform EE_T_K{{0, 1, 0, 0, -1, 0, 0, 0, 0, 0, 1, 0, 0.1, -0.2, 0.05, 1}};
+  arm.push_frame = multiply(parameters.F_T_NE, EE_T_K);
+  const auto pose = [&] {
+    return Eigen::Matrix4d::Map(multiply(unit.state().O_T_EE, EE_T_K).data()).eval();
+  };
+  for (std::size_t row = 0; row < 12; row++) {
+    const std::size_t axis = row % 6;
+    const bool guided = row >= 6;
+    const std::array<double, 6> K = guided
+                                        ? std::array<double, 6>{{3000, 3000, 3000, 300, 300, 300}}
+                                        : std::array<double, 6>{{300, 900, 2000, 20, 40, 80}};
     standAt(kReady);
     ignoreCollisions();
-    ASSERT_EQ(Status::kSuccess, unit.request(codec::SetCartesianImpedanceRequest{K}));
-    const Eigen::Matrix4d from = Eigen::Map<const Eigen::Matrix4d>(unit.state().O_T_EE.data());
+    ASSERT_EQ(Status::kSuccess, unit.request(codec::SetEEToKRequest{EE_T_K}));
+    if (guided) {
+      ASSERT_EQ(Status::kSuccess, unit.request(codec::SetGuidingModeRequest{{}, true}));
+    } else {
+      ASSERT_EQ(Status::kSuccess, unit.request(codec::SetCartesianImpedanceRequest{K}));
+    }
+    const Eigen::Matrix4d from = pose();
     const Eigen::Matrix3d R = from.topLeftCorner<3, 3>();
     Eigen::Vector3d load = Eigen::Vector3d::Zero();
     load[static_cast<int>(axis % 3)] = axis < 3 ? 1.5 : 0.1;
@@ -65,9 +80,14 @@ TEST_F(Laws, CartesianStiffnessMatchesItsSettingAlongEachAxisOfK) {
     for (std::size_t i = 0; i < 3; i++) {
       arm.push[offset + i] = in_O[static_cast<int>(i)];
     }
-    hold(ControllerMode::kCartesianImpedance, 9000);
+    if (guided) {
+      unit.request(Guiding{true});
+      run(9000);
+    } else {
+      hold(ControllerMode::kCartesianImpedance, 9000);
+    }
     arm.push.fill(0.0);
-    const Eigen::Matrix4d now = Eigen::Map<const Eigen::Matrix4d>(unit.state().O_T_EE.data());
+    const Eigen::Matrix4d now = pose();
     double moved = 0.0;
     if (axis < 3) {
       moved = (R.transpose() * (now - from).topRightCorner<3, 1>())[static_cast<int>(axis)];
@@ -77,7 +97,7 @@ TEST_F(Laws, CartesianStiffnessMatchesItsSettingAlongEachAxisOfK) {
       moved = 0.5 * (turn((k + 2) % 3, (k + 1) % 3) - turn((k + 1) % 3, (k + 2) % 3));
     }
     const double applied = axis < 3 ? 1.5 : 0.1;
-    EXPECT_NEAR(K[axis], applied / moved, 0.005 * K[axis]) << axis;
+    EXPECT_NEAR(K[axis], applied / moved, 0.005 * K[axis]) << row;
   }
 }
 
