@@ -298,6 +298,15 @@ TEST_F(ErrorFlags, FirstCommandOfAMotion) {
     });
     expectReflex(row.flag);
   }
+  // A load bends the arm away from q_d, with which the command is compared.
+  standAt(kReady);
+  ignoreCollisions();
+  arm.push = {{0, 0, -20, 0, 0, 0}};
+  run(1000);
+  ASSERT_GT(largestDifference(unit.state().q, unit.state().q_d), 2e-3);
+  moveJoints();
+  drive(3, [&](int, const RobotState&) { return still(); });
+  EXPECT_TRUE(raised().empty());
 }
 
 TEST_F(ErrorFlags, JointsReachTheirLimits) {
@@ -437,7 +446,7 @@ TEST_F(ErrorFlags, Power) {
   EXPECT_TRUE(raised().empty());
   tickWith([](ArmMeasurement& m) {
     m.dq = {{2, 0, 0, 2, 0, 0, 0}};
-    m.tau_J = {{95, 0, 0, 90, 0, 0, 0}};
+    m.tau_J = {{95, 0, 0, -90, 0, 0, 0}};  // one drives, one brakes
   });
   expectReflex(26);
 }
