@@ -11,6 +11,23 @@ namespace franka_sim::test {
 
 namespace {
 
+TEST(CommandFilter, HasACutoffOfItsOwnForEachKindOfCommand) {
+  CommandFilter filter;
+  ASSERT_TRUE(filter.set({10, 20, 40, 80, 160}));
+  filter.begin({});
+  franka_core::RobotCommand step;
+  step.q_c[0] = step.dq_c[1] = step.O_dP_EE_c[2] = step.tau_J_d[3] = 1.0;
+  step.O_T_EE_c = franka_core::kIdentityTransform;
+  step.O_T_EE_c[12] = 1.0;
+  const franka_core::RobotCommand& first = filter.apply(step);
+  // x / (1 + x) with x = 2 pi f 1 ms
+  EXPECT_NEAR(0.0591, first.q_c[0], 5e-5);
+  EXPECT_NEAR(0.1116, first.dq_c[1], 5e-5);
+  EXPECT_NEAR(0.2008, first.O_T_EE_c[12], 5e-5);
+  EXPECT_NEAR(0.3345, first.O_dP_EE_c[2], 5e-5);
+  EXPECT_NEAR(0.5013, first.tau_J_d[3], 5e-5);
+}
+
 // Like the client's filter: a pose that is not quite orthogonal counts as the nearest rotation.
 TEST(CommandFilter, TakesTheNearestRotationOfAPose) {
   franka_core::fci::SetFiltersRequest cutoffs{1000, 1000, 100, 1000, 1000};
