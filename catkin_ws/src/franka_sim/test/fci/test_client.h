@@ -103,18 +103,26 @@ class TestClient {
     return !read(bytes, 1, timeout_ms) && ended_;
   }
 
-  /// The next state; empty if none arrives.
-  std::optional<franka_core::RobotState> state(int timeout_ms = kDeadline) {
+  /// The next datagram; empty if none arrives.
+  std::vector<std::uint8_t> datagram(int timeout_ms = kDeadline) {
     pollfd waiting{udp_, POLLIN, 0};
     if (::poll(&waiting, 1, timeout_ms) != 1) {
-      return std::nullopt;
+      return {};
     }
     std::uint8_t buffer[4096];
     socklen_t size = sizeof(robot_);
     const ssize_t received =
         ::recvfrom(udp_, buffer, sizeof(buffer), 0, reinterpret_cast<sockaddr*>(&robot_), &size);
+    return {buffer, buffer + received};
+  }
+  /// The next state; empty if none arrives.
+  std::optional<franka_core::RobotState> state(int timeout_ms = kDeadline) {
+    const std::vector<std::uint8_t> bytes = datagram(timeout_ms);
+    if (bytes.empty()) {
+      return std::nullopt;
+    }
     franka_core::RobotState state;
-    EXPECT_EQ(codec::decodeState(version_, {buffer, static_cast<std::size_t>(received)}, state),
+    EXPECT_EQ(codec::decodeState(version_, {bytes.data(), bytes.size()}, state),
               codec::CodecError::kNone);
     return state;
   }

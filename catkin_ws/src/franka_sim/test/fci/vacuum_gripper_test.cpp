@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "fci/hand_server.h"
+#include "test_client.h"
 
 namespace franka_sim {
 namespace {
@@ -152,6 +153,40 @@ TEST(VacuumGripperUnit, APumpFailureEndsTheCommand) {
   unit.setHealth(PumpHealth::kRed);
   EXPECT_EQ(unit.outcome(ticket), GripperOutcome::kFailed);
   EXPECT_EQ(unit.vacuum(500.0, 5000), 0U);
+}
+
+TEST(HandServer, SendsAStateWhenACommandEnds) {
+  namespace vacuum = franka_core::fci::vacuum;
+  VacuumGripperUnit unit;
+  unit.setPart(true);
+  fci::VacuumServer server("127.0.0.1", 0, unit);
+  franka_test::TestClient client(server.port());
+  const auto send = [&](const vacuum::Request& request) {
+    vacuum::RequestMessage message;
+    vacuum::encodeRequest(1, request, message);
+    ASSERT_TRUE(client.sendBytes(message.data, message.size));
+  };
+  const auto until = [&](const auto& condition) {
+    return ros_test::eventually([&] {
+      server.serve();
+      return condition();
+    });
+  };
+  send(vacuum::ConnectRequest{1, client.udpPort()});
+  ASSERT_TRUE(until([&] { return server.hasClient(); }));
+  server.publish(1);
+  send(vacuum::VacuumRequest{50, vacuum::Profile::kP0, 5000});
+  ASSERT_TRUE(until([&] { return server.busy(); }));
+  for (int i = 0; i < 5000 && server.busy(); i++) {
+    unit.step(kTick);
+  }
+  server.publish(1);  // less than 33 ms after the last state
+  vacuum::State newest;
+  for (auto bytes = client.datagram(); !bytes.empty(); bytes = client.datagram(0)) {
+    ASSERT_EQ(vacuum::decodeState({bytes.data(), bytes.size()}, newest),
+              franka_core::fci::CodecError::kNone);
+  }
+  EXPECT_GE(newest.vacuum, 500);
 }
 
 /// The unit behind its server, in its own thread, a few times faster than the wall clock.
