@@ -230,6 +230,8 @@ TEST_F(Combined, SwitchesOfOneArmLeaveTheMotionOfTheOther) {
   expectUndisturbed("restarted");
   stop(right);
   expectUndisturbed("stopped");
+  EXPECT_FALSE(robot_.disconnect());
+  EXPECT_TRUE(robot_.arms()[1]->connected()) << "the idle one, too";
 
   ASSERT_TRUE(call("right/disconnect").success);
   EXPECT_FALSE(robot_.prepareSwitch(right, left)) << "there is no right arm";

@@ -125,6 +125,15 @@ TEST_F(Switching, TorquesPassFromOneControllerToTheNextWithinAMotion) {
   ASSERT_TRUE(loop_->switchTo({"JT:2"}, {"JT"}));
   ASSERT_TRUE(eventually([&] { return loop_->controller("JT:2").updates_since_start > 5; }));
   EXPECT_EQ(moves_before, arm_.robot.count(Command::kMove));
+
+  // Another setting needs another motion. The node receives a parameter a little later.
+  arm_.robot_nh.setParam("rate_limiting", true);
+  std::pair<std::string, std::string> names{"JT:2", "JT"};
+  EXPECT_TRUE(eventually([&] {
+    EXPECT_TRUE(loop_->switchTo({names.second}, {names.first}));
+    std::swap(names.first, names.second);
+    return arm_.robot.count(Command::kMove) > moves_before;
+  }));
 }
 
 TEST_F(Switching, RemainingControllerIsStartedAgainWithTheNewMotion) {
