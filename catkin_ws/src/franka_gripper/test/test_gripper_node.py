@@ -13,6 +13,7 @@ import actionlib
 import pytest
 import rospy
 from control_msgs.msg import GripperCommand, GripperCommandAction, GripperCommandGoal
+from franka_gripper.gripper_node import tolerance
 from franka_gripper.msg import (
     GraspAction,
     GraspEpsilon,
@@ -452,6 +453,16 @@ def test_a_lost_hand_is_reported_and_reconnected(hand):
     assert hand.fingers.next(5)
     assert hand.move(0.05).result() == (SUCCEEDED, True, "")
     assert hand.reaches(0.05)
+
+
+def test_a_missing_default_epsilon_is_zero_beside_the_other_one(started):
+    def epsilons():
+        return tolerance("inner"), tolerance("outer")
+
+    assert epsilons() == (0.005, 0.005), "without the parameter"
+    for given, expected in (({"inner": 0.01}, (0.01, 0.0)), ({"outer": 0.02}, (0.0, 0.02))):
+        rospy.set_param("~default_grasp_epsilon", given)
+        assert epsilons() == expected
 
 
 NAMES = "_joint_names:=[a, b]"
