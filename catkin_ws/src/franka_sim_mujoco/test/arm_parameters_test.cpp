@@ -32,6 +32,7 @@ class ArmParameters : public testing::Test {
     description.name = "panda";
     description.urdf = urdf_;
     description.resolve = [](const std::string&) { return std::string(); };
+    description.base.orientation = {std::cos(M_PI / 12.0), 0.0, std::sin(M_PI / 12.0), 0.0};
     world_.addRobot(description);
   }
 
@@ -70,6 +71,13 @@ TEST_F(ArmParameters, AgreeWithEveryOtherInputOnRoundedMatrices) {
     }
     node_.deleteParam(name);
   }
+}
+
+TEST_F(ArmParameters, HaveGravityInTheAxesOfABaseThatIsPitchedBy30Degrees) {
+  const std::array<double, 3> gravity = read().gravity;
+  EXPECT_NEAR(9.81 / 2.0, gravity[0], 1e-9);
+  EXPECT_NEAR(0.0, gravity[1], 1e-9);
+  EXPECT_NEAR(-9.81 * std::sqrt(0.75), gravity[2], 1e-9);
 }
 
 TEST_F(ArmParameters, MakeTypedRotationsExactWithAWarning) {
