@@ -7,6 +7,7 @@ import pytest
 from gym_tasks import RANDOMIZE, TASKS, make, play
 from pyfranka.gym import scripted_policy
 from pyfranka.gym.environment import Options
+from pyfranka.gym.tasks import PickAndPlace
 
 CONTROLS = ("torque", "joint_delta", "cartesian_delta")
 ROBOTS_TAKE_TURNS = True
@@ -133,6 +134,10 @@ def test_goals_rewards_and_success_agree():
     assert sparse.compute_reward(away, np.tile(desired, (4, 1)), [{}] * 4).tolist() == [0, 0, -1, -1]
     assert sparse.compute_reward(away[2], desired, {}) == -1.0
     sparse.close()
+
+    held, on_tray = [0, 1, 1, 0], [1, 0, 1, 0]  # at the end: both, and neither
+    achieved = PickAndPlace.achieved(np.tile(tray, (4, 1)), [], np.array([held, on_tray], dtype=float).T)
+    assert achieved[:, 3].tolist() == [1, 0, 0, 0], "it rests if only something else than a robot touches it"
 
 
 @pytest.mark.parametrize("reward", ["sparse", "dense"])

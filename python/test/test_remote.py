@@ -531,6 +531,15 @@ def test_steps_of_two_clients_follow_each_other_in_lock_step(server):
         assert first.time == pytest.approx(begin + 0.7, abs=1e-9)
 
 
+def test_a_reset_is_refused_while_a_client_moves_any_robot(server, robot):
+    def hold(state, period):
+        with pytest.raises(LineRefused, match="motion"):
+            server["panda"].remote.reset()
+        return pyfranka.motion_finished(pyfranka.JointPositions(state.q_d))
+
+    robot.connect().control_joint_positions(hold)
+
+
 def test_reset_by_another_client_does_not_block_a_step(server):
     address = server["panda"].address
     with Remote(address) as first, Remote(address) as second:

@@ -4,6 +4,7 @@
 #include <franka_core/robot_error.h>
 #include <franka_sim/serve/operator_commands.h>
 #include <franka_sim/serve/sim_robot.h>
+#include <franka_sim/simulation/policy_episode.h>
 #include <franka_sim/simulation/simulation.h>
 #include <gtest/gtest.h>
 #include <rt_guard/rt_guard.h>
@@ -93,6 +94,24 @@ TEST_F(OperatorSwitches, EndEffectorStaysOffWhileAnotherProgramHasItsPort) {
   }
   setEndEffectorPower(robot, true);
   EXPECT_TRUE(power());
+}
+
+TEST(HandPolicy, ClosesTheHandBelowZeroOnly) {
+  FakeHand fingers;
+  fingers.put(0.08);
+  GripperParameters parameters;
+  parameters.gains = {FingerGains{100, 0, 1}, FingerGains{100, 0, 1}};
+  GripperUnit unit{parameters};
+  HandPolicy policy(unit);
+  for (const auto& [action, width] :
+       {std::pair{0.0, 0.08}, std::pair{-0.01, 0.0}, std::pair{0.0, 0.08}}) {
+    for (int i = 0; i < 2000; i++) {
+      policy.apply(action);
+      fingers.applyForces(unit.step(fingers.measure(), 1e-3));
+      fingers.step();
+    }
+    EXPECT_NEAR(width, fingers.width(), 1e-3) << action;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, SimulationTest, ::testing::Values("panda", "fr3"),
