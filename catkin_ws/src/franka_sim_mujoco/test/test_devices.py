@@ -187,8 +187,8 @@ def test_one_joint_accepts_either_interface(robot):
 
 def test_gains_make_a_compliant_drive(robot):
     robot.command("tilt_position", 0.2)
-    # A proportional drive of 20 Nm/rad; the camera's center of mass is on the axis. An effort of 0 in the URDF
-    # is not a limit.
+    # A proportional drive of 20 Nm/rad, which an effort of 0 in the URDF does not limit; the camera's center
+    # of mass is on the axis.
     robot.when(lambda state: abs(state["tilt"][0] - 0.2) < 1e-3, "A tilt of 0.2 rad")
 
 
