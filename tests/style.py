@@ -9,6 +9,7 @@ a line `file:line: what`. Exit status 1 if a check has findings or its tool is m
 """
 
 import argparse
+import collections
 import json
 import os
 import re
@@ -331,11 +332,25 @@ def package_of(path: Path) -> Path:
     return TOP
 
 
-def units_of(files: list[Path], compiled: Set[Path]) -> list[Path]:
-    """Sources to check for these files; a header is checked with the source of its name in its package."""
-    named = set(files)
-    headers = {(package_of(path), path.stem) for path in files if path.suffix == ".h"}
-    return sorted(path for path in compiled if path in named or (package_of(path), path.stem) in headers)
+def includers(files: list[Path]) -> dict[str, set[Path]]:
+    """The sources and headers that include a header of this name."""
+    found = collections.defaultdict(set)
+    for path in sources(files):
+        for name in re.findall(r'#include ["<](?:.*/)?(\w+\.h)[">]', path.read_text(encoding="utf-8")):
+            found[name].add(path)
+    return found
+
+
+def units_of(path: Path, compiled: Set[Path], including: dict[str, set[Path]]) -> set[Path]:
+    """Sources that show what a file has: itself; those of a header's name, or the next that includes it."""
+    of_name = {unit for unit in compiled if unit.stem == path.stem and package_of(unit) == package_of(path)}
+    units, seen = of_name if path.suffix == ".h" else compiled & {path}, {path}
+    new = seen if path.suffix == ".h" else set()
+    while new and not units:
+        new = set().union(*(including[header.name] for header in new)) - seen
+        seen |= new
+        units = set(sorted(new & compiled)[:1])
+    return units
 
 
 def tidy(program: str, path: Path) -> str:
@@ -360,11 +375,13 @@ def units_to_check(name: str, files: list[Path], long: bool) -> dict[Path, dict]
     # A package that is linked into the workspace is compiled under the link's name.
     built = {Path(entry["directory"], entry["file"]).resolve(): entry for entry in entries}
     compiled = built.keys() & set(files)
-    left_out = [path for path in candidates if path.suffix == ".cpp" and path not in compiled]
+    including = includers(files)
+    units = {path: units_of(path, compiled, including) for path in candidates}
+    left_out = [path for path in candidates if not units[path]]
     if left_out:
         names = ", ".join(str(path.relative_to(TOP)) for path in left_out[:3])
-        print(f"{name}: {len(left_out)} sources are not part of the present build ({names} ...)")
-    return {path: built[path] for path in units_of(candidates, compiled)}
+        print(f"{name}: {len(left_out)} files are not part of the present build ({names} ...)")
+    return {path: built[path] for path in sorted(set().union(*units.values()))}
 
 
 def print_findings(name: str, units: dict[Path, dict], find: Callable[[dict], list[str]]) -> bool:

@@ -137,15 +137,20 @@ def test_check_passes_clean_file_and_fails_dirty_one(repository, check, name, cl
 def test_clang_tidy_fails_on_a_name_in_a_changed_file_only(repository, monkeypatch, capfd):
     monkeypatch.setenv("LC_NUMERIC", "C")  # clang-tidy 22 ends when it reads numbers with a decimal comma
     old = repository.add("old.cpp", "class old_name {};\n")
-    new = repository.add("new.cpp", "class NewName {};\n")
+    including = '#include "tests/through.h"\n'
+    new = repository.add("new.cpp", including)
+    repository.add("tests/through.h", '#pragma once\n#include "shared.h"\n')
+    repository.add("tests/shared.h", "#pragma once\n")
     repository.describe_build(old, new)
     repository.commit()
     repository.commit()
     assert run("clang-tidy", monkeypatch=monkeypatch) == 0
-    repository.add("new.cpp", "class new_name {};\n")
-    assert run("clang-tidy", monkeypatch=monkeypatch) == 1
-    printed = capfd.readouterr().out
-    assert "invalid case style for class 'new_name'" in printed and "old_name" not in printed
+    for shown in ("class new_name {};\n", ""):  # a header that others include is seen where they are
+        repository.add("new.cpp", including + shown)
+        repository.add("tests/shared.h", "#pragma once\n" + ("" if shown else "class new_name {};\n"))
+        assert run("clang-tidy", monkeypatch=monkeypatch) == 1
+        printed = capfd.readouterr().out
+        assert "invalid case style for class 'new_name'" in printed and "old_name" not in printed
     assert run("clang-tidy", "--long", monkeypatch=monkeypatch) == 1
     assert "old_name" in capfd.readouterr().out
 
