@@ -232,6 +232,7 @@ class NodeMachine(Machine):
         assert not self.runs or switches(stop=[CONTROLLER])
         self.node.wait_until_all_are("idle")
         assert trigger(last.service("disconnect"))[0]
+        self.lost.add(last.name)
         assert switches(start=[REST])
         wait_for(lambda: all(arm.is_in("moving") for arm in others), "The motion of the others")
         motion = self.goals_of_rest.send(patient(targets(others, 0.01), 0.5))
@@ -239,7 +240,7 @@ class NodeMachine(Machine):
         ended = outcome(motion)
         assert ended[0] == GoalStatus.SUCCEEDED, ended
         assert switches(stop=[REST])
-        wait_for(lambda: trigger(last.service("connect"))[0], "The connection of the last arm")
+        self.connect_all()
         assert not self.runs or switches(start=[CONTROLLER])
         self.check()
 
