@@ -26,7 +26,7 @@ REST, LAST = "all_but_the_last", "the_last"  # controllers of all joints but the
 SETUPS = [("panda", 1), ("panda", 2), ("fr3", 3)]  # robot, number of arms
 STOPS = {"panda": ["user_stop", "input x4"], "fr3": ["user_stop", "input x33"]}  # sources of the stop
 SIDES = st.integers(0, 2)  # of an arm; modulo their number
-SEQUENCES = {1: 4, 2: 16, 3: 6}  # by the number of arms
+SEQUENCES = {1: 4, 2: 10, 3: 6}  # by the number of arms
 
 
 class NodeMachine(Machine):
