@@ -45,6 +45,7 @@ class NodeMachine(Machine):
     def start(self):
         arms = self.node.arms
         self.unsure = set()  # lost in an error: whether it is in error afterwards depends on the moment
+        self.were_lost = set()  # since their recovery, before which they do not go on by themselves
         for arm in arms:
             for source in STOPS[self.robot]:
                 arm.operator.send(f"{source} off")
@@ -148,7 +149,8 @@ class NodeMachine(Machine):
         (self.pressed[arm.name].add if on else self.pressed[arm.name].discard)(source)
         if stopped and not self.pressed[arm.name]:
             mode = arm.operator.wait(lambda state: state.mode != "User stopped").mode
-            if self.node.alone and mode in ("Idle", "Move"):  # franka_control_node goes on by itself
+            goes_on = self.node.alone and arm.name not in self.were_lost
+            if goes_on and mode in ("Idle", "Move"):  # franka_control_node goes on by itself
                 self.forget_errors({arm.name})
         for other, report in zip(others, before):
             now = other.operator.report()
@@ -165,6 +167,7 @@ class NodeMachine(Machine):
             self.stops(arm.name)
         arm.operator.deactivate_fci()
         self.lost.add(arm.name)
+        self.were_lost.add(arm.name)
         self.check()
 
     @rule(when=lambda self: self.lost)
@@ -198,7 +201,7 @@ class NodeMachine(Machine):
         self.check()
 
     def forget_errors(self, names: set[str]) -> None:
-        for errors in (self.failed, self.needy, self.unsure):
+        for errors in (self.failed, self.needy, self.unsure, self.were_lost):
             errors -= names
 
     @rule(when=lambda self: not self.is_off())
