@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """The demo as a user starts it: every listed seed places the stone, and a carried stone does not slip.
 
-The short form runs one seed with each robot, each with another realism.
+The short form runs one seed with each robot.
 """
 
 import json
@@ -12,7 +12,7 @@ import sys
 import pytest
 
 SEEDS, SEEDS_IN_SHORT = range(1, 21), range(1, 2)
-IN_SHORT = {("panda", "recorded"), ("fr3", "real")}
+IN_SHORT = ("fr3", "ideal")  # a Panda with the realism "real" shows the progress
 
 
 def pick_and_place(output, *arguments: str, timeout: float = 800.0) -> tuple[int, list[dict], str]:
@@ -40,7 +40,7 @@ def combinations():
     for robot in ("panda", "fr3"):
         for realism in ("ideal", "real", "recorded"):
             of_long = pytest.mark.long_form("the other robots and realisms")
-            yield pytest.param(robot, realism, marks=() if (robot, realism) in IN_SHORT else of_long)
+            yield pytest.param(robot, realism, marks=() if (robot, realism) == IN_SHORT else of_long)
 
 
 @pytest.mark.parametrize("robot, realism", list(combinations()))
@@ -48,24 +48,20 @@ def test_every_seed_places_the_stone(robot, realism, tmp_path, long_run):
     seeds = list(SEEDS if long_run else SEEDS_IN_SHORT)
     options = [text for seed in seeds for text in ("--seed", str(seed))]
     options += ["--realism", realism]
-    code, results, _ = pick_and_place(tmp_path, "--robot", robot, "--speed", "0", "--no-pictures", *options)
+    carried = ["--hold", "60"] if realism == "ideal" else []  # friction keeps the arm off its way
+    code, results, _ = pick_and_place(
+        tmp_path, f"robot:={robot}", "--speed", "0", "--no-pictures", *options, *carried
+    )
     assert code == 0
     assert [result["seed"] for result in results] == seeds
     assert all(result["in_tray"] for result in results)
-
-
-@pytest.mark.parametrize("robot", [pytest.param("panda", marks=pytest.mark.long_form("a Panda, too")), "fr3"])
-def test_the_carried_stone_stays_between_the_fingers(robot, tmp_path):
-    hold = ("--hold", "60")
-    code, results, _ = pick_and_place(tmp_path, f"robot:={robot}", "--speed", "0", "--no-pictures", *hold)
-    assert code == 0
-    assert results[0]["slip"] < 1e-3
+    assert not carried or all(result["slip"] < 1e-3 for result in results)
 
 
 def test_demo_shows_progress_and_pictures(tmp_path):
     from PIL import Image
 
-    code, results, output = pick_and_place(tmp_path, "--speed", "0")
+    code, results, output = pick_and_place(tmp_path, "--speed", "0", "--realism", "real")
     assert code == 0
     assert "rests in the red tray" in output and "from the tray's center" in output
     assert "simulated" in output and "wall" in output
