@@ -35,8 +35,14 @@ void offerSetters(franka::Robot& robot, const Take& take, ros::NodeHandle& node_
     using Service = typename decltype(setter)::Service;
     services.advertiseService<Service>(
         node_handle, setter.name,
-        [&robot, take](const typename Service::Request& request, const auto& /*response*/) {
+        [&robot, take, offered = services.lifetime()](const typename Service::Request& request,
+                                                      const auto& /*response*/) {
           const std::unique_lock<std::mutex> lock = take();
+          if (offered.expired()) {
+            throw franka::InvalidOperationException(
+                "The robot was disconnected before this request reached it. Call the service "
+                "connect, then try again.");
+          }
           configure(robot, checkedRequest(request));
         });
   });

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <actionlib/server/action_server.h>
+#include <ros/callback_queue.h>
 #include <ros/console.h>
 #include <ros/node_handle.h>
+#include <ros/spinner.h>
 
 #include <atomic>
 #include <condition_variable>
@@ -22,6 +24,10 @@ namespace franka_hw {
 /// back, stamps would cancel every goal. And a goal that cannot be carried out is aborted at its
 /// arrival, so that it ends no other goal.
 ///
+/// Its callbacks have a queue and a thread of their own, which end before it does: roscpp 1.15 does
+/// not wait for a callback that runs when its timer or subscriber goes, and a status that is
+/// published then ends the process.
+///
 /// Thread-safe. Not real-time safe.
 template <class Action>
 class GoalServer {
@@ -33,7 +39,7 @@ class GoalServer {
   /// Carries out a goal. It must end it with one of the setters.
   using CarryOut = std::function<void(const Goal&)>;
   /// @returns why the goal cannot be carried out, or an empty string; may fill the result of such a
-  /// goal. Called at the goal's arrival, in the thread of the subscriber; must not wait
+  /// goal. Called at the goal's arrival, in the thread of the callbacks; must not wait
   using Check = std::function<std::string(const Goal&, Result&)>;
 
   /// @param name of the action in the namespace of node
@@ -44,9 +50,12 @@ class GoalServer {
         carry_out_(std::move(carry_out)),
         check_(std::move(check)),
         server_(
-            node, name, [this](Handle handle) { arrive(handle); },
+            withOwnQueue(node), name, [this](Handle handle) { arrive(handle); },
             [this](Handle handle) { cancel(handle); }, false) {}
-  ~GoalServer() { shutdown(); }
+  ~GoalServer() {
+    shutdown();
+    spinner_.stop();
+  }
   GoalServer(const GoalServer&) = delete;
   GoalServer& operator=(const GoalServer&) = delete;
 
@@ -54,6 +63,7 @@ class GoalServer {
   void start() {
     thread_ = std::thread([this] { run(); });
     server_.start();
+    spinner_.start();
   }
 
   /// Waits for the end of the goal that runs. The waiting goal and later ones are canceled. Must
@@ -93,6 +103,11 @@ class GoalServer {
 
  private:
   using Handle = typename actionlib::ActionServer<Action>::GoalHandle;
+
+  ros::NodeHandle withOwnQueue(ros::NodeHandle node) {
+    node.setCallbackQueue(&queue_);
+    return node;
+  }
 
   void arrive(Handle& goal) {
     Result result;
@@ -172,6 +187,8 @@ class GoalServer {
   bool ending_{false};
   std::atomic<bool> preempt_requested_{false};
   std::thread thread_;
+  ros::CallbackQueue queue_;
+  ros::AsyncSpinner spinner_{1, &queue_};
   actionlib::ActionServer<Action> server_;
 };
 

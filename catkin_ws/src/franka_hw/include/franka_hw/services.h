@@ -13,6 +13,7 @@
 
 #include <exception>
 #include <functional>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <utility>
@@ -53,7 +54,12 @@ class ServiceContainer {
     return *this;
   }
 
+  /// Expires with this container. A handler that works still may outlast it: roscpp 1.15 does not
+  /// wait for its end.
+  std::weak_ptr<const void> lifetime() const noexcept { return lifetime_; }
+
  private:
+  std::shared_ptr<const void> lifetime_{std::make_shared<int>()};
   std::vector<ros::ServiceServer> services_;
 };
 
@@ -61,7 +67,8 @@ class ServiceContainer {
 /// set_cartesian_impedance, set_EE_frame, set_K_frame, set_force_torque_collision_behavior,
 /// set_full_collision_behavior and set_load. While a motion holds the robot they are refused at
 /// once, with instructions for the user, instead of waiting for its end.
-/// @param robot outlives the services @param robot_mutex is held by threads that use the robot
+/// @param robot outlives the services: whoever deletes it deletes them first, and then holds the
+/// mutex @param robot_mutex is held by threads that use the robot; outlives the last call
 void setupServices(franka::Robot& robot, RobotMutex& robot_mutex, ros::NodeHandle& node_handle,
                    ServiceContainer& services);
 /// The same for any mutex. It does not show whether a motion holds it: the services are refused

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <future>
+#include <memory>
 
 #include "../../src/joint_limit_monitor.h"
 #include "support.h"
@@ -220,6 +221,21 @@ TEST_F(Connection, RunsTheServicesOfARestingRobot) {
   ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_load"), load));
   EXPECT_FALSE(load.response.success);
   EXPECT_FALSE(load.response.error.empty());
+}
+
+TEST_F(Connection, SettersThatWaitForARobotThatGoesAreRefused) {
+  auto services = std::make_unique<franka_hw::ServiceContainer>();
+  franka_hw::setupServices(robot_.robot(), robot_.robotMutex(), arm_.robot_nh, *services);
+  franka_msgs::SetLoad load;
+  std::unique_lock<std::mutex> lock(robot_.robotMutex());
+  auto waits = std::async(std::launch::async, [&] {
+    return ros::service::call(arm_.robot_nh.resolveName("set_load"), load);
+  });
+  EXPECT_EQ(std::future_status::timeout, waits.wait_for(std::chrono::milliseconds(100)));
+  services.reset();
+  lock.unlock();
+  EXPECT_FALSE(waits.get()) << "the service has gone";
+  EXPECT_EQ(0, arm_.robot.count(Command::kSetLoad));
 }
 
 TEST_F(Connection, ReadOnlyLoopDoesNotBlockSwitches) {

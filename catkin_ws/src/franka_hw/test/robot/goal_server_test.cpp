@@ -119,5 +119,15 @@ TEST_F(GoalServerTest, CancelsTheWaitingGoalAtItsShutdown) {
   EXPECT_EQ(1, begun_);
 }
 
+// roscpp of Debian does not wait for a callback that runs when its timer or subscriber goes.
+TEST_F(GoalServerTest, EndsWhileItsStatusIsPublished) {
+  nh_.setParam("actionlib_status_frequency", 1e5);
+  for (int i = 0; i < 300; i++) {
+    Server server(nh_, "other", [](const auto& /*goal*/) {});
+    server.start();
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));  // in which some status is published
+  }
+}
+
 }  // namespace
 }  // namespace franka_hw_test
