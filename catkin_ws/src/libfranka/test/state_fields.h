@@ -6,28 +6,25 @@
 
 namespace franka_test {
 
-/// Visits the numbers that a robot sends: of franka_core::RobotState or of franka::RobotState,
-/// whose fields have the same names. The total load is not among them, because it is computed.
+/// Visits the numbers that a robot sends, in the order of the wire: of franka_core::RobotState or
+/// of franka::RobotState, whose fields have the same names. Accelerometers are not among them, and
+/// the total load neither, because it is computed.
 template <typename State, typename Visit>
 void forEachSentField(State& state, Visit visit) {
-  visit(state.m_ee);
-  visit(state.m_load);
-  visit(state.control_command_success_rate);
   visit(state.O_T_EE);
   visit(state.O_T_EE_d);
   visit(state.F_T_EE);
+  visit(state.EE_T_K);
   visit(state.F_T_NE);
   visit(state.NE_T_EE);
-  visit(state.EE_T_K);
+  visit(state.m_ee);
   visit(state.I_ee);
   visit(state.F_x_Cee);
+  visit(state.m_load);
   visit(state.I_load);
   visit(state.F_x_Cload);
   visit(state.elbow);
   visit(state.elbow_d);
-  visit(state.elbow_c);
-  visit(state.delbow_c);
-  visit(state.ddelbow_c);
   visit(state.tau_J);
   visit(state.tau_J_d);
   visit(state.dtau_J);
@@ -45,11 +42,15 @@ void forEachSentField(State& state, Visit visit) {
   visit(state.K_F_ext_hat_K);
   visit(state.O_dP_EE_d);
   visit(state.O_ddP_O);
+  visit(state.elbow_c);
+  visit(state.delbow_c);
+  visit(state.ddelbow_c);
   visit(state.O_T_EE_c);
   visit(state.O_dP_EE_c);
   visit(state.O_ddP_EE_c);
   visit(state.theta);
   visit(state.dtheta);
+  visit(state.control_command_success_rate);
 }
 
 /// The numbers of each field.

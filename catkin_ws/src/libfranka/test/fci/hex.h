@@ -35,4 +35,22 @@ inline franka_core::fci::Bytes view(const std::vector<std::uint8_t>& bytes) {
   return {bytes.data(), bytes.size()};
 }
 
+/// Calls `check(bytes, honest)` with the message at every size up to 20 bytes too long. Its header
+/// has the size of the whole message; if `honest`, that of the bytes.
+/// @param place of the size in the header, an integer of two bytes or more
+template <typename Check>
+void forEverySize(const std::vector<std::uint8_t>& message, std::size_t place, Check check) {
+  for (std::size_t size = 0; size < message.size() + 20; size++) {
+    for (const bool honest : {false, true}) {
+      std::vector<std::uint8_t> bytes = message;
+      bytes.resize(size);
+      if (honest && size >= place + 4) {
+        bytes[place] = static_cast<std::uint8_t>(size);
+        bytes[place + 1] = static_cast<std::uint8_t>(size >> 8);
+      }
+      check(bytes, honest);
+    }
+  }
+}
+
 }  // namespace franka_test

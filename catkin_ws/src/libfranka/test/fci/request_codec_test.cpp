@@ -3,6 +3,7 @@
 #include <franka_core/fci/request_codec.h>
 #include <gtest/gtest.h>
 
+#include <cstring>
 #include <string>
 #include <vector>
 
@@ -53,50 +54,34 @@ std::size_t sizeIn(const RequestRow& row, std::uint16_t version) {
   return row.command == Command::kMove && version == 10 ? 125 : row.size;
 }
 
-// One request of each command with random contents, in the order of Command.
-std::vector<Request> randomRequests(franka_test::FciRandom& random, std::uint16_t version) {
+// One request of each command, in the order of Command.
+std::vector<Request> requestsOf(std::uint16_t version) {
   MoveRequest move;
-  move.controller_mode = static_cast<ControllerMode>(random.upTo(2));
-  move.motion_generator_mode =
-      static_cast<MotionGeneratorMode>(1 + random.upTo(version >= 7 ? 4 : 3));
-  for (Deviation* d : {&move.max_path_deviation, &move.max_goal_deviation}) {
-    random.fillAll(d->translation, d->rotation, d->elbow);
-  }
+  move.controller_mode = ControllerMode::kExternalController;
+  move.motion_generator_mode = MotionGeneratorMode::kCartesianVelocity;
+  move.max_path_deviation = {1.0, 2.0, 3.0};
+  move.max_goal_deviation = {4.0, 5.0, 6.0};
   if (version >= 10) {
-    random.fillAll(move.use_async_motion_generator, move.maximum_velocity);
+    move.use_async_motion_generator = true;
+    move.maximum_velocity = {1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0};
   }
-  SetCollisionBehaviorRequest collision;
-  random.fillAll(collision.lower_torques_acceleration, collision.upper_torques_acceleration,
-                 collision.lower_torques_nominal, collision.upper_torques_nominal,
-                 collision.lower_forces_acceleration, collision.upper_forces_acceleration,
-                 collision.lower_forces_nominal, collision.upper_forces_nominal);
-  SetJointImpedanceRequest joint;
-  SetCartesianImpedanceRequest cartesian;
   SetGuidingModeRequest guiding;
-  SetEEToKRequest k;
-  SetNEToEERequest ee;
-  SetLoadRequest load;
-  SetFiltersRequest filters;
-  random.fillAll(joint.K_theta, cartesian.K_x, guiding.guiding_mode, guiding.nullspace, k.EE_T_K,
-                 ee.NE_T_EE, load.mass, load.F_x_Cload, load.inertia, filters.joint_position,
-                 filters.joint_velocity, filters.cartesian_position, filters.cartesian_velocity,
-                 filters.controller);
-  return {ConnectRequest{static_cast<std::uint16_t>(random.upTo(65535)),
-                         static_cast<std::uint16_t>(random.upTo(65535))},
+  guiding.guiding_mode = {true, false, false, true, true, false};
+  guiding.nullspace = true;
+  return {ConnectRequest{0x0102, 0x0304},
           move,
           StopMoveRequest{},
           GetCartesianLimitRequest{-7},
-          collision,
-          joint,
-          cartesian,
+          SetCollisionBehaviorRequest{},
+          SetJointImpedanceRequest{},
+          SetCartesianImpedanceRequest{},
           guiding,
-          k,
-          ee,
-          load,
-          filters,
+          SetEEToKRequest{},
+          SetNEToEERequest{},
+          SetLoadRequest{},
+          SetFiltersRequest{},
           AutomaticErrorRecoveryRequest{},
-          LoadModelLibraryRequest{static_cast<Architecture>(random.upTo(3)),
-                                  static_cast<OperatingSystem>(random.upTo(1))},
+          LoadModelLibraryRequest{Architecture::kArm64, OperatingSystem::kWindows},
           GetRobotModelRequest{}};
 }
 
@@ -121,59 +106,52 @@ TEST_P(RequestOfVersion, HasItsNumberAndSize) {
   EXPECT_FALSE(commandFromNumber(GetParam(), 0xffffffff));
 }
 
-// Written, read and written again: the same bytes, and every byte of the payload has an effect.
+// Read and written again: the same bytes, so every number of the payload has an effect.
 TEST_P(RequestOfVersion, RoundTripsUnchanged) {
   franka_test::FciRandom random(GetParam());
-  for (int round = 0; round < 50; round++) {
-    const std::vector<Request> requests = randomRequests(random, GetParam());
-    for (const RequestRow& row : kRequestRows) {
-      const Request& sent = requests[static_cast<std::size_t>(row.command)];
-      RequestMessage message;
-      const bool exists = numberIn(row, GetParam()) >= 0;
-      ASSERT_EQ(encodeRequest(GetParam(), 0x01020304, sent, message),
-                exists ? CodecError::kNone : CodecError::kNotInThisVersion);
-      ASSERT_EQ(message.size, exists ? sizeIn(row, GetParam()) : 0);
-      if (!exists) {
-        continue;
-      }
-      Header header;
-      Request received;
-      ASSERT_EQ(decodeRequest(GetParam(), message.bytes(), header, received), CodecError::kNone);
-      EXPECT_EQ(header.command, static_cast<std::uint32_t>(numberIn(row, GetParam())));
-      EXPECT_EQ(header.command_id, 0x01020304U);
-      EXPECT_EQ(header.size, message.size);
-      EXPECT_EQ(commandOf(received), row.command);
-      RequestMessage again;
-      ASSERT_EQ(encodeRequest(GetParam(), 0x01020304, received, again), CodecError::kNone);
-      ASSERT_EQ(toVector(message), toVector(again));
+  for (const RequestRow& row : kRequestRows) {
+    const Request sent = requestsOf(GetParam())[static_cast<std::size_t>(row.command)];
+    RequestMessage message;
+    const bool exists = numberIn(row, GetParam()) >= 0;
+    ASSERT_EQ(encodeRequest(GetParam(), 0x01020304, sent, message),
+              exists ? CodecError::kNone : CodecError::kNotInThisVersion);
+    ASSERT_EQ(message.size, exists ? sizeIn(row, GetParam()) : 0);
+    if (!exists) {
+      continue;
     }
+    if ((message.size - 12) % 8 == 0 && row.command != Command::kMove) {
+      for (std::size_t at = 12; at < message.size; at += 8) {
+        const double number = random.real();
+        std::memcpy(message.data + at, &number, sizeof(number));
+      }
+    }
+    Header header;
+    Request received;
+    ASSERT_EQ(decodeRequest(GetParam(), message.bytes(), header, received), CodecError::kNone);
+    EXPECT_EQ(header.command, static_cast<std::uint32_t>(numberIn(row, GetParam())));
+    EXPECT_EQ(header.command_id, 0x01020304U);
+    EXPECT_EQ(header.size, message.size);
+    EXPECT_EQ(commandOf(received), row.command);
+    RequestMessage again;
+    ASSERT_EQ(encodeRequest(GetParam(), 0x01020304, received, again), CodecError::kNone);
+    ASSERT_EQ(toVector(message), toVector(again));
   }
 }
 
 TEST_P(RequestOfVersion, IsRefusedAtAnotherSize) {
-  franka_test::FciRandom random(GetParam());
-  const std::vector<Request> requests = randomRequests(random, GetParam());
+  const std::vector<Request> requests = requestsOf(GetParam());
   for (const RequestRow& row : kRequestRows) {
     RequestMessage message;
     if (encodeRequest(GetParam(), 1, requests[static_cast<std::size_t>(row.command)], message) !=
         CodecError::kNone) {
       continue;
     }
-    for (std::size_t size = 0; size < message.size + 20; size++) {
-      // The header contains the old size, then the new one; both must be refused.
-      for (const bool honest : {false, true}) {
-        std::vector<std::uint8_t> bytes = toVector(message);
-        bytes.resize(size);
-        if (honest && size >= 12) {
-          bytes[8] = static_cast<std::uint8_t>(size);
-          bytes[9] = static_cast<std::uint8_t>(size >> 8);
-        }
-        Header header;
-        Request received;
-        EXPECT_EQ(decodeRequest(GetParam(), view(bytes), header, received),
-                  size == message.size ? CodecError::kNone : CodecError::kWrongSize);
-      }
-    }
+    franka_test::forEverySize(toVector(message), 8, [&](const auto& bytes, bool) {
+      Header header;
+      Request received;
+      EXPECT_EQ(decodeRequest(GetParam(), view(bytes), header, received),
+                bytes.size() == message.size ? CodecError::kNone : CodecError::kWrongSize);
+    });
   }
 }
 
