@@ -12,19 +12,6 @@ void expectRefused(std::initializer_list<double> values) {
   EXPECT_THROW(Type{values}, std::invalid_argument);
 }
 
-TEST(ControlTypes, AcceptArraysAndLists) {
-  const std::array<double, 7> seven{1, 2, 3, 4, 5, 6, 7};
-  EXPECT_EQ(seven, franka::Torques(seven).tau_J);
-  EXPECT_EQ(seven, (franka::Torques{1, 2, 3, 4, 5, 6, 7}.tau_J));
-  EXPECT_EQ(seven, (franka::JointPositions{1, 2, 3, 4, 5, 6, 7}.q));
-  EXPECT_EQ(seven, (franka::JointVelocities{{1, 2, 3, 4, 5, 6, 7}}.dq));
-  const std::array<double, 6> six{1, 2, 3, 4, 5, 6};
-  EXPECT_EQ(six, (franka::CartesianVelocities{1, 2, 3, 4, 5, 6}.O_dP_EE));
-  const std::array<double, 16> sixteen{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1};
-  EXPECT_EQ(sixteen,
-            (franka::CartesianPose{1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 4, 5, 6, 1}.O_T_EE));
-}
-
 TEST(ControlTypes, RefuseListsOfTheWrongSize) {
   expectRefused<franka::Torques>({});
   expectRefused<franka::Torques>({1, 2, 3, 4, 5, 6});

@@ -4,9 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <franka/logging/cout_logging_sink.hpp>
 #include <franka/logging/logger.hpp>
-#include <iostream>
 #include <locale>
 #include <sstream>
 #include <stdexcept>
@@ -28,19 +26,6 @@ class Sink : public franka::LoggingSinkInterface {
 
  private:
   std::string name_;
-};
-
-/// Captures the output of a stream.
-class Captured {
- public:
-  explicit Captured(std::ostream& stream) : stream_(stream), before_(stream.rdbuf(text_.rdbuf())) {}
-  ~Captured() { stream_.rdbuf(before_); }
-  std::string text() const { return text_.str(); }
-
- private:
-  std::ostringstream text_;
-  std::ostream& stream_;
-  std::streambuf* before_;
 };
 
 class Logger : public ::testing::Test {
@@ -88,18 +73,6 @@ TEST_F(Logger, FillsPlaceholdersWithValues) {
             sink->lines);
 }
 
-TEST_F(Logger, CoutLoggingSinkWritesLines) {
-  const Captured output(std::cout);
-  logging::addLogger(std::make_shared<franka::CoutLoggingSink>());
-  logging::logInfo("a");
-  logging::logWarn("b");
-  logging::logError("c");
-  EXPECT_EQ("INFO: a\nWARNING: b\nERROR: c\n", output.text());
-  logging::removeLogger("CoutLoggingSink");
-  logging::logInfo("d");
-  EXPECT_EQ("INFO: a\nWARNING: b\nERROR: c\n", output.text());
-}
-
 std::vector<std::string> split(const std::string& text, char separator) {
   std::vector<std::string> parts;
   std::istringstream stream(text);
@@ -108,8 +81,6 @@ std::vector<std::string> split(const std::string& text, char separator) {
   }
   return parts;
 }
-
-TEST(Log, EmptyLogGivesEmptyText) { EXPECT_EQ("", franka::logToCSV({})); }
 
 TEST(Log, HasAColumnForEachValue) {
   franka::Record record;

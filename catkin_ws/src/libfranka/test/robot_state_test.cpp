@@ -63,15 +63,6 @@ TEST(RobotState, WritesValues) {
   }
 }
 
-TEST(RobotState, ModesHaveTheNumbersOfTheProtocol) {
-  const char* names[] = {
-      "Other", "Idle", "Move", "Guiding", "Reflex", "User stopped", "Automatic error recovery"};
-  for (int i = 0; i < 7; i++) {
-    EXPECT_EQ('"' + std::string(names[i]) + '"', textOf(static_cast<franka::RobotMode>(i)));
-  }
-  EXPECT_EQ(franka::RobotMode::kUserStopped, franka::RobotState().robot_mode);
-}
-
 TEST(GripperState, WritesJson) {
   franka::GripperState state;
   state.width = 0.04;
@@ -143,9 +134,11 @@ TEST(ToFranka, CopiesEveryField) {
 }
 
 TEST(ToFranka, ConvertsEveryMode) {
+  const char* names[] = {
+      "Other", "Idle", "Move", "Guiding", "Reflex", "User stopped", "Automatic error recovery"};
   for (int i = 0; i < 7; i++) {
-    EXPECT_EQ(static_cast<franka::RobotMode>(i),
-              franka_core::toFranka(static_cast<franka_core::RobotMode>(i)));
+    EXPECT_EQ('"' + std::string(names[i]) + '"',
+              textOf(franka_core::toFranka(static_cast<franka_core::RobotMode>(i))));
   }
 }
 

@@ -85,36 +85,36 @@ TEST_F(SpinRuleTest, AWaitWithoutSleepHasALimit) {
   }
 }
 
-TEST_F(SpinRuleTest, SpinNeverPauses) {
-  SpinRule rule(WaitMode::kSpin, true);
-  EXPECT_EQ(1.0, shareOfSpins(rule, seconds(1), milliseconds(3)));
-  EXPECT_EQ(1.0, shareOfSpins(rule, seconds(1), microseconds(10), milliseconds(3)));
-}
-
-TEST_F(SpinRuleTest, QuickAnswersAreAwaitedWithoutSleep) {
-  SpinRule rule(WaitMode::kAuto, true);
-  EXPECT_EQ(1.0, shareOfSpins(rule, seconds(10), microseconds(5)));
-  EXPECT_EQ(1.0, shareOfSpins(rule, seconds(10), microseconds(150)));
-}
-
-TEST_F(SpinRuleTest, SlowAnswersAreAwaitedAsleep) {
-  SpinRule rule(WaitMode::kAuto, true);
-  EXPECT_LT(shareOfSpins(rule, seconds(10), microseconds(300)), 0.05);
-  EXPECT_LT(shareOfSpins(rule, seconds(10), milliseconds(1)), 0.05);
-  // Five waits, then the longest pause, of 2 s.
-  EXPECT_LT(shareOfSpins(rule, seconds(100), milliseconds(30)), 5.0 / (2000.0 / 30.0));
-}
-
-TEST_F(SpinRuleTest, ABusyMachineLetsItSleep) {
-  SpinRule rule(WaitMode::kAuto, true);
-  // Each time slice of 3 ms another thread runs for as long.
-  EXPECT_LT(shareOfSpins(rule, seconds(10), microseconds(10), milliseconds(3), 100), 0.05);
-}
-
-TEST_F(SpinRuleTest, InterruptionsShorterThanItsGapCostNothing) {
-  SpinRule rule(WaitMode::kAuto, true, microseconds(300));
-  EXPECT_EQ(1.0, shareOfSpins(rule, seconds(10), microseconds(10), microseconds(150)));
-  EXPECT_LT(shareOfSpins(rule, seconds(10), microseconds(10), milliseconds(3), 100), 0.05);
+TEST_F(SpinRuleTest, SleepsWhereAnswersAreSlowOrTheMachineIsBusy) {
+  const SpinRule spin(WaitMode::kSpin, true), rule(WaitMode::kAuto, true);
+  const SpinRule with_gap(WaitMode::kAuto, true, microseconds(300));
+  const struct {
+    const SpinRule& rule;
+    Duration time, answer, interruption;
+    int every;
+    double lowest, highest;  // share of the waits without sleep
+  } rows[] = {
+      {spin, seconds(1), milliseconds(3), {}, 1, 1.0, 1.0},
+      {spin, seconds(1), microseconds(10), milliseconds(3), 1, 1.0, 1.0},
+      {rule, seconds(10), microseconds(5), {}, 1, 1.0, 1.0},
+      {rule, seconds(10), microseconds(150), {}, 1, 1.0, 1.0},
+      {rule, seconds(10), microseconds(300), {}, 1, 0.0, 0.05},
+      {rule, seconds(10), milliseconds(1), {}, 1, 0.0, 0.05},
+      // Five waits, then the longest pause, of 2 s.
+      {rule, seconds(100), milliseconds(30), {}, 1, 0.0, 5.0 / (2000.0 / 30.0)},
+      // Each time slice of 3 ms another thread runs for as long.
+      {rule, seconds(10), microseconds(10), milliseconds(3), 100, 0.0, 0.05},
+      {with_gap, seconds(10), microseconds(10), milliseconds(3), 100, 0.0, 0.05},
+      // Interruptions shorter than the gap, and threads that need little.
+      {with_gap, seconds(10), microseconds(10), microseconds(150), 1, 1.0, 1.0},
+      {rule, seconds(10), microseconds(10), microseconds(100), 30, 1.0, 1.0},
+  };
+  for (const auto& row : rows) {
+    SpinRule fresh = row.rule;
+    const double share = shareOfSpins(fresh, row.time, row.answer, row.interruption, row.every);
+    EXPECT_LE(row.lowest, share) << &row - rows;
+    EXPECT_GE(row.highest, share) << &row - rows;
+  }
 }
 
 TEST_F(SpinRuleTest, SaysHowLongItPauses) {
@@ -129,10 +129,9 @@ TEST_F(SpinRuleTest, SaysHowLongItPauses) {
   EXPECT_EQ(Duration{}, rule.pauseLeft(now_ + left));
 }
 
-TEST_F(SpinRuleTest, OtherThreadsThatNeedLittleDoNotEndIt) {
+// As at the begin of each motion.
+TEST_F(SpinRuleTest, SingleWaitsWithoutAnAnswerDoNotEndIt) {
   SpinRule rule(WaitMode::kAuto, true);
-  EXPECT_EQ(1.0, shareOfSpins(rule, seconds(10), microseconds(10), microseconds(100), 30));
-  // A single wait without an answer, as at the begin of each motion.
   for (int i = 0; i < 1000; i++) {
     wait(rule, milliseconds(5));
     for (int k = 0; k < 1000; k++) {
