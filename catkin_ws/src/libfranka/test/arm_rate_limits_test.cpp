@@ -118,6 +118,21 @@ TEST_P(RobotOfVersion, PositionsAreLimitedLikeVelocities) {
   }
 }
 
+TEST_P(RobotOfVersion, OtherLimitsAreThoseOfTheRobotWithAMargin) {
+  using franka_core::DerivativeLimits;
+  const std::pair<DerivativeLimits, DerivativeLimits> pairs[] = {
+      {limits_.translation, arm().translation},
+      {limits_.rotation, arm().rotation},
+      {limits_.elbow, arm().elbow}};
+  for (const auto& [limiter, robot] : pairs) {
+    EXPECT_LT(limiter.velocity, robot.velocity);
+    EXPECT_GT(limiter.velocity, 0.95 * robot.velocity);
+    EXPECT_NEAR(robot.acceleration - 1e-3, limiter.acceleration, 1e-9);
+    EXPECT_NEAR(robot.jerk - 1e-3, limiter.jerk, 1e-9);
+  }
+  EXPECT_NEAR(1000.0 - 1e-3, limits_.torque_rate[6], 1e-9);
+}
+
 // The classic limiter knows no limits that depend on the position, as an FR3 has.
 class PandaOfVersion : public RobotOfVersion {};
 

@@ -40,10 +40,6 @@ TEST(LimitRate, TorquesChangeNoFasterThanAllowed) {
   EXPECT_THROW(limitRate(rates, Seven{0, 0, 0, kNotANumber, 0, 0, 0}, last), std::invalid_argument);
 }
 
-TEST(LimitRate, KeepsAllowedVelocities) {
-  EXPECT_NEAR(0.004, limitRate(kV, kA, kJ, 0.004, 0.0, 0.0), 1e-17);
-}
-
 // A step to a velocity beyond the limit: first jerk, then acceleration, then velocity limits apply,
 // and the limit is reached without overshoot.
 TEST(LimitRate, FollowsAStepWithinAllDerivatives) {

@@ -1,6 +1,5 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_core/arm_model.h>
 #include <franka_core/transform.h>
 #include <franka_core/typed_transform.h>
 #include <gtest/gtest.h>
@@ -9,8 +8,9 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <random>
 #include <string>
+
+#include "random_state.h"
 
 namespace franka_core {
 namespace {
@@ -18,27 +18,6 @@ namespace {
 using Array = std::array<double, 16>;
 
 constexpr int kCases = 2000;
-
-/// Poses of random orientations, with translations of up to half a meter.
-class Poses {
- public:
-  Eigen::Matrix4d next() {
-    Eigen::Matrix4d pose = Eigen::Matrix4d::Identity();
-    const Eigen::Vector4d quaternion(normal_(random_), normal_(random_), normal_(random_),
-                                     normal_(random_));
-    pose.topLeftCorner<3, 3>() = Eigen::Quaterniond(quaternion.normalized()).toRotationMatrix();
-    for (int row = 0; row < 3; row++) {
-      pose(row, 3) = length_(random_);
-    }
-    return pose;
-  }
-  double entry() { return length_(random_); }
-
- private:
-  std::mt19937 random_{20261129};
-  std::normal_distribution<double> normal_;
-  std::uniform_real_distribution<double> length_{-0.5, 0.5};
-};
 
 Array toArray(const Eigen::Matrix4d& matrix) {
   Array array{};
@@ -57,11 +36,11 @@ double orthonormalError(const Array& matrix) {
 }
 
 TEST(TypedTransform, MakesRoundedRotationsOrthonormal) {
-  Poses poses;
+  franka_test::StateSource random(kFerLimits);
   for (int i = 0; i < kCases; i++) {
-    const Eigen::Matrix4d pose = poses.next();
+    const auto pose = random.transform();
     for (const int digits : {4, 5, 6}) {
-      const Eigen::Matrix4d typed = rounded(pose, digits);
+      const Eigen::Matrix4d typed = rounded(franka_test::pose(pose), digits);
       const TypedTransform result = readTypedTransform(toArray(typed));
       ASSERT_EQ("", result.fault) << typed;
       ASSERT_LE(orthonormalError(result.matrix), 1e-12) << typed;
@@ -76,9 +55,9 @@ TEST(TypedTransform, MakesRoundedRotationsOrthonormal) {
 }
 
 TEST(TypedTransform, KeepsExactOnesAsTheyAre) {
-  Poses poses;
+  franka_test::StateSource random(kFerLimits);
   for (int i = 0; i < kCases; i++) {
-    const Array exact = toArray(poses.next());
+    const Array exact = random.transform();
     const TypedTransform result = readTypedTransform(exact);
     ASSERT_EQ(exact, result.matrix);
     ASSERT_EQ("", result.fault + result.warning);
@@ -86,24 +65,24 @@ TEST(TypedTransform, KeepsExactOnesAsTheyAre) {
 }
 
 TEST(TypedTransform, NamesRowMajorMatrices) {
-  Poses poses;
+  franka_test::StateSource random(kFerLimits);
   for (int i = 0; i < kCases; i++) {
-    const Eigen::Matrix4d typed = rounded(poses.next(), 4).transpose();
+    const Eigen::Matrix4d typed = rounded(franka_test::pose(random.transform()), 4).transpose();
     ASSERT_NE(std::string::npos, readTypedTransform(toArray(typed)).fault.find("row-major"))
         << typed;
   }
 }
 
 TEST(TypedTransform, RefusesRandomMatrices) {
-  Poses poses;
+  franka_test::StateSource random(kFerLimits);
   for (int i = 0; i < kCases; i++) {
     Array matrix = kIdentityTransform;
     for (const std::size_t entry : {0, 1, 2, 4, 5, 6, 8, 9, 10, 12, 13, 14}) {
-      matrix[entry] = poses.entry();
+      matrix[entry] = random.uniform(-0.5, 0.5);
     }
     ASSERT_NE("", readTypedTransform(matrix).fault);
     for (double& entry : matrix) {
-      entry = poses.entry();
+      entry = random.uniform(-0.5, 0.5);
     }
     ASSERT_NE("", readTypedTransform(matrix).fault);
   }
