@@ -83,85 +83,87 @@ TEST(AbortDiagnosis, AnEmptyLogGivesNoSentence) {
   EXPECT_TRUE(diagnoseAbort(std::vector<AbortRecord>(3), 5).empty());
 }
 
+using Log = std::vector<AbortRecord>;
+
+template <typename Change>
+Log changed(Log log, Change change) {
+  change(log);
+  return log;
+}
+
 TEST(AbortDiagnosis, NamesTheJointTheValueAndTheLimit) {
-  // 3 mrad in a millisecond: 3 rad/s, 3000 rad/s^2, 3e6 rad/s^3; the limit of the Panda's third
-  // joint is 2.175.
+  // 3 mrad in a millisecond: 3 rad/s, 3000 rad/s^2, 3e6 rad/s^3.
   const std::array<double, 7> step{{0, 0, 0.003, 0, 0, 0.001, 0}};
-  std::string text = only(diagnoseAbort(jointLog(13, step), 5));
-  expectIn(text, "joint_motion_generator_velocity_limits_violation: joint 3");
-  expectIn(text, "a velocity of 3 rad/s; the limit is 2.175 (1 ms before the end of the log)");
-  text = only(diagnoseAbort(jointLog(14, step), 5));
-  expectIn(text, "joint_motion_generator_velocity_discontinuity: joint 3");
-  expectIn(text, "an acceleration of 3000 rad/s^2; the limit is 10");
-  text = only(diagnoseAbort(jointLog(15, step), 5));
-  expectIn(text, "a jerk of 3e+06 rad/s^3; the limit is 5000");
-}
-
-TEST(AbortDiagnosis, UsesTheLimitsOfTheRobot) {
-  const std::array<double, 7> step{{0, 0.003, 0, 0, 0, 0, 0}};
-  expectIn(only(diagnoseAbort(jointLog(14, step), 5)), "the limit is 7.5");
-  expectIn(only(diagnoseAbort(jointLog(14, step), 10)), "the limit is 10");
-  // An FR3's velocity limit depends on the joint's position.
-  const double limit = upperVelocityLimit(kFr3PositionVelocityLimits, 1, 0.2);
-  const std::string text = only(diagnoseAbort(jointLog(13, step), 7));
-  expectIn(text, "joint 2 was commanded a velocity of 3 rad/s");
-  expectIn(text, "the limit is " + numberText(limit, 4));
-}
-
-TEST(AbortDiagnosis, PositionsOutsideTheRange) {
-  auto log = jointLog(12, {{0, 0, 0, 2.0, 0, 0, 0}});
-  expectIn(only(diagnoseAbort(log, 5)),
-           "joint 4 was commanded to 0.5 rad, and its range is -3.072 to -0.0698 rad");
-  log.back().state.reflex_reason = {};
-  log.back().state.reflex_reason[0] = true;
-  log.back().state.q[5] = 4.0;
-  expectIn(only(diagnoseAbort(log, 5)), "joint 6 stood at 4 rad");
-  // Newer systems use this flag for commands too.
-  log.back().state.q[5] = 1.6;
-  expectIn(only(diagnoseAbort(log, 10)), "joint 4 was commanded to 0.5 rad");
-  expectIn(only(diagnoseAbort(followingLog(0), 10)),
-           "joint 4 would have followed the Cartesian command to -0.06781 rad");
-}
-
-TEST(AbortDiagnosis, UnreachableTargets) {
-  // Joint 1 of an FR3 ends at 2.9007 rad; its velocity limit is 0 from 2.8644 rad on.
-  const auto log = jointLog(0, {{2.79, 0, 0, 0, 0, 0, 0}});
-  expectIn(only(diagnoseAbort(log, 10)),
-           "joint 1 was commanded to 2.89 rad, and its velocity limit, which shrinks towards the "
-           "ends of "
-           "its range, is 0 outside of -2.864 to 2.864 rad");
-}
-
-TEST(AbortDiagnosis, PosesThatAreNotTransforms) {
-  auto log = cartesianLog(31);
-  log.back().command.O_T_EE_c[3] = 1e-17;
-  expectIn(only(diagnoseAbort(log, 5)), "is 1e-17 0 0 1 and must be exactly 0 0 0 1");
-}
-
-TEST(AbortDiagnosis, TorqueRates) {
-  auto log = jointLog(32, {});
-  log.back().command.tau_J_d[6] = -1.5;
-  expectIn(only(diagnoseAbort(log, 5)),
-           "joint 7 was commanded a change of torque of -1500 Nm/s; the limit is 1000");
-}
-
-TEST(AbortDiagnosis, JumpsOfPoses) {
-  auto log = jointLog(18, {});
-  for (AbortRecord& record : log) {
-    record.command.q_c = {};
-    record.command.O_T_EE_c = record.state.O_T_EE_c;
+  const std::array<double, 7> step2{{0, 0.003, 0, 0, 0, 0, 0}};
+  const std::string fr3_limit =
+      numberText(upperVelocityLimit(kFr3PositionVelocityLimits, 1, 0.2), 4);
+  struct Row {
+    Log log;
+    unsigned version;
+    std::string part;
+  };
+  const Row rows[] = {
+      {jointLog(13, step), 5, "joint_motion_generator_velocity_limits_violation: joint 3"},
+      {jointLog(13, step), 5, "of 3 rad/s; the limit is 2.175 (1 ms before the end of the log)"},
+      {jointLog(14, step), 5, "joint_motion_generator_velocity_discontinuity: joint 3"},
+      {jointLog(14, step), 5, "an acceleration of 3000 rad/s^2; the limit is 10"},
+      {jointLog(15, step), 5, "a jerk of 3e+06 rad/s^3; the limit is 5000"},
+      {jointLog(14, step2), 5, "the limit is 7.5"},
+      {jointLog(14, step2), 10, "the limit is 10"},
+      // An FR3's velocity limit depends on the joint's position, and is 0 at the ends.
+      {jointLog(13, step2), 7, "a velocity of 3 rad/s; the limit is " + fr3_limit},
+      {changed(jointLog(13, {{0, 0, 0, 0.0005, 0, 0, 0}}),
+               [](Log& log) {
+                 for (AbortRecord& record : log) {
+                   record.command.q_c[3] += kFr3Limits.q_max[3] - record.state.q_d[3];
+                   record.state.q_d[3] = kFr3Limits.q_max[3];
+                 }
+               }),
+       10, "joint 4 was commanded a velocity of 0.5 rad/s; the limit is 0"},
+      // Joint 1 of an FR3 ends at 2.9007 rad; its velocity limit is 0 from 2.8644 rad on.
+      {jointLog(0, {{2.79, 0, 0, 0, 0, 0, 0}}), 10, "is 0 outside of -2.864 to 2.864 rad"},
+      {jointLog(12, {{0, 0, 0, 2.0, 0, 0, 0}}), 5,
+       "joint 4 was commanded to 0.5 rad, and its range is -3.072 to -0.0698 rad"},
+      // Newer systems use this flag for commands too.
+      {jointLog(0, {{0, 0, 0, 2.0, 0, 0, 0}}), 10, "joint 4 was commanded to 0.5 rad"},
+      {followingLog(0), 10, "joint 4 would have followed the Cartesian command to -0.06781 rad"},
+      {changed(jointLog(0, {}), [](Log& log) { log.back().state.q[5] = 4.0; }), 5,
+       "joint 6 stood at 4 rad"},
+      {changed(jointLog(3, {}), [](Log& log) { log.back().state.dq[6] = -2.8; }), 5,
+       "joint 7 moved at -2.8 rad/s; the limit is 2.61 (0 ms before the end of the log)"},
+      {changed(jointLog(32, {}), [](Log& log) { log.back().command.tau_J_d[6] = -1.5; }), 5,
+       "joint 7 was commanded a change of torque of -1500 Nm/s; the limit is 1000"},
+      {changed(jointLog(11, {}), [](Log& log) { log[1].command.q_c[4] = 0.9; }), 5,
+       "the first command put joint 5 at 0.9 rad while q_d was 0.5 rad"},
+  };
+  for (const Row& row : rows) {
+    expectIn(only(diagnoseAbort(row.log, row.version)), row.part);
   }
-  log.back().command.O_T_EE_c[12] = 0.004;  // 4 m/s
-  expectIn(only(diagnoseAbort(log, 5)),
-           "the translation was commanded a velocity of 4 m/s; the limit is 2 (1 ms before the end "
-           "of the log)");
-  // Rotated by 5 mrad: 5 rad/s, 5000 rad/s^2.
-  log.back().command.O_T_EE_c = pose(0.005, 0.0);
-  expectIn(only(diagnoseAbort(log, 5)),
-           "the rotation was commanded a velocity of 5 rad/s; the limit is 2.5");
-  log.back().state.reflex_reason = {};
-  log.back().state.reflex_reason[19] = true;
-  expectIn(only(diagnoseAbort(log, 5)), "an acceleration of 5000 rad/s^2; the limit is 25");
+}
+
+TEST(AbortDiagnosis, NamesTheFaultOfAPose) {
+  struct Row {
+    std::size_t flag;
+    std::size_t record;  // of the command
+    std::array<double, 16> pose;
+    const char* part;
+  };
+  std::array<double, 16> invalid = kNoTurn;
+  invalid[3] = 1e-17;
+  const Row rows[] = {
+      {31, 3, invalid, "is 1e-17 0 0 1 and must be exactly 0 0 0 1"},
+      {18, 3, pose(0.0, 0.004),
+       "the translation was commanded a velocity of 4 m/s; the limit is 2"},
+      {18, 3, pose(0.005, 0.0),
+       "the rotation was commanded a velocity of 5 rad/s; the limit is 2.5"},
+      {19, 3, pose(0.005, 0.0), "an acceleration of 5000 rad/s^2; the limit is 25"},
+      {16, 1, pose(M_PI / 60.0, 0.002), "pose was 2 mm and 3 degrees away from O_T_EE_c"},
+  };
+  for (const Row& row : rows) {
+    Log log = cartesianLog(row.flag);
+    log[row.record].command.O_T_EE_c = row.pose;
+    expectIn(only(diagnoseAbort(log, 5)), row.part);
+  }
 }
 
 TEST(AbortDiagnosis, JointsThatFollowACartesianCommand) {
@@ -185,18 +187,6 @@ TEST(AbortDiagnosis, JointsThatFollowACartesianCommand) {
   // Over three milliseconds, with two states lost.
   log[2].state.message_id = 104;
   expectIn(only(diagnoseAbort(log, 5)), "a jerk of 2500 rad/s^3");
-}
-
-TEST(AbortDiagnosis, NoVelocityIsAllowedAtTheEndOfAnFr3sJoint) {
-  auto log = jointLog(13, {{0.001, 0, 0, 0, 0, 0, 0}});
-  for (AbortRecord& record : log) {
-    record.state.q_d[3] = kFr3Limits.q_max[3];
-    record.command.q_c[3] = kFr3Limits.q_max[3];
-  }
-  log.back().command.q_c[3] += 0.0005;
-  expectIn(only(diagnoseAbort(log, 10)),
-           "joint 4 was commanded a velocity of 0.5 rad/s; the limit is 0 (1 ms before the end of "
-           "the log)");
 }
 
 TEST(AbortDiagnosis, ElbowVelocities) {
@@ -226,31 +216,14 @@ TEST(AbortDiagnosis, ElbowVelocities) {
 }
 
 TEST(AbortDiagnosis, ElbowSignsAndStarts) {
+  const auto flip = [](Log& log) { log.back().command.elbow_c[1] = 1.0; };
   for (std::size_t flag : {21u, 24u}) {
-    auto log = cartesianLog(flag);
-    log.back().command.elbow_c[1] = 1.0;
-    const std::string text = only(diagnoseAbort(log, 5));
-    expectIn(text, "commanded elbow has the sign 1 while the arm's was -1");
-    expectIn(text, "joint 4 passes -0.467 rad");
+    expectIn(only(diagnoseAbort(changed(cartesianLog(flag), flip), 5)),
+             "commanded elbow has the sign 1 while the arm's was -1");
   }
-  auto log = cartesianLog(22);
-  log.back().command.elbow_c[0] = 0.9;
-  expectIn(only(diagnoseAbort(log, 5)),
+  const auto start = [](Log& log) { log.back().command.elbow_c[0] = 0.9; };
+  expectIn(only(diagnoseAbort(changed(cartesianLog(22), start), 5)),
            "the first command had the elbow (joint 3) at 0.9 rad while elbow_c was 0.3 rad");
-}
-
-TEST(AbortDiagnosis, RotatedStartPoses) {
-  auto log = cartesianLog(16);
-  log[1].command.O_T_EE_c = pose(0.05235987755982988, 0.002);
-  expectIn(only(diagnoseAbort(log, 5)),
-           "the first commanded pose was 2 mm and 3 degrees away from O_T_EE_c");
-}
-
-TEST(AbortDiagnosis, MeasuredValuesIncludeTheLastState) {
-  auto log = jointLog(3, {});
-  log.back().state.dq[6] = -2.8;
-  expectIn(only(diagnoseAbort(log, 5)),
-           "joint 7 moved at -2.8 rad/s; the limit is 2.61 (0 ms before the end of the log)");
 }
 
 TEST(AbortDiagnosis, CollisionsNameTheirForces) {
@@ -286,13 +259,6 @@ TEST(AbortDiagnosis, ABlockedCallbackIsTheCauseOfLostPackets) {
   expectIn(only(diagnoseAbort(log, 5)), "network");
 }
 
-TEST(AbortDiagnosis, StartsAtAnotherPosition) {
-  auto log = jointLog(11, {});
-  log[1].command.q_c[4] = 0.9;
-  expectIn(only(diagnoseAbort(log, 5)),
-           "the first command put joint 5 at 0.9 rad while q_d was 0.5 rad");
-}
-
 TEST(AbortDiagnosis, EveryFlagHasASentence) {
   const std::set<std::size_t> in_no_log{1, 2, 4, 5, 10, 23, 26, 33, 35, 36, 37, 38, 39, 40};
   for (std::size_t flag = 0; flag < kErrorCount; flag++) {
@@ -323,33 +289,29 @@ TEST(AbortDiagnosis, ReportsAnIncompleteLog) {
 }
 
 TEST(AbortDiagnosis, ReadsPublicLogs) {
-  const auto log = jointLog(14, {{0, 0, 0.003, 0, 0, 0, 0}});
-  std::vector<franka::Record> records(log.size());
-  for (std::size_t i = 0; i < log.size(); i++) {
-    records[i].state.time = franka::Duration(log[i].state.message_id);
-    records[i].state.q_d = log[i].state.q_d;
-    records[i].command.joint_positions.q = log[i].command.q_c;
+  const auto accelerate = [](Log& log) {
+    log.back().command.elbow_c[0] = 0.301006;
+    for (AbortRecord& record : log) {
+      record.state.delbow_c[0] = 0.9;
+      record.state.ddelbow_c[0] = 100.0;
+    }
+  };
+  const Log elbow_log = changed(cartesianLog(17), accelerate);
+  expectIn(only(diagnoseAbort(elbow_log, 5)), "an acceleration of 106 rad/s^2");
+  for (const Log& log : {jointLog(14, {{0, 0, 0.003, 0, 0, 0, 0}}), elbow_log}) {
+    std::vector<franka::Record> records(log.size());
+    for (std::size_t i = 0; i < log.size(); i++) {
+      records[i].state.time = franka::Duration(log[i].state.message_id);
+      records[i].state.q_d = log[i].state.q_d;
+      records[i].state.elbow_c = log[i].state.elbow_c;
+      records[i].state.delbow_c = log[i].state.delbow_c;
+      records[i].state.ddelbow_c = log[i].state.ddelbow_c;
+      records[i].command.joint_positions.q = log[i].command.q_c;
+    }
+    records.back().command.cartesian_pose.elbow = log.back().command.elbow_c;
+    records.back().state.last_motion_errors = franka::Errors(log.back().state.reflex_reason);
+    EXPECT_EQ(only(diagnoseAbort(log, 5)), only(diagnoseLog(records, 5)));
   }
-  records.back().state.last_motion_errors = franka::Errors(log.back().state.reflex_reason);
-  EXPECT_EQ(only(diagnoseAbort(log, 5)), only(diagnoseLog(records, 5)));
-}
-
-TEST(AbortDiagnosis, ReadsElbowsOfPublicLogs) {
-  auto log = cartesianLog(17);
-  log.back().command.elbow_c[0] = 0.301006;
-  std::vector<franka::Record> records(log.size());
-  for (std::size_t i = 0; i < log.size(); i++) {
-    log[i].state.delbow_c[0] = 0.9;
-    log[i].state.ddelbow_c[0] = 100.0;
-    records[i].state.time = franka::Duration(log[i].state.message_id);
-    records[i].state.elbow_c = log[i].state.elbow_c;
-    records[i].state.delbow_c = log[i].state.delbow_c;
-    records[i].state.ddelbow_c = log[i].state.ddelbow_c;
-  }
-  records.back().command.cartesian_pose.elbow = log.back().command.elbow_c;
-  records.back().state.last_motion_errors = franka::Errors(log.back().state.reflex_reason);
-  expectIn(only(diagnoseAbort(log, 5)), "an acceleration of 106 rad/s^2");
-  EXPECT_EQ(only(diagnoseAbort(log, 5)), only(diagnoseLog(records, 5)));
 }
 
 }  // namespace

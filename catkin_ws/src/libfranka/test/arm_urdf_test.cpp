@@ -73,17 +73,6 @@ std::string twoArms() {
          "<origin xyz=\"0 -1 0\"/></joint></robot>";
 }
 
-TEST(FromUrdf, ReadsLinkInertiasAsGiven) {
-  const ArmModel arm = ArmModel::fromUrdf(panda(), "panda");
-  EXPECT_EQ(4.970684, arm.links()[0].mass);
-  EXPECT_EQ(0.70337, arm.links()[0].inertia[0]);
-  EXPECT_EQ(-0.000139, arm.links()[0].inertia[1]);
-  EXPECT_EQ(0.006772, arm.links()[0].inertia[2]);
-  EXPECT_EQ(0.735522, arm.links()[6].mass);
-  EXPECT_EQ((std::array<double, 3>{0.010517, -0.004252, 0.061597}), arm.links()[6].com);
-  EXPECT_EQ(0.107, arm.flange()[14]);
-}
-
 TEST(FromUrdf, FindsASingleArmAndSelectsOneOfTwo) {
   const ArmModel one = ArmModel::fromUrdf(panda());
   const ArmModel right = ArmModel::fromUrdf(twoArms(), "right_arm");
