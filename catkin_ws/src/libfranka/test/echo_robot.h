@@ -2,11 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <arpa/inet.h>
 #include <franka_core/fci/protocol.h>
 #include <franka_core/fci/state_codec.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <cstring>
@@ -14,34 +11,11 @@
 #include <thread>
 #include <vector>
 
+#include "loopback_socket.h"
+
 namespace franka_bench {
 
-/// A socket on 127.0.0.1 whose reads time out.
-class Socket {
- public:
-  explicit Socket(int type, int timeout_ms = 100) : fd_(socket(AF_INET, type, 0)) {
-    socklen_t size = sizeof(address_);
-    address_.sin_family = AF_INET;
-    address_.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    bind(fd_, reinterpret_cast<sockaddr*>(&address_), sizeof(address_));
-    getsockname(fd_, reinterpret_cast<sockaddr*>(&address_), &size);
-    setTimeout(fd_, timeout_ms);
-  }
-  ~Socket() { close(fd_); }
-  Socket(const Socket&) = delete;
-  Socket& operator=(const Socket&) = delete;
-
-  static void setTimeout(int fd, int timeout_ms) {
-    const timeval timeout{timeout_ms / 1000, timeout_ms % 1000 * 1000};
-    setsockopt(fd, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof(timeout));
-  }
-  int get() const { return fd_; }
-  const sockaddr_in& address() const { return address_; }
-
- private:
-  int fd_;
-  sockaddr_in address_{};
-};
+using franka_test::Socket;
 
 /// The minimal UDP peer: answers each datagram at once by one whose first eight bytes count up.
 class Echo {
@@ -103,9 +77,7 @@ class EchoRobot {
  public:
   explicit EchoRobot(std::uint16_t version);
   ~EchoRobot();
-  std::string address() const {
-    return "127.0.0.1:" + std::to_string(ntohs(listener_.address().sin_port));
-  }
+  std::string address() const { return "127.0.0.1:" + std::to_string(listener_.port()); }
 
  private:
   enum class Phase { kClosed, kIdle, kMoving };

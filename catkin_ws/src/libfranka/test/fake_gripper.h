@@ -2,24 +2,21 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <arpa/inet.h>
 #include <franka_core/fci/gripper_codec.h>
 #include <franka_core/fci/vacuum_codec.h>
-#include <netinet/in.h>
 #include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <atomic>
 #include <chrono>
 #include <cstdint>
 #include <functional>
 #include <mutex>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <utility>
 #include <vector>
+
+#include "loopback_socket.h"
 
 namespace franka_test {
 
@@ -32,28 +29,15 @@ class FakeGripper {
   using Bytes = std::vector<std::uint8_t>;
 
   explicit FakeGripper(std::uint16_t version) : version_(version) {
-    listener_ = socket(AF_INET, SOCK_STREAM, 0);
-    sockaddr_in address{};
-    address.sin_family = AF_INET;
-    address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    socklen_t size = sizeof(address);
-    if (bind(listener_, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
-        listen(listener_, 4) != 0 ||
-        getsockname(listener_, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
-      throw std::runtime_error("no socket for the fake gripper");
-    }
-    port_ = ntohs(address.sin_port);
-    datagrams_ = socket(AF_INET, SOCK_DGRAM, 0);
+    listen(listener_.get(), 4);
     thread_ = std::thread([this] { run(); });
   }
   ~FakeGripper() {
     ended_ = true;
     thread_.join();
-    close(listener_);
-    close(datagrams_);
   }
 
-  std::string address() const { return "127.0.0.1:" + std::to_string(port_); }
+  std::string address() const { return "127.0.0.1:" + std::to_string(listener_.port()); }
 
   std::atomic<Status> answer{Status::kSuccess};
   std::atomic<bool> answers{true};  ///< else requests other than Connect and Stop wait
@@ -75,9 +59,9 @@ class FakeGripper {
  private:
   void run() {
     while (!ended_) {
-      pollfd waiting{listener_, POLLIN, 0};
+      pollfd waiting{listener_.get(), POLLIN, 0};
       if (poll(&waiting, 1, 5) == 1) {
-        const int client = accept(listener_, nullptr, nullptr);
+        const int client = accept(listener_.get(), nullptr, nullptr);
         serve(client);
         close(client);
       }
@@ -109,13 +93,10 @@ class FakeGripper {
         }
       }
       if (sends_states && udp_port_ != 0) {
-        sockaddr_in to{};
-        to.sin_family = AF_INET;
-        to.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-        to.sin_port = htons(udp_port_);
+        const sockaddr_in to = loopback(udp_port_);
         const std::lock_guard<std::mutex> lock(mutex_);
-        sendto(datagrams_, state_.data(), state_.size(), 0, reinterpret_cast<sockaddr*>(&to),
-               sizeof(to));
+        sendto(datagrams_.get(), state_.data(), state_.size(), 0,
+               reinterpret_cast<const sockaddr*>(&to), sizeof(to));
       }
     }
   }
@@ -168,9 +149,8 @@ class FakeGripper {
   }
 
   const std::uint16_t version_;
-  int listener_{-1};
-  int datagrams_{-1};
-  std::uint16_t port_{0};
+  Socket listener_{SOCK_STREAM};
+  Socket datagrams_{SOCK_DGRAM};
   std::uint16_t udp_port_{0};
   std::vector<Header> pending_;
   std::mutex mutex_;

@@ -2,17 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fake_robot.h"
 
-#include <arpa/inet.h>
-#include <fcntl.h>
 #include <franka_core/fci/command_codec.h>
 #include <franka_core/fci/reply_codec.h>
 #include <netinet/tcp.h>
 #include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
 
 #include <algorithm>
-#include <stdexcept>
 
 namespace franka_test {
 
@@ -26,26 +21,6 @@ constexpr double kDeltaT = 1e-3;
 constexpr std::chrono::milliseconds kPace{1};
 constexpr std::chrono::milliseconds kAnswerTimeoutAfterAbort{2000};
 
-sockaddr_in loopback(std::uint16_t port) {
-  sockaddr_in address{};
-  address.sin_family = AF_INET;
-  address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-  address.sin_port = htons(port);
-  return address;
-}
-
-int boundSocket(int type, std::uint16_t* port) {
-  const int fd = socket(AF_INET, type | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
-  sockaddr_in address = loopback(0);
-  socklen_t size = sizeof(address);
-  if (fd < 0 || bind(fd, reinterpret_cast<sockaddr*>(&address), sizeof(address)) != 0 ||
-      getsockname(fd, reinterpret_cast<sockaddr*>(&address), &size) != 0) {
-    throw std::runtime_error("no socket for the fake robot");
-  }
-  *port = ntohs(address.sin_port);
-  return fd;
-}
-
 template <std::size_t kSize>
 void follow(const std::array<double, kSize>& target, std::array<double, kSize>& value,
             std::array<double, kSize>& derivative) {
@@ -58,10 +33,7 @@ void follow(const std::array<double, kSize>& target, std::array<double, kSize>& 
 }  // namespace
 
 FakeRobot::FakeRobot(std::uint16_t version) : version_(version) {
-  listener_ = boundSocket(SOCK_STREAM, &port_);
-  std::uint16_t udp_port = 0;
-  udp_ = boundSocket(SOCK_DGRAM, &udp_port);
-  listen(listener_, 1);
+  listen(listener_.get(), 1);
   state_.robot_mode = RobotMode::kIdle;
   state_.q = state_.q_d = {0.0, -0.8, 0.0, -2.4, 0.0, 1.6, 0.8};
   state_.elbow = state_.elbow_d = state_.elbow_c = {0.0, -1.0};
@@ -80,11 +52,9 @@ FakeRobot::~FakeRobot() {
   }
   thread_.join();
   closeClient();
-  close(listener_);
-  close(udp_);
 }
 
-std::string FakeRobot::address() const { return "127.0.0.1:" + std::to_string(port_); }
+std::string FakeRobot::address() const { return "127.0.0.1:" + std::to_string(listener_.port()); }
 
 void FakeRobot::script(const std::function<void(Script&)>& change) {
   const std::lock_guard<std::recursive_mutex> lock(mutex_);
@@ -141,15 +111,15 @@ void FakeRobot::serve() {
       if (client_ >= 0 && isTimeForState()) {
         sendState();
       }
-      sources[0] = {client_ < 0 ? listener_ : client_, POLLIN, 0};
-      sources[1] = {udp_, POLLIN, 0};
+      sources[0] = {client_ < 0 ? listener_.get() : client_, POLLIN, 0};
+      sources[1] = {udp_.get(), POLLIN, 0};
     }
     poll(sources, 2, 1);
   }
 }
 
 void FakeRobot::acceptClient() {
-  client_ = accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+  client_ = accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (client_ >= 0) {
     // Two replies in a row must not wait for each other's acknowledgement.
     const int at_once = 1;
@@ -294,10 +264,6 @@ void FakeRobot::reply(Command command, std::uint32_t id, Status status) {
     bytes[8]--;  // the header's size
     bytes.pop_back();
   }
-  if (command == Command::kConnect) {
-    bytes[8] = static_cast<std::uint8_t>(bytes.size() + script_.connect_excess);
-    bytes.resize(bytes.size() + script_.connect_excess);
-  }
   const auto repeated = script_.repeated.find(command);
   for (int i = 0; i < 1 + (repeated == script_.repeated.end() ? 0 : repeated->second); i++) {
     sendTcp(bytes.data(), bytes.size());
@@ -323,7 +289,7 @@ void FakeRobot::sendTcp(const std::uint8_t* data, std::size_t size) {
 void FakeRobot::readCommands() {
   std::uint8_t buffer[1024];
   ssize_t size = 0;
-  while ((size = recv(udp_, buffer, sizeof(buffer), 0)) >= 0) {
+  while ((size = recv(udp_.get(), buffer, sizeof(buffer), 0)) >= 0) {
     franka_core::RobotCommand command;
     const bool valid = fci::decodeCommand(version_, {buffer, static_cast<std::size_t>(size)},
                                           command) == fci::CodecError::kNone;
@@ -454,7 +420,8 @@ void FakeRobot::sendState() {
   const sockaddr_in client = loopback(client_udp_port_);
   for (const Datagram& d :
        script_.transmit ? script_.transmit(datagram) : std::vector<Datagram>{datagram}) {
-    sendto(udp_, d.data(), d.size(), 0, reinterpret_cast<const sockaddr*>(&client), sizeof(client));
+    sendto(udp_.get(), d.data(), d.size(), 0, reinterpret_cast<const sockaddr*>(&client),
+           sizeof(client));
   }
   last_state_at_ = Clock::now();
 }

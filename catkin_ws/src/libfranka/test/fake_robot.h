@@ -18,6 +18,8 @@
 #include <thread>
 #include <vector>
 
+#include "loopback_socket.h"
+
 namespace franka_test {
 
 /// A robot for tests: real sockets on 127.0.0.1, port 0, any protocol version, and scripted
@@ -42,7 +44,6 @@ class FakeRobot {
     std::set<Command> unanswered;       ///< requests that get no reply
     std::set<Command> fatal;            ///< requests that make it close the connection
     std::set<Command> garbled;          ///< requests with a reply that is one byte too short
-    std::size_t connect_excess{0};      ///< bytes by which the answer to Connect is too long
     std::map<Command, int> repeated;    ///< number of repetitions of the (first) reply
     std::vector<std::uint8_t> urdf, library;
     std::optional<std::uint16_t> reported_version;  ///< in the reply to Connect
@@ -116,9 +117,8 @@ class FakeRobot {
   void closeClient();
 
   const std::uint16_t version_;
-  int listener_{-1};
-  int udp_{-1};
-  std::uint16_t port_{0};
+  Socket listener_{SOCK_STREAM | SOCK_NONBLOCK};
+  Socket udp_{SOCK_DGRAM | SOCK_NONBLOCK};
 
   mutable std::recursive_mutex mutex_;
   Script script_;

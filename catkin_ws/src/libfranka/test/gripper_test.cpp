@@ -134,15 +134,6 @@ TEST_F(GripperTest, RefusesAStateOfAnotherSize) {
             textOf<franka::ProtocolException>([&] { gripper.readOnce(); }));
 }
 
-TEST(Gripper, ReconnectsRepeatedly) {
-  FakeGripper fake(3);
-  fake.show(handState());
-  for (int i = 0; i < 100; i++) {
-    franka::Gripper gripper(fake.address());
-    EXPECT_TRUE(gripper.stop());
-  }
-}
-
 TEST(VacuumGripper, SendsRequestsAndReadsStates) {
   FakeGripper fake(1);
   fake.stop_command = 3;

@@ -154,12 +154,6 @@ TEST_F(LibraryModel, RefusesALibraryForAnotherMachine) {
   EXPECT_NE(std::string::npos, refusal(library).find("this machine's kind of processor"));
 }
 
-TEST_F(LibraryModel, OutlivesItsRobot) {
-  std::unique_ptr<franka::Model> model;
-  model = std::make_unique<franka::Model>(load(stubLibrary()));
-  EXPECT_EQ(108, model->pose(Frame::kFlange, q_, F_T_EE_, EE_T_K_)[0]);
-}
-
 TEST_F(LibraryModel, TwoRobotsHaveTwoModels) {
   const auto flange = [this](const franka::Model& model) {
     return model.pose(Frame::kFlange, q_, F_T_EE_, EE_T_K_)[0];

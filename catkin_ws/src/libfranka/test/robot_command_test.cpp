@@ -164,69 +164,38 @@ TEST_P(Commands, TransmitTheirArguments) {
   }
 }
 
-TEST_P(Commands, SendTypedFramesAsExactOnes) {
-  const auto robot = connect(fake);
-  const std::size_t before = fake.requests().size();
-  const std::array<double, 16> typed{0.707, 0.707, 0, 0, -0.707, 0.707, 0,   0,
-                                     0,     0,     1, 0, 0.1,    0.2,   0.3, 1};
-  robot->setEE(typed);
-  robot->setK(typed);
-  const auto requests = fake.requests();
-  const auto& end_effector = std::get<franka_core::fci::SetNEToEERequest>(requests[before]).NE_T_EE;
-  EXPECT_NEAR(M_SQRT1_2, end_effector[0], 1e-15);
-  EXPECT_NEAR(-M_SQRT1_2, end_effector[4], 1e-15);
-  EXPECT_EQ(0.3, end_effector[14]);
-  EXPECT_EQ(end_effector, std::get<franka_core::fci::SetEEToKRequest>(requests[before + 1]).EE_T_K);
-}
+INSTANTIATE_TEST_SUITE_P(All, Commands, ::testing::ValuesIn(kVersions), versionName);
 
-TEST_P(Commands, DoNotSendFramesThatAreNotTransforms) {
+// Which frames are accepted is tested without a robot: typed_transform_test.cpp.
+TEST(CommandFrames, AreSentAsExactOnesOrRefused) {
+  FakeRobot fake(5);
   const auto robot = connect(fake);
+  namespace fci = franka_core::fci;
+  robot->setEE({0.707, 0.707, 0, 0, -0.707, 0.707, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1});
+  const auto sent = std::get<fci::SetNEToEERequest>(fake.requests().back()).NE_T_EE;
+  EXPECT_NEAR(M_SQRT1_2, sent[0], 1e-15);
+  EXPECT_EQ(0.3, sent[14]);
+  robot->setK({0.707, 0.707, 0, 0, -0.707, 0.707, 0, 0, 0, 0, 1, 0, 0.1, 0.2, 0.3, 1});
+  EXPECT_EQ(sent, std::get<fci::SetEEToKRequest>(fake.requests().back()).EE_T_K);
   const std::size_t before = fake.requests().size();
   const std::array<double, 16> row_major{0, -1, 0, 0.1, 1, 0, 0, 0.2, 0, 0, 1, 0.3, 0, 0, 0, 1};
-  std::array<double, 16> scaled{kPose};
-  scaled[10] = 1000.0;
-  for (const auto& [frame, fault] :
-       {std::make_pair(row_major, "row-major"), std::make_pair(scaled, "column 3")}) {
-    const std::string end_effector =
-        textOf<CommandException>([&robot, frame = frame] { robot->setEE(frame); });
-    EXPECT_TRUE(startsWith(end_effector,
-                           "libfranka: Set NE to EE command rejected: invalid argument! NE_T_EE"));
-    EXPECT_NE(std::string::npos, end_effector.find(fault)) << end_effector;
-    const std::string stiffness =
-        textOf<CommandException>([&robot, frame = frame] { robot->setK(frame); });
-    EXPECT_TRUE(
-        startsWith(stiffness, "libfranka: Set EE to K command rejected: invalid argument! EE_T_K"));
-    EXPECT_NE(std::string::npos, stiffness.find(fault)) << stiffness;
+  for (const std::string& text : {textOf<CommandException>([&] { robot->setEE(row_major); }),
+                                  textOf<CommandException>([&] { robot->setK(row_major); })}) {
+    EXPECT_NE(std::string::npos, text.find("row-major")) << text;
   }
   EXPECT_EQ(before, fake.requests().size());
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Commands, ::testing::ValuesIn(kVersions), versionName);
-
-TEST(CommandText, NamesTheModeAndMentionsTheBrakes) {
+TEST(CommandText, NamesThePresentMode) {
   FakeRobot fake(5);
-  const auto robot = connect(fake);
+  fake.change([](franka_core::RobotState& s) { s.robot_mode = franka_core::RobotMode::kReflex; });
   fake.script([](FakeRobot::Script& s) {
     s.replies[Command::kSetLoad] = Status::kCommandNotPossibleRejected;
   });
-  const std::pair<franka_core::RobotMode, const char*> modes[] = {
-      {franka_core::RobotMode::kOther, "(\"Other\")! Did you open the brakes?"},
-      {franka_core::RobotMode::kMove, "(\"Move\")!"},
-      {franka_core::RobotMode::kGuiding, "(\"Guiding\")!"},
-      {franka_core::RobotMode::kReflex,
-       "(\"Reflex\")! Recover first: automaticErrorRecovery, in ROS the action error_recovery."},
-      {franka_core::RobotMode::kUserStopped, "(\"User stopped\")! Release the user stop first."},
-      {franka_core::RobotMode::kAutomaticErrorRecovery, "(\"Automatic error recovery\")!"},
-  };
-  for (const auto& [mode, ending] : modes) {
-    fake.change([mode = mode](franka_core::RobotState& s) { s.robot_mode = mode; });
-    while (robot->readOnce().robot_mode != static_cast<franka::RobotMode>(mode)) {
-    }
-    EXPECT_EQ(std::string("libfranka: Set Load command rejected: command not possible in the "
-                          "current mode ") +
-                  ending,
-              textOf<CommandException>([&] { robot->setLoad(0, {}, {}); }));
-  }
+  const auto robot = connect(fake);
+  const std::string text = textOf<CommandException>([&] { robot->setLoad(0, {}, {}); });
+  EXPECT_NE(std::string::npos, text.find("(\"Reflex\")")) << text;
+  EXPECT_NE(std::string::npos, text.find("automaticErrorRecovery")) << text;
 }
 
 TEST(CommandFaults, MissingAndInvalidRepliesThrow) {

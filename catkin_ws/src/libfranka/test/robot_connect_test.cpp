@@ -3,14 +3,15 @@
 //
 // Connecting: versions, addresses, and robots that do not answer.
 #include <franka_core/limits.h>
-#include <franka_core/robot_versions.h>
 #include <ros_test/eventually.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cmath>
+#include <regex>
 
 #include "network/endpoint.h"
+#include "random_state.h"
 #include "robot_fixture.h"
 
 namespace franka_test {
@@ -35,21 +36,12 @@ TEST_P(Connect, StepsDownToTheRobotsVersion) {
 TEST_P(Connect, ReadsStatesOfTheRobot) {
   fake.change([](franka_core::RobotState& s) {
     s.q = {0.5, -0.25, 1.5, -2.0, 0.125, 2.5, -0.75};
-    s.m_ee = 0.75;
-    s.m_load = 0.25;
-    s.F_x_Cee = {0.0, 0.0, 0.5};
-    s.F_x_Cload = {0.0, 0.5, 0.0};
     s.robot_mode = franka_core::RobotMode::kGuiding;
-    s.errors[3] = true;
   });
   const auto robot = connect(fake);
   const franka::RobotState state = robot->readOnce();
   EXPECT_EQ((std::array<double, 7>{0.5, -0.25, 1.5, -2.0, 0.125, 2.5, -0.75}), state.q);
-  EXPECT_EQ(1.0, state.m_total);
-  EXPECT_EQ((std::array<double, 3>{0.0, 0.125, 0.375}), state.F_x_Ctotal);
   EXPECT_EQ(franka::RobotMode::kGuiding, state.robot_mode);
-  EXPECT_TRUE(state.current_errors.joint_velocity_violation);
-  EXPECT_FALSE(state.last_motion_errors);
   uint64_t last = state.time.toMSec();
   int count = 0;
   robot->read([&](const franka::RobotState& s) {
@@ -142,16 +134,6 @@ TEST(ConnectVersion, ARefusalOfTheRobotsOwnVersionEndsTheAttempt) {
   EXPECT_EQ(2, fake.connections());
 }
 
-TEST(ConnectVersion, TableHasEveryVersion) {
-  for (std::uint16_t version : kVersions) {
-    ASSERT_NE(nullptr, franka_core::findRobotVersion(version));
-    EXPECT_EQ(std::string(version <= 5 ? "Panda" : "FR3"),
-              franka_core::findRobotVersion(version)->robot);
-  }
-  EXPECT_EQ(nullptr, franka_core::findRobotVersion(2));
-  EXPECT_EQ(nullptr, franka_core::findRobotVersion(11));
-}
-
 TEST(ConnectAddress, IsParsed) {
   using franka::network::parseEndpoint;
   EXPECT_EQ("10.0.0.1", parseEndpoint("10.0.0.1", 1337).host);
@@ -217,15 +199,6 @@ TEST(ConnectNetwork, LossAtEveryStepIsReported) {
   EXPECT_EQ(10, connect(fake)->serverVersion());
 }
 
-// Some servers do this; genuine clients ignore the rest.
-TEST(ConnectNetwork, LongerReplyIsAccepted) {
-  FakeRobot fake(10);
-  fake.script([](FakeRobot::Script& s) { s.connect_excess = 5; });
-  const auto robot = connect(fake);
-  EXPECT_EQ(10, robot->serverVersion());
-  EXPECT_NO_THROW(robot->readOnce());
-}
-
 TEST(ConnectNetwork, ConnectsAThousandTimes) {
   FakeRobot fake(10);
   for (int i = 0; i < 1000; i++) {
@@ -289,60 +262,45 @@ TEST(ConnectTimeouts, MustBePositive) {
   EXPECT_EQ(std::chrono::milliseconds(1000), franka::timeouts().state);
 }
 
-std::string jointWithLimits(int joint, bool with_extension) {
-  const std::string number = std::to_string(joint);
-  return "<joint name=\"fr3_joint" + number + "\"><limit lower=\"-" + number + ".5\" upper=\"" +
-         number + ".25\" velocity=\"2." + number + "\" effort=\"87\"/>" +
-         (with_extension ? "<position_based_velocity_limits velocity_offset=\"0." + number +
-                               "\" deceleration_limit=\"" + number + ".0\"/>"
-                         : "") +
-         "</joint>";
-}
-
 std::vector<std::uint8_t> urdf(bool with_extension) {
-  std::string text = "<robot name=\"fr3\">";
-  for (int joint = 7; joint >= 1; joint--) {
-    text += jointWithLimits(joint, with_extension);
-  }
-  text += "<joint name=\"joint1_cover\"/></robot>";
+  const std::string plain = readData("fr3_hand.urdf");
+  const std::string extended = std::regex_replace(
+      plain, std::regex("</joint>"),
+      "<position_based_velocity_limits velocity_offset=\"0.3\" deceleration_limit=\"6\"/></joint>");
+  const std::string& text = with_extension ? extended : plain;
   return {text.begin(), text.end()};
 }
 
-TEST(ConnectLimits, DependOnTheRobot) {
-  const std::array<double, 7> q{};
-  FakeRobot panda(5), fr3(7);
-  // 2.175 - 1e-3 - 3 ms * (15 - 1e-3), typed from the table of the classic client.
-  EXPECT_NEAR(2.129003, connect(panda)->getUpperJointVelocityLimits(q)[0], 1e-12);
-  EXPECT_NEAR(-2.129003, connect(panda)->getLowerJointVelocityLimits(q)[0], 1e-12);
-  // min(2.62, -0.30 + sqrt(12 * 2.7501)) - 1e-3
-  EXPECT_NEAR(2.619, connect(fr3)->getUpperJointVelocityLimits(q)[0], 1e-12);
-  const std::array<double, 7> near_end{2.7, 0, 0, -1.5, 0, 2.0, 0};
-  EXPECT_NEAR(-0.30 + std::sqrt(12.0 * 0.0501) - 1e-3,
-              connect(fr3)->getUpperJointVelocityLimits(near_end)[0], 1e-12);
-}
-
-TEST(ConnectLimits, ComeFromTheDescriptionOfVersion10) {
-  FakeRobot fake(10);
-  const std::vector<std::uint8_t> text = urdf(true);
-  fake.script([&text](FakeRobot::Script& s) { s.urdf = text; });
-  const auto robot = connect(fake);
-  std::array<double, 7> q{};
-  q[2] = 3.2;
-  // joint3: V 2.3, o 0.3, c 6, upper 3.25, lower -3.5
-  EXPECT_NEAR(-0.3 + std::sqrt(6.0 * 0.05) - 1e-3, robot->getUpperJointVelocityLimits(q)[2], 1e-9);
-  EXPECT_NEAR(-2.3 + 1e-3, robot->getLowerJointVelocityLimits(q)[2], 1e-9);
-  EXPECT_EQ(std::string(text.begin(), text.end()), robot->getRobotModel());
-}
-
-TEST(ConnectLimits, DescriptionWithoutLimitsKeepsThePublishedOnes) {
-  FakeRobot fake(10), refuses(10);
-  fake.script([](FakeRobot::Script& s) { s.urdf = urdf(false); });
+// The rules of these limits are tested without a robot: rate_limiting_test.cpp.
+TEST(ConnectLimits, DependOnTheRobotAndItsDescription) {
+  struct Case {
+    std::uint16_t version;
+    std::vector<std::uint8_t> urdf;
+    std::size_t joint;
+    double q;           // [rad]
+    double upper;       // [rad/s]
+    double lower_at_0;  // [rad/s]
+  };
+  const Case cases[] = {
+      {5, {}, 0, 0.0, 2.175 - 1e-3 - 3e-3 * (15 - 1e-3), -2.129003},
+      {7, {}, 0, 2.7, -0.30 + std::sqrt(12.0 * (2.7501 - 2.7)) - 1e-3, -2.619},
+      {10, urdf(true), 2, 2.45, -0.3 + std::sqrt(12.0 * (2.4937 - 2.45)) - 1e-3, -1.499},
+      {10, urdf(false), 0, 2.8, -0.6599 + std::sqrt(12.0 * (2.9007 - 2.8)) - 1e-3, -2.619},
+  };
+  for (const Case& test : cases) {
+    FakeRobot fake(test.version);
+    fake.script([&test](FakeRobot::Script& s) { s.urdf = test.urdf; });
+    const auto robot = connect(fake);
+    std::array<double, 7> q{};
+    q[test.joint] = test.q;
+    EXPECT_NEAR(test.upper, robot->getUpperJointVelocityLimits(q)[test.joint], 1e-12);
+    q[test.joint] = 0.0;
+    EXPECT_NEAR(test.lower_at_0, robot->getLowerJointVelocityLimits(q)[test.joint], 1e-12);
+  }
+  FakeRobot refuses(10);
   refuses.script([](FakeRobot::Script& s) {
     s.replies[Command::kGetRobotModel] = Status::kCommandNotPossibleRejected;
   });
-  // -0.6599 + sqrt(12 (2.9007 - 2.8)) - 1e-3
-  EXPECT_NEAR(-0.6599 + std::sqrt(12.0 * 0.1007) - 1e-3,
-              connect(fake)->getUpperJointVelocityLimits({2.8})[0], 1e-12);
   EXPECT_NEAR(2.619, connect(refuses)->getUpperJointVelocityLimits({})[0], 1e-12);
 }
 

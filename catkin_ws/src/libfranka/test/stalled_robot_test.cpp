@@ -77,33 +77,27 @@ TEST_P(StalledRobot, IsWaitedForAtTheStartOfAMotion) {
 INSTANTIATE_TEST_SUITE_P(NewestOfEachRobot, StalledRobot,
                          ::testing::Values(std::uint16_t{5}, std::uint16_t{10}), versionName);
 
-TEST(DeadRobot, IsNoticedAtOnceInAMotion) {
-  const ScopedTimeouts timeouts(shorterThanTheStall());
-  FakeRobot fake(5);
-  const auto robot = connect(fake);
-  fake.script([](FakeRobot::Script& script) { script.close_after = 1; });
-  EXPECT_EQ(kClosed, textOf<franka::NetworkException>([&] {
-              robot->control([](const franka::RobotState&, franka::Duration) {
-                return franka::Torques({0, 0, 0, 0, 0, 0, 0});
-              });
+/// Ends a fake that sends no more states while its device reads.
+template <typename Fake, typename Device>
+void expectClosedWhileReading(std::unique_ptr<Fake> fake, Device& device) {
+  std::thread killer([&fake] {
+    std::this_thread::sleep_for(kStall);  // the fault itself
+    fake.reset();
+  });
+  EXPECT_EQ(kClosed, textOf<franka::NetworkException>([&device] {
+              while (true) {  // some may still be in transit
+                device.readOnce();
+              }
             }));
+  killer.join();
 }
 
-TEST(DeadRobot, IsNoticedAtOnceByReadOnce) {
+TEST(DeadRobot, IsNoticedAtOnce) {
   const ScopedTimeouts timeouts(shorterThanTheStall());
   auto fake = std::make_unique<FakeRobot>(10);
   const auto robot = connect(*fake);
   fake->script([](FakeRobot::Script& script) { script.sends_states = false; });
-  std::thread killer([&] {
-    std::this_thread::sleep_for(kStall);  // the fault itself
-    fake.reset();
-  });
-  EXPECT_EQ(kClosed, textOf<franka::NetworkException>([&] {
-              while (true) {  // some may still be in transit
-                robot->readOnce();
-              }
-            }));
-  killer.join();
+  expectClosedWhileReading(std::move(fake), *robot);
 }
 
 FakeGripper::Bytes anyHandState() {
@@ -134,16 +128,7 @@ TEST(DeadHand, IsNoticedAtOnce) {
   fake->show(anyHandState());
   const franka::Gripper gripper(fake->address());
   fake->sends_states = false;
-  std::thread killer([&] {
-    std::this_thread::sleep_for(kStall);  // the fault itself
-    fake.reset();
-  });
-  EXPECT_EQ(kClosed, textOf<franka::NetworkException>([&] {
-              while (true) {  // some may still be in transit
-                gripper.readOnce();
-              }
-            }));
-  killer.join();
+  expectClosedWhileReading(std::move(fake), gripper);
 }
 
 }  // namespace
