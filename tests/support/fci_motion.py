@@ -4,7 +4,7 @@
 
 from collections.abc import Callable, Sequence
 
-from fci_wire import IDLE, JOINT_IMPEDANCE, JOINT_POSITION, MOVE, Client, State, command
+from fci_wire import JOINT_IMPEDANCE, JOINT_POSITION, MOVE, Client, State, command
 
 Positions = Callable[[int], Sequence[float]]  # of the joints in a cycle [rad]
 
@@ -31,11 +31,3 @@ def drive(client: Client, state: State, positions: Positions, cycles: int, finis
 def hold(first: Sequence[float]) -> Positions:
     """The same positions in all cycles."""
     return lambda k: first
-
-
-def finish(client: Client, state: State, first: Sequence[float]) -> None:
-    """Ends a motion at its position; fails unless it succeeds."""
-    while state.mode == MOVE:  # the finishing command may be late or lost
-        state = drive(client, state, hold(first), 1, finish=True)[-1]
-    assert state.mode == IDLE, state.reasons
-    assert client.reply()[1][0] == 0

@@ -41,7 +41,7 @@ LAYOUTS = {
         2373,
         370,
         "d",
-        {"tau_J": 1016, "q": 1184, "q_d": 1240, "dq": 1296, "tau_ext": 1672},
+        {"q": 1184, "q_d": 1240, "dq": 1296, "tau_ext": 1672},
         2282,
         2323,
         2364,
@@ -53,7 +53,7 @@ LAYOUTS = {
         1377,
         371,
         "f",
-        {"tau_J": 512, "q": 596, "q_d": 624, "dq": 652, "tau_ext": 840},
+        {"q": 596, "q_d": 624, "dq": 652, "tau_ext": 840},
         1290,
         1331,
         1372,
@@ -96,12 +96,11 @@ class State:
         return struct.unpack_from("<7" + self.layout.number, self.data, self.layout.fields[field])
 
 
-def command(version: int, message_id: int, q=(0.0,) * 7, tau=(0.0,) * 7, finished=False) -> bytes:
-    """A command datagram with joint positions and torques."""
+def command(version: int, message_id: int, q=(0.0,) * 7, finished=False) -> bytes:
+    """A command datagram with joint positions, and torques of 0."""
     data = bytearray(LAYOUTS[version].command_size)
     struct.pack_into("<Q7d", data, 0, message_id, *q)
     data[313] = finished
-    struct.pack_into("<7d", data, 314, *tau)
     if version >= 7:
         data[370] = finished
     return bytes(data)
@@ -137,20 +136,15 @@ class Client:
         self.tcp.setsockopt(socket.SOL_SOCKET, socket.SO_LINGER, struct.pack("ii", 1, 0))
         self.close()
 
-    def message(self, number: int, payload: bytes = b"") -> bytes:
-        """A request with the next id, not sent."""
-        self.next_id += 1
-        return HEADER.pack(number, self.next_id - 1, HEADER.size + len(payload)) + payload
-
     def request(self, number: int, payload: bytes = b"") -> int:
-        message = self.message(number, payload)
-        self.tcp.sendall(message)
-        return self.next_id - 1
+        """@returns the request's id"""
+        identity, self.next_id = self.next_id, self.next_id + 1
+        self.tcp.sendall(HEADER.pack(number, identity, HEADER.size + len(payload)) + payload)
+        return identity
 
-    def connect(self, version: int | None = None) -> tuple[int, int]:
+    def connect(self) -> tuple[int, int]:
         """@returns status and the robot's version."""
-        udp_port = self.udp.getsockname()[1]
-        self.request(CONNECT, struct.pack("<HH", self.version if version is None else version, udp_port))
+        self.request(CONNECT, struct.pack("<HH", self.version, self.udp.getsockname()[1]))
         _, reply = self.reply()
         return reply[0], struct.unpack_from("<H", reply, 1)[0]
 

@@ -167,9 +167,6 @@ class Session:
         seen = attempt(lambda: self.client.move(motion, torque))
         return {**seen, "cycles": motion.cycles, "longest": motion.longest}
 
-    def mode(self):
-        return {"mode": self.client.mode()}
-
     def recover(self):
         return {**attempt(self.client.recover), "mode": self.client.mode()}
 
