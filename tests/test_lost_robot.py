@@ -1,44 +1,31 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Both nodes of franka_control survive the loss of a robot: silent, killed, restarted."""
+"""Both nodes of franka_control survive the loss of a robot: silent, killed, restarted.
+
+Sequences of losses and connections are in test_node_properties.py, and combined_test.cpp of franka_hw.
+"""
 
 import os
 import signal
 
 import pytest
 import rospy
-from actionlib_msgs.msg import GoalStatus
-from control_nodes import (
-    ERROR,
-    OK,
-    SUCCEEDED,
-    ControlNode,
-    Diagnosis,
-    arms_and_launch,
-    follow_pose,
-)
+from control_nodes import OK, SUCCEEDED, ControlNode, Diagnosis, arms_and_launch, follow_pose
 from franka_msgs.msg import ErrorRecoveryGoal
 from geometry_msgs.msg import PoseStamped
 from pyfranka.franka_sim import FrankaSim
-from pyfranka.sim import KINDS
-from ros_client import latest, launched, set_example_parameters, trigger
-from std_msgs.msg import String
+from pyfranka.sim import Panda
+from ros_client import launched, set_example_parameters
 from waiting import wait_for
 
-AGAIN = pytest.mark.long_form("the same once more, with automatic reconnection, and with an FR3")
-# Robots, the number of arms, and whether the node (with two arms: for the second) reconnects automatically.
+AGAIN = pytest.mark.long_form("the same with automatic reconnection")
+# Number of arms, and whether the node (with two arms: for the second) reconnects automatically.
 SETUPS = [
-    pytest.param(("panda", 1, False), id="panda"),
-    pytest.param(("panda", 1, True), id="panda reconnects", marks=AGAIN),
-    pytest.param(("fr3", 1, False), id="fr3", marks=AGAIN),
-    pytest.param(("fr3", 1, True), id="fr3 reconnects", marks=AGAIN),
+    pytest.param((1, False), id="one arm"),
+    pytest.param((1, True), id="one arm reconnects", marks=AGAIN),
 ]
-PAIRS = [
-    pytest.param(("panda", 2, True), id="2 panda"),
-    pytest.param(("fr3", 2, True), id="2 fr3", marks=AGAIN),
-]
+PAIRS = [pytest.param((2, True), id="two arms")]
 POSE, TRAJECTORY = "cartesian_impedance_example_controller", "effort_joint_trajectory_controller"
-TRAJECTORY_ALONE = "trajectory_controller_alone"
 
 pytestmark = pytest.mark.own_process("setup")
 one_arm = pytest.mark.parametrize("setup", SETUPS, indirect=True, scope="module")
@@ -53,13 +40,13 @@ def setup(request):
 class Node(ControlNode):
     """A node whose robots can be killed and started again."""
 
-    def __init__(self, kind, arms, session, reconnects):
+    def __init__(self, arms, session, reconnects):
         super().__init__(arms)
-        self._kind, self._addresses, self._session = kind, arms, session
+        self._addresses, self._session = arms, session
         self.reconnects, self.robots, self.diagnosis = reconnects, {}, Diagnosis(self.name[1:])
         self.controller = POSE if self.alone else TRAJECTORY
         if self.alone:
-            set_example_parameters(kind)
+            set_example_parameters("panda")
             self.target = rospy.Publisher(f"/{POSE}/equilibrium_pose", PoseStamped, queue_size=1)
         self.controllers.load(self.controller)
 
@@ -68,7 +55,7 @@ class Node(ControlNode):
         return self._session.log.read_text(errors="replace")
 
     def start(self, arm):
-        self.robots[arm.name] = FrankaSim(robot_at(self._kind, self._addresses[arm.name]), pace="patient")
+        self.robots[arm.name] = FrankaSim(robot_at(self._addresses[arm.name]), pace="patient")
         arm.operator = self.robots[arm.name].robot.remote
 
     def signal(self, arm, number):
@@ -77,11 +64,11 @@ class Node(ControlNode):
     def kill(self, arm):
         self.robots.pop(arm.name).kill()
 
-    def follow(self, arms=None, by=0.05, controller=TRAJECTORY):
+    def follow(self, by=0.05):
         """The controller moves its arms: joint by joint, or the only one to a pose."""
         if self.alone:
             return follow_pose(self.arms[0], self.target)
-        return self.move_joints(controller, by, 2.0, arms)
+        return self.move_joints(TRAJECTORY, by, 2.0)
 
     def connect(self):
         """Connects as soon as the robots accept connections."""
@@ -96,20 +83,20 @@ class Node(ControlNode):
         return len(self.controllers.states()) >= 2
 
 
-def robot_at(kind, address):
-    return KINDS[kind](address=address, hand="none")
+def robot_at(address):
+    return Panda(address=address, hand="none")
 
 
 @pytest.fixture(scope="module")
 def node(setup, tmp_path_factory):
-    kind, count, reconnects = setup
+    count, reconnects = setup
     folder = tmp_path_factory.mktemp("lost")
-    arms, launch = arms_and_launch(kind, count, 15, folder, reconnects)
-    robots = {name: FrankaSim(robot_at(kind, address), pace="patient") for name, address in arms.items()}
+    arms, launch = arms_and_launch("panda", count, 15, folder, reconnects)
+    robots = {name: FrankaSim(robot_at(address), pace="patient") for name, address in arms.items()}
     options = ["realtime_config:=ignore", "connect_timeout:=30"]
     try:
         with launched(*launch, *options, log=folder / "launch.log") as session:
-            node = Node(kind, arms, session, reconnects)
+            node = Node(arms, session, reconnects)
             node.robots = robots
             yield node
     finally:
@@ -124,8 +111,6 @@ def moving(node):
         if arm.name not in node.robots:
             node.start(arm)
     node.connect()
-    if TRAJECTORY_ALONE in node.controllers.running():
-        node.controllers.stop(TRAJECTORY_ALONE)
     node.prepare(node.controller)
     return node
 
@@ -161,25 +146,6 @@ def test_a_silent_robot_is_reported_and_comes_back(moving):
     check_comes_back(moving)
 
 
-@one_arm
-def test_a_robot_killed_in_a_recovery_and_restarted_is_connected_again(moving):
-    arm = moving.arms[0]
-    arm.push()
-    wait_for(lambda: arm.is_in("in reflex") and arm.has_error, "The reflex")
-    lost = moving.log.count("the robot is lost")
-    moving.signal(arm, signal.SIGSTOP)
-    goal = moving.recovery.send(ErrorRecoveryGoal())
-    wait_for(lambda: goal.get_goal_status() == GoalStatus.ACTIVE, "The begin of the recovery")
-    moving.kill(arm)
-    wait_for(lambda: moving.log.count("the robot is lost") > lost, "A report of the death")
-    assert moving.answers()
-    if not moving.reconnects:
-        success, message = moving.trigger("connect")
-        assert not success and "refused" in message
-    moving.start(arm)
-    check_comes_back(moving)
-
-
 @two_arms
 def test_the_diagnostics_report_each_arm(moving):
     moving.follow()
@@ -193,67 +159,15 @@ def test_the_diagnostics_report_each_arm(moving):
     moving.diagnosis.status_when("Control loop", lambda _, v: int(v["Cycles since the last report"]) > 0)
 
 
-def offers(arm):
-    """Services of an arm, out of those that this test uses."""
-    _, _, (_, _, services) = rospy.get_master().getSystemState()
-    names = {name for name, _ in services}
-    return [name for name in ("connect", "disconnect", "set_load") if arm.service(name) in names]
-
-
-def lose(node, arm):
-    """Kills an arm's robot; the other arm stops."""
-    (other,) = [other for other in node.arms if other != arm]
-    node.kill(arm)
-    wait_for(lambda: arm.has_error and other.has_error and other.is_in("idle"), "The report of the loss")
-    return other
-
-
-def load_alone(node, arm):
-    """Loads a controller for this arm only, configured like the one for both."""
-    if TRAJECTORY_ALONE not in node.controllers.states():
-        parameters = rospy.get_param(f"{node.name}/{TRAJECTORY}")
-        parameters["joints"] = [joint for joint in parameters["joints"] if joint.startswith(arm.name)]
-        rospy.set_param(f"{node.name}/{TRAJECTORY_ALONE}", parameters)
-        node.controllers.load(TRAJECTORY_ALONE)
-
-
-@two_arms
-def test_the_other_arm_moves_alone_while_the_lost_one_reconnects(moving):
-    arm = moving.arms[0]
-    other = lose(moving, arm)
-    assert moving.diagnosis.shows(arm.name, "Not connected to the robot")[:2] == (ERROR, arm.name)
-    assert latest(arm.service("abort"), String).data.startswith("libfranka: ")
-    status, text = moving.recover()
-    assert status == GoalStatus.ABORTED and f"{arm.name}: " in text and "connect" in text
-    success, message = trigger(arm.service("disconnect"))
-    assert not success and f"A controller commands '{arm.name}'" in message
-    moving.controllers.stop(TRAJECTORY)
-    assert trigger(arm.service("disconnect")) == (True, "")
-    moving.wait_for(lambda arm: not arm.has_error, "The end of the errors")
-    assert not moving.controllers.switches([TRAJECTORY]), "One of them is not there."
-    assert f"no controller can command '{arm.name}'" in moving.log
-    load_alone(moving, other)
-    moving.controllers.start(TRAJECTORY_ALONE)
-    wait_for(lambda: other.is_in("moving"), "The motion of the other arm")
-    moving.follow([other], 0.1, TRAJECTORY_ALONE)
-
-    moving.start(arm)
-    assert trigger(arm.service("connect")) == (True, "")
-    wait_for(lambda: arm.is_in("idle"), "The connection")
-    assert other.is_in("moving") and not other.has_error
-    assert moving.controllers.switches([TRAJECTORY], [TRAJECTORY_ALONE])
-    moving.wait_until_all_are("moving")
-    moving.follow(by=-0.05)
-
-
 @two_arms
 def test_an_arm_that_reconnects_automatically_moves_on_command(moving):
-    arm = moving.arms[1]
-    other = lose(moving, arm)
+    other, arm = moving.arms
+    moving.kill(arm)
+    wait_for(lambda: arm.has_error and other.has_error and other.is_in("idle"), "The report of the loss")
     moving.start(arm)
     shown = moving.diagnosis.status_when(arm.name, lambda _, values: values.get("Mode") == "Idle")
     assert shown[1] == arm.name
-    wait_for(lambda: "set_load" in offers(arm) and arm.is_in("idle"), "The connection")
+    wait_for(lambda: arm.is_in("idle"), "The connection")
     assert f"{arm.name}: the robot is lost." in moving.log
     assert "Trying to connect again every second." in moving.log
     begin = arm.state.time, other.state.time
