@@ -9,16 +9,13 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-import rigid_arm
 import rospy
 import tf2_ros
 import yaml
 from control_nodes import ERROR, OK, SUCCEEDED, WARN, ControlNode, Diagnosis
 from fci_session import simulated
-from franka_msgs.msg import FrankaState
 from pyfranka.plot import read_log
 from ros_client import call, launched
-from rosgraph_msgs.msg import Log
 from scipy.spatial.transform import Rotation
 from setters import SETTERS
 from tutorial import TOP, read
@@ -31,12 +28,7 @@ BRIEFLY = 50  # [ms]
 NO_COMMANDS = "The robot takes no commands in this mode"
 NEWEST = {"panda": 5, "fr3": 10}  # versions of the protocol
 REST = 1e-6  # [rad/s] of an arm at rest
-STILL = 1e-3  # [rad/s] of an arm at rest under a push
-SETTLED, SLOWLY_SETTLED = 0.6, 8.0  # [s] of the robot, from the first state that shows a push
 WIDE = {"torque": [60.0] * 7, "force": [60.0] * 6}  # thresholds that are never reached here [Nm], [N, Nm]
-SOFT_JOINTS = [600.0] * 7  # [Nm/rad]
-SOFT_HAND = [800.0, 800.0, 800.0, 60.0, 60.0, 60.0]  # [N/m], [Nm/rad]
-STIFF_JOINTS = [3000.0] * 7  # [Nm/rad]
 
 pytestmark = pytest.mark.own_process("robot")
 
@@ -55,19 +47,9 @@ class Node(ControlNode):
     def __init__(self, robot, address):
         super().__init__({robot: address})
         (self.arm,) = self.arms
-        self._chosen = ""  # the internal controller of the last switch
-        rospy.Subscriber("/rosout", Log, self._hear)
-        self.diagnosis, self.kept = Diagnosis("franka_control"), {}  # states by their stamp
-        rospy.Subscriber("/franka_state_controller/franka_states", FrankaState, self._keep)
+        self.diagnosis = Diagnosis("franka_control")
         self.controllers.load(CONTROLLER)
         self.frames = {"NE_T_EE": self.arm.state.NE_T_EE, "EE_T_K": self.arm.state.EE_T_K}
-
-    def _keep(self, state):
-        self.kept[state.header.stamp.to_nsec()] = state
-
-    def _hear(self, line):
-        if "prepared switching" in line.msg:
-            self._chosen = line.msg.rpartition("internal_controller=")[2]
 
     def wait_for_rest(self):
         wait_for(lambda: self.arm.is_in("idle") and max(map(abs, self.arm.state.dq)) < REST, "Rest", LONG)
@@ -80,56 +62,14 @@ class Node(ControlNode):
     def sets(self, name, **values):
         assert self.set(name, **values) == (True, "")
 
-    def start(self, internal_controller="joint_impedance"):
-        """Starts the controller. The node reads the parameter in the background, so that a switch may come
-        too early for it."""
-        rospy.set_param("/franka_control/internal_controller", internal_controller)
-
-        def chosen():
-            self._chosen = ""
-            self.controllers.start(CONTROLLER)
-            wait_for(lambda: self.arm.is_in("moving"), "The motion")
-            wait_for(lambda: self._chosen, "A report of the switch")
-            return self._chosen == internal_controller or self.stop()
-
-        wait_for(chosen, internal_controller)
+    def start(self):
+        self.controllers.start(CONTROLLER)
+        wait_for(lambda: self.arm.is_in("moving"), "The motion")
 
     def stop(self):
         """Stops the controller, and waits for the states that show it: the next Move is another one."""
         self.controllers.stop(CONTROLLER)
         wait_for(lambda: not self.arm.is_in("moving"), "The end of the motion")
-        free = 0.1 * abs(PUSH[2])
-        wait_for(lambda: abs(self.arm.state.O_F_ext_hat_K[2]) < free, "The end of the push", LONG)
-
-    def push(self, settling=SETTLED):
-        """Pushes the moving arm until it rests under the push; returns its state before, and one at rest.
-
-        Topics drop messages on a busy machine: if too many are missing, the arm is pushed again, for twice as
-        long each time.
-        """
-        before = self.arm.state
-        for times in (1, 2, 4, 8, 16):
-            seconds = (settling + 0.4) * times
-            self.kept = {}
-            self.arm.operator.push(f"{self.arm.name}_link7", PUSH, ticks=round(1000 * seconds))
-            felt = self.states_of_push(seconds)
-            # A state of an earlier moment may arrive late, so the last one must show an arm at rest.
-            if felt and felt[-1].time - felt[0].time > settling and max(map(abs, felt[-1].dq)) < STILL:
-                return before, felt[-1]
-        raise AssertionError(f"{len(felt)} states were published under a push of {seconds} s.")
-
-    def states_of_push(self, seconds):
-        """States during a push of that duration, collected until published states are past its end."""
-        felt = []
-
-        def is_over():
-            states = [s for _, s in sorted(self.kept.copy().items())]
-            felt[:] = [s for s in states if abs(s.O_F_ext_hat_K[2]) > 0.8 * abs(PUSH[2])]
-            end = felt[-1].time + 0.3 if felt else states[0].time + 2 * seconds if states else 0.0
-            return states and states[-1].time >= end
-
-        wait_for(is_over, "The end of the push", LONG)
-        return felt
 
 
 @pytest.fixture(scope="module")
@@ -155,25 +95,10 @@ def resting(node):
     node.sets("set_load", mass=0.0, F_x_center_load=[0.0] * 3, load_inertia=[0.0] * 9)
     node.sets("set_EE_frame", NE_T_EE=node.frames["NE_T_EE"])
     node.sets("set_K_frame", EE_T_K=node.frames["EE_T_K"])
-    node.sets("set_joint_impedance", joint_stiffness=STIFF_JOINTS)
     node.sets("set_full_collision_behavior", **thresholds())
     wait_for(lambda: apart(node.arm.state.EE_T_K, node.frames["EE_T_K"]) < 1e-6, "The first frames")
     wait_for(lambda: node.arm.state.m_load == 0.0, "The end of the load")
     return node
-
-
-@pytest.fixture
-def configured(resting):
-    """The same with frames and a load."""
-    for name, (values, _) in good_values().items():
-        resting.sets(name, **values)
-    # While the world runs, states show it.
-    resting.arm.operator.push(f"{resting.arm.name}_link7", (0, 0, 0), ticks=10)
-    hand = good_values()["set_EE_frame"][1]["NE_T_EE"]
-    wait_for(lambda: apart(resting.arm.state.NE_T_EE, hand) < 1e-6, "The new frame")
-    wait_for(lambda: shown_pose_is_apart(resting.arm.state) < 1e-5, "The pose of the new frame")
-    resting.wait_for_rest()
-    return resting
 
 
 def transform(position=(0, 0, 0), about_x=0.0, about_z=0.0):
@@ -183,12 +108,6 @@ def transform(position=(0, 0, 0), about_x=0.0, about_z=0.0):
     matrix[:3, :3] = np.array([[1, 0, 0], [0, cx, -sx], [0, sx, cx]]) @ [[cz, -sz, 0], [sz, cz, 0], [0, 0, 1]]
     matrix[:3, 3] = position
     return matrix
-
-
-def torques_of_push(q):
-    """J^T F at the origin of the seventh link [Nm]."""
-    links = rigid_arm.poses(q)
-    return rigid_arm.jacobian(links, links[7, :3, 3])[:3].T @ PUSH
 
 
 def matrix(columns):
@@ -213,12 +132,6 @@ def apart(a, b):
     return float(np.abs(np.asarray(a, float) - np.asarray(b, float)).max())
 
 
-def shown_pose_is_apart(state):
-    """Difference between a state's O_T_EE and the pose from its joints and frames."""
-    pose = rigid_arm.poses(state.q)[rigid_arm.FLANGE] @ matrix(state.F_T_NE) @ matrix(state.NE_T_EE)
-    return apart(matrix(state.O_T_EE), pose)
-
-
 def thresholds(**changed):
     """Arguments of set_full_collision_behavior: wide, except those named as in lower_force=5."""
     arguments = {}
@@ -236,7 +149,7 @@ def nominal(**changed):
 
 
 def good_values():
-    """Request of each setter, and the state's field that shows it (None: only the motion shows it)."""
+    """Requests of the setters that the state shows, with its fields."""
     hand = transform((0.01, -0.02, 0.15), 0.0, 0.5)
     stiffness = transform((0.0, 0.0, 0.05), 0.3)
     inertia = np.diag([1e-3, 2e-3, 2.5e-3]).flatten().tolist()
@@ -285,14 +198,14 @@ def test_impossible_values_are_refused(node):
     assert apart(node.arm.state.q, before) < 1e-6
 
 
-def test_published_states_match_the_robots_states(configured):
-    arm = configured.arm
-    # The robot's own report, besides its client's: they agree as soon as the last of the motion has ended.
-    wait_for(lambda: apart(arm.operator.state().q, arm.state.q) < 1e-5, "The same joints in both reports")
-
-
-def test_transforms_connect_the_base_with_the_end_effector(robot, configured):
-    """The chain of /tf against the robot's O_T_EE."""
+def test_transforms_connect_the_base_with_the_end_effector(robot, resting):
+    """The chain of /tf against the robot's O_T_EE, with frames and a load."""
+    for name, (values, _) in good_values().items():
+        resting.sets(name, **values)
+    # While the world runs, states show it.
+    resting.arm.operator.push(f"{robot}_link7", (0, 0, 0), ticks=10)
+    hand = good_values()["set_EE_frame"][1]["NE_T_EE"]
+    wait_for(lambda: apart(resting.arm.state.NE_T_EE, hand) < 1e-6, "The new frame")
     buffer = tf2_ros.Buffer()
     listener = tf2_ros.TransformListener(buffer)
 
@@ -300,37 +213,10 @@ def test_transforms_connect_the_base_with_the_end_effector(robot, configured):
         if not buffer.can_transform(f"{robot}_link0", f"{robot}_EE", rospy.Time()):
             return False
         found = buffer.lookup_transform(f"{robot}_link0", f"{robot}_EE", rospy.Time()).transform
-        return apart(matrix_of(found), matrix(configured.arm.state.O_T_EE)) < 1e-5
+        return apart(matrix_of(found), matrix(resting.arm.state.O_T_EE)) < 1e-5
 
     wait_for(match, "A transform that matches")
     listener.unregister()
-
-
-def test_joint_impedance_and_thresholds_of_forces_take_effect(resting):
-    resting.sets("set_joint_impedance", joint_stiffness=SOFT_JOINTS)
-    resting.sets("set_force_torque_collision_behavior", **nominal(lower_force=5.0))
-    resting.start()
-    before, last = resting.push()
-    expected = torques_of_push(np.array(last.q))
-    spring = np.array(SOFT_JOINTS) * (np.array(last.q) - np.array(last.q_d))
-    assert apart(spring, expected) / np.abs(expected).max() < 0.02  # K (q - q_d) against J^T F
-    # The robot's estimate.
-    assert apart(last.tau_ext_hat_filtered, -expected) / np.abs(expected).max() < 0.02
-    assert not any(before.cartesian_contact)
-    assert any(last.cartesian_contact) and not any(last.joint_contact)
-    assert last.robot_mode == FrankaState.ROBOT_MODE_MOVE
-
-
-def test_cartesian_impedance_and_thresholds_of_torques_take_effect(resting):
-    resting.sets("set_cartesian_impedance", cartesian_stiffness=SOFT_HAND)
-    resting.sets("set_full_collision_behavior", **thresholds(lower_torque=2.0))
-    resting.start("cartesian_impedance")
-    before, last = resting.push(SLOWLY_SETTLED)  # the null space comes to rest slowly
-    moved = np.array(last.O_T_EE[12:15]) - np.array(before.O_T_EE_d[12:15])
-    x, y, z = moved / (PUSH[2] / SOFT_HAND[2])  # the hand's displacement over F / K
-    assert z == pytest.approx(1.0, abs=0.01)
-    assert abs(x) < 0.01 and abs(y) < 0.01
-    assert not any(last.cartesian_contact) and any(last.joint_contact)
 
 
 def test_a_reflex_is_published_and_logged(robot, resting, tmp_path):
@@ -437,4 +323,4 @@ def test_robot_services_exist_only_while_connected(resting):
         assert resting.trigger("connect") == (True, "")
     assert len(offered()) == 8
     assert resting.diagnosis.shows("Robot", "Ready")[0] == OK
-    resting.sets("set_joint_impedance", joint_stiffness=STIFF_JOINTS)
+    resting.sets("set_joint_impedance", joint_stiffness=[3000.0] * 7)
