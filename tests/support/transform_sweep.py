@@ -30,12 +30,12 @@ class Perturbed:
         return [float(entry) for entry in self.matrix.T.ravel()]
 
 
-def perturbations(matrix, exponents=EXPONENTS) -> Iterator[Perturbed]:
+def perturbations(matrix) -> Iterator[Perturbed]:
     """Errors of 1e-17 to 1e-6, of either sign, on each entry. The bottom row must be exact unless rounding
     hides the error; all other entries have a tolerance."""
     for column in range(4):
         for row in range(4):
-            for exponent in exponents:
+            for exponent in EXPONENTS:
                 error = (1 if exponent % 2 == 0 else -1) * 10.0**exponent
                 perturbed = numpy.array(matrix, dtype=float)
                 perturbed[row, column] += error
@@ -43,16 +43,13 @@ def perturbations(matrix, exponents=EXPONENTS) -> Iterator[Perturbed]:
                 yield Perturbed(perturbed, row, column, error, row < 3 or bool(hidden))
 
 
-def check(
-    matrix, refusal: Callable[[Perturbed], str], because: str = "exactly 0 0 0 1", exponents=EXPONENTS
-) -> None:
+def check(matrix, refusal: Callable[[Perturbed], str], because: str = "exactly 0 0 0 1") -> None:
     """Sends every perturbed matrix through an entrance.
 
     @param refusal returns the entrance's message if it refuses a matrix, else "" @param because a part of it
-    @param exponents of ten, of the errors
     """
     disagreeing = []
-    for perturbed in perturbations(matrix, exponents):
+    for perturbed in perturbations(matrix):
         text = refusal(perturbed)
         if perturbed.accepted != (text == "") or (text and because not in text):
             disagreeing.append(f"{perturbed}: {text or 'accepted'}")
