@@ -228,45 +228,6 @@ except Exception as error:
     assert 'not possible in the current mode ("User stopped")' in output
 
 
-def test_a_virtual_wall_stops_the_hand(robot):
-    """A wall as in Desk: the hand moves down to its top, and further once it is removed."""
-    script = """
-import math, sys
-from panda_py import libfranka
-robot = libfranka.Robot(sys.argv[1])
-time = [0.0]
-def down(state, period):
-    time[0] += period.to_sec()
-    speed = 0.1 * math.sin(math.pi * min(time[0] / 2.0, 1.0)) ** 2
-    command = libfranka.CartesianVelocities([0, 0, -speed, 0, 0, 0])
-    command.motion_finished = time[0] >= 2.0
-    return command
-before = robot.read_once().O_T_EE[14]
-try:
-    robot.control_cartesian_velocity(down, libfranka.ControllerMode.kJointImpedance, False)
-    print("ended well")
-except Exception as error:
-    print(error)
-    robot.automatic_error_recovery()
-print(before, robot.read_once().O_T_EE[14])
-"""
-
-    def go_down():
-        text = run_panda(script, robot)
-        return text, *map(float, text.split()[-2:])
-
-    # Rotated by half a turn: the same wall.
-    robot.remote.wall(2, (0.3, 0, 0.2), (1, 1, 0.5), (0, 0, 0, 2))
-    text, before, after = go_down()
-    assert before > 0.48
-    assert '["cartesian_position_limits_violation"]' in text
-    assert after == pytest.approx(0.45, abs=0.005)
-    robot.remote.remove_wall(2)
-    text, before, after = go_down()
-    assert "ended well" in text
-    assert after == pytest.approx(before - 0.1, abs=1e-3)
-
-
 def test_a_new_arm_makes_a_very_small_motion(robot):
     """Clients may divide by the remaining distance; a real arm never reaches its target bit for bit."""
     script = """
