@@ -85,19 +85,10 @@ def test_a_late_command_is_ended_with_its_children():
     assert done.returncode == 124 and "did not end within 0.5 s" in done.stderr
 
 
-@pytest.mark.parametrize(
-    ("words", "sentence"),
-    [
-        (["--realism=perfect"], "perfect"),
-        (["--address=8.8.8.8"], "8.8.8.8"),
-        (["--world=nowhere.xml"], "nowhere.xml"),
-        (["--option=--fast"], "--fast"),
-    ],
-)
-def test_a_robot_that_cannot_start_is_reported_before_the_command(words, sentence):
-    done = run(*words, "--", "echo", "mine")
+def test_a_robot_that_cannot_start_is_reported_before_the_command():
+    done = run("--world=nowhere.xml", "--", "echo", "mine")
     assert (done.returncode, done.stdout) == (125, ""), done.stderr
-    assert "the robot did not start:" in done.stderr and sentence in done.stderr
+    assert "the robot did not start:" in done.stderr and "nowhere.xml" in done.stderr
 
 
 def test_a_robot_that_ends_before_the_command_is_a_failure():
@@ -120,8 +111,6 @@ def test_a_command_that_cannot_be_run_is_reported(command, status):
         ([], "a command is missing"),
         (["--robot=ur5", "--", "true"], 'there is no robot "ur5"; there are panda, fr3'),
         (["--robot=fr3", "--launch=a b.launch", "--", "true"], "exclude each other"),
-        (["--timeout=-1", "--", "true"], "invalid seconds value: '-1'"),
-        (["--fast", "--", "true"], "unrecognized arguments: --fast"),
     ],
 )
 def test_wrong_arguments_are_refused(words, sentence):
