@@ -45,7 +45,7 @@ class NodeMachine(Machine):
     def start(self):
         arms = self.node.arms
         self.unsure = set()  # lost in an error: whether it is in error afterwards depends on the moment
-        self.were_lost = set()  # since their recovery, before which they do not go on by themselves
+        self.stay = set()  # lost, or started in an error: they do not go on by themselves before a recovery
         for arm in arms:
             for source in STOPS[self.robot]:
                 arm.operator.send(f"{source} off")
@@ -149,7 +149,7 @@ class NodeMachine(Machine):
         (self.pressed[arm.name].add if on else self.pressed[arm.name].discard)(source)
         if stopped and not self.pressed[arm.name]:
             mode = arm.operator.wait(lambda state: state.mode != "User stopped").mode
-            goes_on = self.node.alone and arm.name not in self.were_lost
+            goes_on = self.node.alone and arm.name not in self.stay
             if goes_on and mode in ("Idle", "Move"):  # franka_control_node goes on by itself
                 self.forget_errors({arm.name})
         for other, report in zip(others, before):
@@ -167,7 +167,7 @@ class NodeMachine(Machine):
             self.stops(arm.name)
         arm.operator.deactivate_fci()
         self.lost.add(arm.name)
-        self.were_lost.add(arm.name)
+        self.stay.add(arm.name)
         self.check()
 
     @rule(when=lambda self: self.lost)
@@ -201,7 +201,7 @@ class NodeMachine(Machine):
         self.check()
 
     def forget_errors(self, names: set[str]) -> None:
-        for errors in (self.failed, self.needy, self.unsure, self.were_lost):
+        for errors in (self.failed, self.needy, self.unsure, self.stay):
             errors -= names
 
     @rule(when=lambda self: not self.is_off())
@@ -215,6 +215,7 @@ class NodeMachine(Machine):
         names = [CONTROLLER]
         if self.node.controllers.switches(**({"start": names} if start else {"stop": names})):
             self.runs = start
+            self.stay |= self.needy if start else set()
         self.check()
 
     @rule(when=lambda self: not self.waits(), by=st.sampled_from([0.01, -0.01]), refused=st.booleans())

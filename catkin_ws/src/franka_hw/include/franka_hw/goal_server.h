@@ -3,10 +3,9 @@
 #pragma once
 
 #include <actionlib/server/action_server.h>
-#include <ros/callback_queue.h>
+#include <realtime_tools/own_callbacks.h>
 #include <ros/console.h>
 #include <ros/node_handle.h>
-#include <ros/spinner.h>
 
 #include <atomic>
 #include <condition_variable>
@@ -23,10 +22,6 @@ namespace franka_hw {
 /// differences. Goals are ordered by their arrival, not by their stamps: after a clock that jumped
 /// back, stamps would cancel every goal. And a goal that cannot be carried out is aborted at its
 /// arrival, so that it ends no other goal.
-///
-/// Its callbacks have a queue and a thread of their own, which end before it does: roscpp 1.15 does
-/// not wait for a callback that runs when its timer or subscriber goes, and a status that is
-/// published then ends the process.
 ///
 /// Thread-safe. Not real-time safe.
 template <class Action>
@@ -50,11 +45,11 @@ class GoalServer {
         carry_out_(std::move(carry_out)),
         check_(std::move(check)),
         server_(
-            withOwnQueue(node), name, [this](Handle handle) { arrive(handle); },
+            callbacks_.of(node), name, [this](Handle handle) { arrive(handle); },
             [this](Handle handle) { cancel(handle); }, false) {}
   ~GoalServer() {
     shutdown();
-    spinner_.stop();
+    callbacks_.stop();  // a status that is published in the destructor ends the process
   }
   GoalServer(const GoalServer&) = delete;
   GoalServer& operator=(const GoalServer&) = delete;
@@ -63,7 +58,7 @@ class GoalServer {
   void start() {
     thread_ = std::thread([this] { run(); });
     server_.start();
-    spinner_.start();
+    callbacks_.start();
   }
 
   /// Waits for the end of the goal that runs. The waiting goal and later ones are canceled. Must
@@ -103,11 +98,6 @@ class GoalServer {
 
  private:
   using Handle = typename actionlib::ActionServer<Action>::GoalHandle;
-
-  ros::NodeHandle withOwnQueue(ros::NodeHandle node) {
-    node.setCallbackQueue(&queue_);
-    return node;
-  }
 
   void arrive(Handle& goal) {
     Result result;
@@ -187,8 +177,7 @@ class GoalServer {
   bool ending_{false};
   std::atomic<bool> preempt_requested_{false};
   std::thread thread_;
-  ros::CallbackQueue queue_;
-  ros::AsyncSpinner spinner_{1, &queue_};
+  realtime_tools::OwnCallbacks callbacks_;
   actionlib::ActionServer<Action> server_;
 };
 

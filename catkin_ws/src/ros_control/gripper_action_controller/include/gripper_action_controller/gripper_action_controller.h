@@ -10,6 +10,7 @@
 #include <joint_trajectory_controller/internal/command_exchange.h>
 #include <joint_trajectory_controller/internal/realtime_goal.h>
 #include <realtime_tools/latest_value.h>
+#include <realtime_tools/own_callbacks.h>
 #include <realtime_tools/realtime_server_goal_handle.h>
 #include <ros/node_handle.h>
 
@@ -139,6 +140,7 @@ class GripperActionController : public controller_interface::Controller<Hardware
   std::recursive_mutex mutex_;
   boost::shared_ptr<RealtimeGoal> active_goal_;
   std::uint64_t active_goal_session_{0};
+  realtime_tools::OwnCallbacks callbacks_;
   std::shared_ptr<ActionServer> action_server_;
   ros::WallTimer monitor_timer_;
 };

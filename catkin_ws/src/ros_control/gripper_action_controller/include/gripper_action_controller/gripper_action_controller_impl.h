@@ -17,8 +17,7 @@ namespace gripper_action_controller {
 
 template <class HardwareInterface>
 GripperActionController<HardwareInterface>::~GripperActionController() {
-  // Callbacks must end before the objects that they use.
-  monitor_timer_.stop();
+  callbacks_.stop();  // before the objects that they use
   try {
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
     endGoal("The controller '" + name_ + "' was unloaded.");
@@ -101,13 +100,15 @@ bool GripperActionController<HardwareInterface>::init(HardwareInterface* hw,
   if (!hw_iface_adapter_.init(joint_, controller_nh)) {
     return false;
   }
+  ros::NodeHandle own = callbacks_.of(controller_nh);
   action_server_ = std::make_shared<ActionServer>(
-      controller_nh, "gripper_cmd",
+      own, "gripper_cmd",
       boost::bind(&GripperActionController::goalCB, this, boost::placeholders::_1),
       boost::bind(&GripperActionController::cancelCB, this, boost::placeholders::_1), false);
   action_server_->start();
-  monitor_timer_ = controller_nh.createWallTimer(ros::WallDuration(1.0 / action_monitor_rate_),
-                                                 &GripperActionController::monitor, this);
+  monitor_timer_ = own.createWallTimer(ros::WallDuration(1.0 / action_monitor_rate_),
+                                       &GripperActionController::monitor, this);
+  callbacks_.start();
   return true;
 }
 

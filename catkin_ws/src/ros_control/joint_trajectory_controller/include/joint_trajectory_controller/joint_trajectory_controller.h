@@ -19,6 +19,7 @@
 #include <joint_trajectory_controller/joint_trajectory_segment.h>
 #include <joint_trajectory_controller/stop_trajectory_builder.h>
 #include <realtime_tools/latest_value.h>
+#include <realtime_tools/own_callbacks.h>
 #include <realtime_tools/realtime_box.h>
 #include <realtime_tools/realtime_buffer.h>
 #include <realtime_tools/realtime_publisher.h>
@@ -132,6 +133,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
   TimeData time_data_;
 
   ros::NodeHandle controller_nh_;
+  realtime_tools::OwnCallbacks callbacks_;
   ros::Subscriber trajectory_command_sub_;
   ActionServerPtr action_server_;
   ros::ServiceServer query_state_service_;

@@ -80,10 +80,7 @@ JointTrajectoryController<SegmentImpl, HardwareInterface>::JointTrajectoryContro
 
 template <class SegmentImpl, class HardwareInterface>
 JointTrajectoryController<SegmentImpl, HardwareInterface>::~JointTrajectoryController() {
-  // Callbacks must end before the objects that they use.
-  monitor_timer_.stop();
-  trajectory_command_sub_.shutdown();
-  query_state_service_.shutdown();
+  callbacks_.stop();  // before the objects that they use
   try {
     const std::lock_guard<std::recursive_mutex> lock(mutex_);
     cancelActiveGoal("The controller '" + name_ + "' was unloaded.");
@@ -230,16 +227,17 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::openInterfaces(
   msg.error.positions = msg.error.velocities = zeros;
   state_publisher_->init(controller_nh, "state", 1);
 
-  trajectory_command_sub_ = controller_nh.subscribe("command", 1, &Self::trajectoryCommandCB, this);
-  query_state_service_ =
-      controller_nh.advertiseService("query_state", &Self::queryStateService, this);
+  ros::NodeHandle own = callbacks_.of(controller_nh);
+  trajectory_command_sub_ = own.subscribe("command", 1, &Self::trajectoryCommandCB, this);
+  query_state_service_ = own.advertiseService("query_state", &Self::queryStateService, this);
   action_server_ = std::make_shared<ActionServer>(
-      controller_nh, "follow_joint_trajectory", [this](GoalHandle gh) { goalCB(gh); },
+      own, "follow_joint_trajectory", [this](GoalHandle gh) { goalCB(gh); },
       [this](GoalHandle gh) { cancelCB(gh); }, false);
   action_server_->start();
   // Wall time: clients get the result of their goals also while simulated time stands still.
-  monitor_timer_ = controller_nh.createWallTimer(ros::WallDuration(1.0 / action_monitor_rate_),
-                                                 &Self::monitor, this);
+  monitor_timer_ =
+      own.createWallTimer(ros::WallDuration(1.0 / action_monitor_rate_), &Self::monitor, this);
+  callbacks_.start();
 }
 
 }  // namespace joint_trajectory_controller
