@@ -67,8 +67,8 @@ class ServiceContainer {
 /// set_cartesian_impedance, set_EE_frame, set_K_frame, set_force_torque_collision_behavior,
 /// set_full_collision_behavior and set_load. While a motion holds the robot they are refused at
 /// once, with instructions for the user, instead of waiting for its end.
-/// @param robot outlives the services: whoever deletes it deletes them first, and then holds the
-/// mutex @param robot_mutex is held by threads that use the robot; outlives the last call
+/// @param robot outlives the services, and is deleted under the mutex
+/// @param robot_mutex is held by threads that use the robot; outlives the last call
 void setupServices(franka::Robot& robot, RobotMutex& robot_mutex, ros::NodeHandle& node_handle,
                    ServiceContainer& services);
 /// The same for any mutex. It does not show whether a motion holds it: the services are refused
