@@ -75,6 +75,15 @@ TEST(CheckedRequest, RefusesMatricesThatAreNotTransforms) {
   EXPECT_NO_THROW(checkedRequest(franka_msgs::SetLoad::Request()));
 }
 
+TEST(Setters, PassStiffnessesOn) {
+  franka_msgs::SetJointImpedance::Request joints;
+  joints.joint_stiffness.fill(1.0);
+  EXPECT_EQ((std::vector<double>{1.0}), recordOf(joints).firsts);
+  franka_msgs::SetCartesianImpedance::Request cartesian;
+  cartesian.cartesian_stiffness.fill(2.0);
+  EXPECT_EQ((std::vector<double>{2.0}), recordOf(cartesian).firsts);
+}
+
 TEST(Setters, PassTheLoadOn) {
   franka_msgs::SetLoad::Request request;
   request.mass = 1.0;

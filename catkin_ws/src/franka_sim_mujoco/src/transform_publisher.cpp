@@ -51,22 +51,17 @@ TransformPublisher::TransformPublisher(const ros::NodeHandle& node, const urdf::
     : urdf_(urdf),
       tf_prefix_(readPrefix(node)),
       publisher_(treeOf(urdf), urdf),
-      node_(node),
-      spinner_(1, &queue_) {
+      node_(callbacks_.of(node)) {
   constexpr bool kStatic = true;
   publisher_.publishFixedTransforms(tf_prefix_, kStatic);
-  node_.setCallbackQueue(&queue_);
   const boost::function<void(const sensor_msgs::JointState&)> callback =
       [this](const sensor_msgs::JointState& state) { publish(state); };
   subscriber_ = node_.subscribe<sensor_msgs::JointState, const sensor_msgs::JointState&>(
       "joint_states", kQueueSize, callback);
-  spinner_.start();
+  callbacks_.start();
 }
 
-TransformPublisher::~TransformPublisher() {
-  subscriber_.shutdown();
-  spinner_.stop();
-}
+TransformPublisher::~TransformPublisher() { callbacks_.stop(); }
 
 void TransformPublisher::publish(const sensor_msgs::JointState& state) {
   std::map<std::string, double> positions;

@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <realtime_tools/own_callbacks.h>
 #include <robot_state_publisher/robot_state_publisher.h>
-#include <ros/callback_queue.h>
 #include <ros/node_handle.h>
-#include <ros/spinner.h>
 #include <ros/subscriber.h>
 #include <sensor_msgs/JointState.h>
 #include <urdf/model.h>
@@ -44,10 +43,9 @@ class TransformPublisher {
   std::mutex mutex_;
   std::condition_variable was_sent_;
   ros::Time sent_;  ///< time of the last transforms; guarded by mutex_
-  ros::CallbackQueue queue_;
+  realtime_tools::OwnCallbacks callbacks_;
   ros::NodeHandle node_;
   ros::Subscriber subscriber_;
-  ros::AsyncSpinner spinner_;
 };
 
 }  // namespace franka_sim_mujoco

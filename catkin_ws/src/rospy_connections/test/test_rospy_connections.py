@@ -121,7 +121,7 @@ def set_time(monkeypatch):
 
 
 def test_plain_rospy_loses_a_publisher_announced_before_the_masters_answer():
-    """If this fails, Debian has fixed rospy, and this package is no longer needed."""
+    """If this fails, Debian has fixed rospy, and this package can go."""
     assert connections([PUBLISHER], [], expected=0) == set()
 
 
@@ -141,7 +141,7 @@ def test_no_publisher_is_lost(mended, updates, expected):
 
 
 def test_plain_rospy_loses_a_publisher_that_comes_back(monkeypatch):
-    """If this fails, Debian has fixed rospy, and this part of the package is no longer needed."""
+    """If this fails, Debian has fixed rospy, and this part of the package can go."""
     assert not connects_to_what_came_back(monkeypatch)
 
 
@@ -178,7 +178,7 @@ def can_publish_before_the_subscriber_is_added(monkeypatch) -> bool:
 
 
 def test_plain_rospy_publishes_before_the_subscriber_is_added(monkeypatch):
-    """If this fails, Debian has fixed rospy, and this part of the package is no longer needed."""
+    """If this fails, Debian has fixed rospy, and this part of the package can go."""
     assert can_publish_before_the_subscriber_is_added(monkeypatch)
 
 

@@ -120,7 +120,7 @@ TEST_F(GoalServerTest, CancelsTheWaitingGoalAtItsShutdown) {
   EXPECT_EQ(1, begun_);
 }
 
-// roscpp of Debian does not wait for a callback that runs when its timer or subscriber goes.
+// roscpp does not wait for the callback of a timer that is destroyed (own_callbacks.h).
 TEST_F(GoalServerTest, EndsWhileItsStatusIsPublished) {
   nh_.setParam("actionlib_status_frequency", 1e5);
   std::atomic_int received{0};
