@@ -377,7 +377,7 @@ bool Host::waitForClients() {
     robots_->dropSilentClients(waited_ >= pace_.patience);
     return true;
   }
-  robots_->publishWhileWaiting(now);
+  robots_->publishWhileWaiting(now, waited_);
   robots_->pollUntil(now + kTick);
   return true;
 }

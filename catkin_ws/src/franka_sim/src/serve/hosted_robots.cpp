@@ -27,7 +27,9 @@ constexpr std::chrono::milliseconds kRepeatPeriod{300};
 /// Before its first command a client needs two states that show the motion; they are sent at once.
 /// Further states are for a client that missed them. They come as slowly as the client's timeout of
 /// a second allows: each state that arrives while a starved client works on its first answer puts
-/// its clock, which counts states, ahead of the arm's, and runs would not repeat (chosen here).
+/// its clock, which counts states, ahead of the arm's, and runs would not repeat. So the time in
+/// which this process did not run does not count, and repeats keep the client waiting (chosen
+/// here).
 constexpr int kPromptStarts = 2;
 constexpr std::chrono::milliseconds kLaterStarts{600};
 
@@ -107,15 +109,15 @@ void HostedRobots::reportPublished() {
 // Other clients must see that the robots are there. A state that shows a motion's client nothing
 // new keeps its number: the motion's clock, which counts states, stands still as well. A client
 // that has not answered gets no new state; it must answer the last one.
-void HostedRobots::publishWhileWaiting(Clock::time_point now) {
+void HostedRobots::publishWhileWaiting(Clock::time_point now, Clock::duration waited) {
   for (Entry& entry : entries_) {
-    if (entry.isStarting()) {
-      // Before its first command a client receives states without answering them.
-      if (now - entry.shown_at >=
-          (entry.starts_shown < kPromptStarts ? kStateInterval : kLaterStarts)) {
-        publish(entry, true, now);
-        entry.starts_shown++;
-      }
+    const Clock::duration interval =
+        entry.starts_shown < kPromptStarts ? Clock::duration(kStateInterval) : kLaterStarts;
+    // Before its first command a client receives states without answering them.
+    if (entry.isStarting() && waited - entry.start_shown_after >= interval) {
+      publish(entry, true, now);
+      entry.starts_shown++;
+      entry.start_shown_after = waited;
     } else {
       repeatIfDue(entry, now);
     }
@@ -208,6 +210,7 @@ void HostedRobots::pollUntil(Clock::time_point deadline) {
 void HostedRobots::beginWait() {
   for (Entry& entry : entries_) {
     entry.starts_shown = entry.isDue() ? 1 : 0;
+    entry.start_shown_after = {};
   }
 }
 

@@ -36,7 +36,8 @@ class HostedRobots {
   /// While the world is halted: shows clients that the robots are there.
   void publishHalted();
   /// While a tick waits for the clients of motions.
-  void publishWhileWaiting(Clock::time_point now);
+  /// @param waited for clients in this tick, without the time in which this process did not run
+  void publishWhileWaiting(Clock::time_point now, Clock::duration waited);
   /// While a tick waits for something else: to clients that need not answer.
   /// @returns whether there are any
   bool publishToOthers(Clock::time_point now);
@@ -72,6 +73,7 @@ class HostedRobots {
     bool given_up{false};  // silent for too long in lock-step
     bool silence_reported{false};
     int starts_shown{0};  // states sent to a client that has not sent its first command
+    Clock::duration start_shown_after{};  // waiting for it in this tick
     Clock::time_point shown_at{};
     std::optional<Clock::time_point> ended_at{};  // first shown without a motion
     std::uint64_t unpublished_ticks{1};

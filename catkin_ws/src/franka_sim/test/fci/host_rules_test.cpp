@@ -351,6 +351,19 @@ TEST_F(HostRules, DelaysOfTheHostDoNotCountAsSilenceOfClients) {
   EXPECT_EQ(1, robot.answered);
 }
 
+TEST_F(HostRules, DelaysOfTheHostDoNotPutTheClockOfAStartingClientAhead) {
+  Pace pace = waiting(PaceMode::kLockStep);
+  pace.patience = std::chrono::seconds(2);
+  use(pace);
+  robot.moving = true;
+  robot.begun = robot.answers = false;
+  clock.on_wait = [&] { clock.advance(milliseconds(20)); };
+  const milliseconds time = timeOf(1);
+  EXPECT_GT(time, std::chrono::seconds(15));
+  EXPECT_EQ(2 + 3, robot.published + robot.repeated) << "two at once, then one each 0.6 s";
+  EXPECT_GE(robot.repeats, time / milliseconds(330) - 3) << "a client would give up";
+}
+
 TEST_F(HostRules, FreeRunningIgnoresTheClockBetweenMotions) {
   use(waiting(PaceMode::kFreeRunning));
   const milliseconds passed = timeOf(5000);
