@@ -20,6 +20,9 @@ using franka_core::RobotMode;
 constexpr double kDeltaT = 1e-3;
 constexpr std::chrono::milliseconds kPace{1};
 constexpr std::chrono::milliseconds kAnswerTimeoutAfterAbort{2000};
+// A client that never ends its motion loses the connection, before the record of it fills the
+// memory.
+constexpr int kMaxExchanges = 100'000;
 
 template <std::size_t kSize>
 void follow(const std::array<double, kSize>& target, std::array<double, kSize>& value,
@@ -356,7 +359,7 @@ void FakeRobot::obey(const franka_core::RobotCommand& command) {
 
 void FakeRobot::applyScriptToMotion() {
   const int count = static_cast<int>(exchanges_.size());
-  if (count == script_.close_after) {
+  if (count == script_.close_after || count == kMaxExchanges) {
     closeClient();
   }
   if (count == script_.silence_after) {
