@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 """Parameters, topics, services and actions of nodes and controllers, from docs/site/nodes.
 
-They are written by hand, since sources do not say what a name means; tests/test_docs_reference.py compares
+They are written by hand, since sources do not say what a name means; tests/test_docs_names.py compares
 them with the names that the sources use.
 """
 
