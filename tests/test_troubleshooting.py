@@ -32,6 +32,8 @@ OURS = {
 }
 LITERALS = re.compile(r'//[^\n]*|(?:[frR]{0,2}"(?:\\.|[^"\\\n])*"\s*)+')
 ONE = re.compile(r'"((?:\\.|[^"\\\n])*)"')
+# Where programs put a message together, and what they put in.
+COMPOSED = re.compile(r'…|: |"[^"]+"\)?!?| command (?:rejected|aborted)')
 WORDS = 3  # in a row, of a part of a message
 
 
@@ -71,12 +73,12 @@ def literals(program: str) -> str:
 
 
 def missing(message: str, program: str) -> list[str]:
-    """Parts of a message of which no source of the program has some words in a row. `…` is between parts."""
+    """Parts of a message whose words are not in a row in the program's sources. Names are in quotes or `…`."""
     found = []
-    for part in message.split("…"):
-        words = part.rstrip(": ").removeprefix("libfranka gripper: ").removeprefix("libfranka: ").split()
-        runs = [" ".join(words[i : i + WORDS]) for i in range(max(1, len(words) - WORDS + 1))]
-        if len(part) > 8 and not any(run in literals(program) for run in runs):
+    for part in COMPOSED.split(message):
+        words = part.split()
+        runs = [" ".join(words[i : i + WORDS]) for i in range(len(words) - WORDS + 1)]
+        if not all(run in literals(program) for run in runs):
             found.append(part)
     return found
 
