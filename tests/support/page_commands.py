@@ -1,20 +1,16 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The commands on a page of the documentation, and whether what they name exists: programs, launch files and
-their arguments, options, topics, services, types with their fields, files, and lines for simulated robots.
+"""The commands on a page of the documentation, and whether what they name of this project exists: packages,
+launch files and their arguments, nodes, options, topics, services, and lines for simulated robots.
 """
 
 import re
 import shlex
-import shutil
 import subprocess
 from functools import cache
 from pathlib import Path
 
 import code_blocks
-import genpy
-import roslib.message
-import yaml
 from code_blocks import SHELL, blocks_in, commands_in, script_of
 from docsite.nodes import nodes_of
 from docsite.packages import packages
@@ -23,16 +19,8 @@ from markdown_it import MarkdownIt
 
 Words = list[str]
 
-# Programs that are not installed with this project: readers have them, or install them as the page says.
-ELSEWHERE = {
-    *("addgroup", "adduser", "apt", "apt-cache", "apt-get", "chrt", "code", "cpupower", "cyclictest"),
-    *("docker", "ethtool", "gh", "git", "ip", "nc", "nft", "nmcli", "ping", "pyfranka-meshes", "reboot"),
-    *("scp", "ss", "ssh", "stress-ng", "sudo", "sysctl", "systemctl", "udevadm", "update-grub", "usermod"),
-}
 # Programs of Debian's tf-tools and tf2-tools, which the pages say to install.
 FROM_TOOLS = {("tf", "tf_monitor"), ("tf", "tf_echo"), ("tf2_ros", "static_transform_publisher")}
-# Folders that a reader has made before, and the page says how.
-OF_THE_READER = re.compile(r"(~|\$\w+|\$\{\w+\}|build|env|\.venv|devel|install|\.)/")
 MAKES_A_PACKAGE = re.compile(r"(?:(?:new_controller|catkin_create_pkg|create pkg) |tests/out_of_tree/)(\w+)")
 # Names that a page may use for what its reader has.
 PLACEHOLDER = re.compile(r"my_\w+|[A-Z][A-Z-]*|\.\.\.")
@@ -42,8 +30,7 @@ INLINE = re.compile(
     r"|echo '\w.* \| nc .*",
     re.S,
 )
-TOPIC_VERBS = {"echo", "hz", "pub", "list", "info", "type", "bw", "find"}
-SERVICE_VERBS = {"call", "info", "type", "args", "list", "find", "uri"}
+VERBS = {"echo", "hz", "pub", "list", "info", "type", "bw", "find", "call", "args", "uri"}
 
 
 def scripts_of(text: str) -> list[str]:
@@ -61,13 +48,8 @@ def commands_of(page: Path) -> list[Words]:
     return [words for script in scripts_of(text) for words in commands_in(script)]
 
 
-def faults(page: Path) -> list[str]:
-    """Commands of a page that could not run, with the reason."""
-    return faults_in(page.read_text(encoding="utf-8"))
-
-
 def faults_in(text: str) -> list[str]:
-    """The same for a text in Markdown."""
+    """Commands of a text in Markdown that could not run, with the reason."""
     made = set(MAKES_A_PACKAGE.findall(text))
     found = []
     for script in scripts_of(text):
@@ -88,26 +70,10 @@ def wrong_in(words: Words, made: set[str]) -> str:
     # Packages of the reader, and topics in their namespaces.
     if words[0].startswith("ros") and any(f"/{name}" in f"/{word}" for name in made for word in words):
         return ""
-    if words[0] in CHECKS:
-        return CHECKS[words[0]](words)
-    return check_program(words[0])
+    return CHECKS[words[0]](words) if words[0] in CHECKS else ""
 
 
-# ---- programs and files ----------------------------------------------------------------------------------
-
-
-@cache
-def words_of_bash() -> set[str]:
-    result = subprocess.run(["bash", "-c", "compgen -bkA function"], text=True, capture_output=True)
-    return set(result.stdout.split())
-
-
-def check_program(name: str) -> str:
-    if name in words_of_bash() | ELSEWHERE | {"VALUE"} or shutil.which(name):
-        return ""
-    if OF_THE_READER.match(name) or PLACEHOLDER.fullmatch(name) or (TOP / name).is_file():
-        return ""
-    return f"there is no command {name}"
+# ---- programs --------------------------------------------------------------------------------------------
 
 
 @cache
@@ -120,13 +86,6 @@ def check_franka(words: Words) -> str:
     if len(words) < 2 or words[1] in own_commands() or PLACEHOLDER.fullmatch(words[1]):
         return ""
     return f"./franka has no command {words[1]}"
-
-
-def check_python(words: Words) -> str:
-    given = [word for word in words[1:] if not word.startswith("-")]
-    if "-m" in words or "-c" in words or not given or "/" not in given[0] or OF_THE_READER.match(given[0]):
-        return ""
-    return "" if (TOP / given[0]).exists() else f"there is no {given[0]}"
 
 
 @cache
@@ -187,48 +146,32 @@ def check_rosrun(words: Words) -> str:
 
 
 @cache
-def types_by_name() -> dict[str, set[str]]:
-    """Types by the last parts of the names of topics, services and actions that the reference has."""
-    types: dict[str, set[str]] = {name: set() for name in ("joint_states", "tf", "rosout", "diagnostics")}
-    for file in (SITE / "nodes").glob("*.yaml"):
-        for node in nodes_of(file.stem):
-            for names in node.names.values():
-                for name, (kind, *_) in names.items():
-                    types.setdefault(last_part(name), set()).add(kind)
-    table = (TOP / "docs" / "franka_control.md").read_text()
-    for name in re.findall(r"^\| `([~/][\w/]+)`", table, re.M):
-        types.setdefault(last_part(name), set())
-    return types
-
-
-def last_part(name: str) -> str:
-    return name.rsplit("/", 1)[-1].lstrip("~")
+def names_of_reference() -> set[str]:
+    """The last parts of the names of topics, services and actions that the reference has."""
+    nodes = [node for file in (SITE / "nodes").glob("*.yaml") for node in nodes_of(file.stem)]
+    found = [name for node in nodes for names in node.names.values() for name in names]
+    found += re.findall(r"^\| `([~/][\w/]+)`", (TOP / "docs" / "franka_control.md").read_text(), re.M)
+    return {
+        "joint_states",
+        "tf",
+        "rosout",
+        "diagnostics",
+        *(name.rsplit("/", 1)[-1].lstrip("~") for name in found),
+    }
 
 
 def check_name(name: str) -> str:
     # The goal of an action is a topic below its name.
-    known = any(part in types_by_name() for part in name.split("/") if part)
+    known = any(part in names_of_reference() for part in name.split("/") if part)
     return "" if known else f"the reference has no {name}"
 
 
-def check_rostopic(words: Words) -> str:
+def check_graph(words: Words) -> str:
+    """Of rostopic and rosservice."""
     given = positional(words[1:], with_value={"-n", "-r", "--rate", "-b", "--filter", "-w", "--window"})
-    if not given or given[0] not in TOPIC_VERBS:
-        return f"rostopic has no command {' '.join(given[:1])}"
-    if len(given) < 2:
-        return ""
-    verb, name, *rest = given
-    return check_name(name) or (check_message(*rest) if verb == "pub" else "")
-
-
-def check_rosservice(words: Words) -> str:
-    given = positional(words[1:], with_value=set())
-    if not given or given[0] not in SERVICE_VERBS:
-        return f"rosservice has no command {' '.join(given[:1])}"
-    if len(given) < 2:
-        return ""
-    verb, name, *rest = given
-    return check_name(name) or (check_request(name, rest) if verb == "call" else "")
+    if not given or given[0] not in VERBS:
+        return f"{words[0]} has no command {' '.join(given[:1])}"
+    return check_name(given[1]) if len(given) > 1 else ""
 
 
 def positional(words: Words, with_value: set[str]) -> Words:
@@ -239,30 +182,6 @@ def positional(words: Words, with_value: set[str]) -> Words:
             found.append(word)
         skip = word in with_value
     return found
-
-
-def check_message(kind: str = "", *values: str) -> str:
-    cls = roslib.message.get_message_class(kind)
-    return filled(cls(), values) if cls else f"there is no type {kind}"
-
-
-def check_request(name: str, values: Words) -> str:
-    """The values must be a request of one of the types that services of this name have."""
-    classes = [roslib.message.get_service_class(kind) for kind in sorted(types_by_name()[last_part(name)])]
-    reasons = [filled(cls._request_class(), values) for cls in classes if cls]
-    return "" if "" in reasons or not reasons else reasons[0]
-
-
-def filled(message, values) -> str:
-    """The reason why values in YAML cannot fill a message; empty if they can."""
-    given = [yaml.safe_load(value) for value in values]
-    if given in ([], [{}], [None]):
-        return ""
-    try:
-        genpy.message.fill_message_args(message, given)
-    except (genpy.MessageException, ValueError, TypeError) as error:
-        return str(error)
-    return ""
 
 
 # ---- lines for simulated robots --------------------------------------------------------------------------
@@ -281,27 +200,10 @@ def check_line(words: Words) -> str:
     return "" if word in control_lines() else f"no line {word} of the control port"
 
 
-# ---- images ----------------------------------------------------------------------------------------------
-
-
-def check_docker(words: Words) -> str:
-    """The stages and the arguments of the Dockerfile that a build names."""
-    text = (TOP / "Dockerfile").read_text(encoding="utf-8")
-    for option, value in zip(words, words[1:], strict=False):
-        name = value.partition("=")[0]
-        pattern = {"--target": rf"^FROM .* AS {name}$", "--build-arg": rf"^ARG {name}\b"}.get(option)
-        if pattern and not re.search(pattern, text, re.MULTILINE):
-            return f"the Dockerfile has no {name}"
-    return ""
-
-
 CHECKS = {
     "./franka": check_franka,
-    "docker": check_docker,
     "roslaunch": check_roslaunch,
     "rosrun": check_rosrun,
-    "rostopic": check_rostopic,
-    "rosservice": check_rosservice,
-    "python3": check_python,
+    **dict.fromkeys(["rostopic", "rosservice"], check_graph),
     **dict.fromkeys(["franka_sim", "franka_info", "franka_desk"], check_options),
 }
