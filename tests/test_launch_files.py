@@ -20,7 +20,8 @@ from roslaunch.core import RLException
 from roslaunch.xmlloader import XmlLoader
 from roslib.packages import find_node
 
-SOURCE = Path(__file__).resolve().parent.parent / "catkin_ws" / "src"
+TOP = Path(__file__).resolve().parent.parent
+SOURCE = TOP / "catkin_ws" / "src"
 FILES = {f"{path.parent.parent.name}/{path.name}": path for path in SOURCE.glob("**/launch/**/*.launch")}
 
 # Required arguments of launch files, with values: add those of new launch files here.
@@ -187,6 +188,18 @@ def test_a_simulated_robot_gets_patience_and_wait_if_they_are_given(name):
     both = options("patience:=forever", "wait:=block")
     assert "--patience forever" in both and "--wait block" in both
     assert "--patience 0.5" in options("patience:=0.5")
+
+
+def test_the_rate_of_states_can_be_set(tmp_path):
+    """By the line of docs/how_to/recording.md, behind the line that includes a robot."""
+    line = (TOP / "docs/how_to/recording.md").read_text().split("```xml\n")[1].split("```")[0]
+    for package, name in (("franka_control", "franka_control"), ("franka_gazebo", "panda")):
+        include = f'<include file="$(find {package})/launch/{name}.launch" pass_all_args="true"/>'
+        arg = '<arg name="robot_ip" value="10.0.0.1"/>'
+        launch = tmp_path / f"{name}.launch"
+        launch.write_text(f"<launch>{arg}{include}{line}</launch>")
+        config = read(launch, [], Reader(with_descriptions=False))
+        assert config.params["/franka_state_controller/publish_rate"].value == 1000
 
 
 def test_paths_may_contain_spaces():
