@@ -7,7 +7,6 @@ The short form types some pages.
 """
 
 import os
-import re
 import shutil
 from pathlib import Path
 
@@ -21,9 +20,6 @@ from tutorial import (
     PICTURES,
     SCREEN,
     TOP,
-    PageError,
-    Reader,
-    check_mark,
     read,
 )
 
@@ -66,87 +62,3 @@ def test_pages_with_commands_are_typed_or_run_elsewhere():
     runnable = {block.page for block in all_blocks() if block.language in {*SHELL, "python", "cpp", "xml"}}
     left = {page for page in runnable - typed if not page.startswith(TROUBLESHOOTING)}
     assert left == set(ELSEWHERE)
-
-
-@pytest.mark.parametrize("path", [*PAGES, *MORE_PAGES], ids=named)
-def test_what_a_page_assumes_stands_in_its_text(path):
-    """The terminal that a reader opens, and the commands that run beside those of the blocks."""
-    page = read(path)
-    if page.first:
-        assert f"`{page.first}`" in page.prose
-    prose = " ".join(page.prose.split())
-    for step in page.of("type"):
-        assert f"`{step.text}`" in prose, f"{path.name}:{step.line}: the text has no {step.text}"
-
-
-def reads_the_page(source: str, page: str) -> bool:
-    """Whether the source of a test has the page's name, such as read(TOP / "docs/how_to/packages.md")."""
-    return re.search(rf'"(docs/)?{re.escape(page)}"', source) is not None
-
-
-@pytest.mark.parametrize("path", [*PAGES, *MORE_PAGES], ids=named)
-def test_blocks_that_other_tests_run_are_read_from_the_page(path):
-    marks = [step.mark for step in read(path).of("bash") if step.mark.startswith("run by: ")]
-    tests = {mark.removeprefix("run by: ").partition("::")[0] for mark in marks}
-    assert not [name for name in tests if not reads_the_page((TOP / name).read_text(), named(path))]
-
-
-def documented_statuses() -> dict[str, set[str]]:
-    """The exit codes 0 to 2 of each program in the table of docs/how_to/shell.md."""
-    table = re.findall(r"^\| (`.*) \|$", (TOP / "docs/how_to/shell.md").read_text(), re.M)
-    rows = [row.split(" | ") for row in table]
-    return {
-        name: {str(status) for status, meaning in enumerate(meanings[:3]) if meaning.strip()}
-        for names, *meanings in rows
-        for name in re.findall(r"`([^`]+)`", names)
-    }
-
-
-@pytest.mark.parametrize("path", [*PAGES, *MORE_PAGES], ids=named)
-def test_accepted_statuses_are_documented(path):
-    documented = documented_statuses()
-    for step in read(path).of("bash"):
-        program = re.split(r"\s+", step.text.splitlines()[-1].removeprefix("./franka shell "))[0]
-        for option in step.options:
-            if option.startswith("status: "):
-                assert set(option.removeprefix("status: ").split(" or ")) <= documented[program], step
-
-
-def test_a_test_that_does_not_read_its_page_is_found():
-    assert reads_the_page('PAGE = TOP / "docs/how_to/packages.md"', "how_to/packages.md")
-    assert not reads_the_page('"""Types docs/how_to/packages.md."""', "how_to/packages.md")
-    assert not reads_the_page('examples("python.md")', "get_started/python.md")
-
-
-@pytest.mark.parametrize(
-    ("mark", "language", "text"),
-    [
-        ("only parsed: it is too much work", "bash", "sudo reboot"),
-        ("only parsed: changes the system", "bash", "reboot"),
-        ("only parsed: changes the system", "text", "sudo reboot"),
-        ("run by: tests/test_none.py::test_it", "bash", "true"),
-        ("run by: tests/test_deb.py::test_none", "bash", "true"),
-    ],
-)
-def test_other_marks_are_refused(mark, language, text):
-    with pytest.raises(PageError):
-        check_mark(mark, language, text, "page.md:1")
-
-
-def test_a_page_whose_program_fails_is_found(tmp_path):
-    page = tmp_path / "page.md"
-    page.write_text("# A page\n\n<!-- run with: python3 -->\n```python\nraise SystemExit(3)\n```\n")
-    with pytest.raises(PageError, match="ended with status 3"), Reader(tmp_path / "home") as reader:
-        reader.follow(read(page))
-
-
-def test_programs_run_in_the_terminal_of_the_page(tmp_path):
-    page = tmp_path / "page.md"
-    page.write_text(
-        "# A page\n\n<!-- terminals: export WORD=hello -->\n<!-- type: sleep 100 -->\n"
-        "<!-- press Ctrl-C in terminal 1 -->\n<!-- terminal 2 -->\n<!-- run with: python3 -->\n```python\n"
-        'import os\nprint(os.environ["WORD"], os.getcwd())\n```\n<!-- expect: hello -->\n'
-        f"<!-- expect: {tmp_path / 'home'} -->\n"
-    )
-    with Reader(tmp_path / "home") as reader:
-        reader.follow(read(page))
