@@ -173,11 +173,3 @@ class Session:
                     if os.readlink(entry / "ns" / "net") == network:
                         found.append(int(entry.name))
         return found
-
-
-class ShellSession(Session):
-    """The same for a roslaunch command line as the user types it into a shell."""
-
-    def __init__(self, command: str, log: Path, port: int | None = None):
-        super().__init__(log=log, port=port)
-        self._command = ["bash", "-c", command]
