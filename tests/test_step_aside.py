@@ -62,10 +62,6 @@ def originals(tmp_path):
     return prefix
 
 
-def test_no_package_steps_aside_without_originals(tmp_path):
-    assert decided(str(tmp_path)) == set()
-
-
 def test_our_own_spaces_do_not_count_as_originals():
     spaces = [TOP / "catkin_ws" / "devel", TOP / "catkin_ws" / "install"]
     assert decided(":".join(map(str, spaces))) == set()
@@ -83,10 +79,6 @@ def test_everything_linked_to_hardware_interface_steps_aside_with_it(originals):
     left_out = decided(str(originals))
     assert group - left_out == set(), "these would be built against two hardware_interfaces"
     assert {"controller_manager", "combined_robot_hw", "effort_controllers"} <= left_out
-
-
-def test_packages_not_linked_to_it_stay(originals):
-    left_out = decided(str(originals))
     assert not {"realtime_tools", "control_toolbox", "control_msgs", "xacro"} & left_out
     assert not {package_name(path.parent) for path in SOURCES.glob("franka_*/package.xml")} & left_out
 
