@@ -137,36 +137,6 @@ def test_metapackage_depends_on_every_ros_package(control):
     assert names(control["ros-franka-franka-ros"]["Provides"]).keys() == {"franka-ros"}
 
 
-def test_table_of_dependencies_has_no_unused_key():
-    kinds = ("depend", "exec_depend", "build_export_depend", "build_depend", "buildtool_depend")
-    used = {each.text for root in ros_packages().values() for kind in kinds for each in root.findall(kind)}
-    table = yaml.safe_load((PACKAGING / "dependencies.yaml").read_text())
-    assert set(table) <= used
-
-
-def test_every_debian_package_that_is_named_exists(control):
-    # Where apt has no lists, it knows what is installed, as ./franka install does with all of these.
-    known = set(subprocess.check_output(["apt-cache", "pkgnames"], text=True).split())
-    fields = [deb.get(kind, "") for deb in control.values() for kind in ("Depends", "Recommends")]
-    named = {name for field in fields for name in names(field) if not name.startswith("${")}
-    of_this_release = set(make_source.build_packages(this_release())) | make_source.TOOLS
-    of_others = {name for each in RELEASES for name in make_source.build_packages(each)} - of_this_release
-    assert named - known - set(control) - of_others == set()
-
-
-def this_release() -> str:
-    text = Path("/etc/os-release").read_text()
-    return re.search(r"^VERSION_CODENAME=(\w+)$", text, re.MULTILINE)[1]
-
-
-def test_build_dependencies_exist_in_the_release():
-    bookworm, trixie = (set(make_source.build_packages(each)) for each in RELEASES)
-    assert {"python3-nose"} == bookworm - trixie
-    assert {"qt6-svg-plugins"} == trixie - bookworm
-    assert {"libmujoco-dev", "catkin", "libroscpp-dev"} <= bookworm & trixie
-    assert not {"chromium", "clang-22", "python3-matplotlib", "ccache"} & bookworm
-
-
 def test_an_unknown_dependency_is_refused():
     packages = make_source.read_packages(SOURCES)
     first = packages[0]
@@ -187,17 +157,6 @@ def test_the_copyright_file_names_every_holder():
     assert "xacro" in copyright_file and "BSD-3-clause" in copyright_file
 
 
-def test_a_source_tree_is_written_once(tmp_path):
-    program = [PACKAGING / "make_source.py", "--release", "trixie", tmp_path]
-    done = subprocess.run(program, text=True, capture_output=True, timeout=60)
-    assert done.returncode == 2 and f"{tmp_path} exists already" in done.stderr
-
-
-def test_a_missing_xacro_is_reported(tmp_path):
-    with pytest.raises(make_source.PackagingError, match=r"has no xacro; run ./franka install"):
-        make_source.copy_xacro(tmp_path, tmp_path / "source")
-
-
 def in_script(code: str, **variables: str) -> subprocess.CompletedProcess:
     """Shell code with the functions of ./franka."""
     return subprocess.run(
@@ -207,14 +166,6 @@ def in_script(code: str, **variables: str) -> subprocess.CompletedProcess:
         capture_output=True,
         timeout=60,
     )
-
-
-def test_only_this_command_requires_the_packaging_tools():
-    others = in_script("required_packages").stdout.split()
-    code = "cmd_install() { required_packages; exit; }; cmd_deb"
-    ours = in_script(code).stdout.split()
-    assert set(ours) - set(others) == {"debhelper", "dh-python", "dpkg-dev", "lintian"}
-    assert set(others) < set(ours)
 
 
 def test_the_packages_become_a_repository(tmp_path):
@@ -277,11 +228,6 @@ print("moved", moved)
 INSTALLED = ("franka-ros", "ros-franka-sweep")
 
 
-def deb_of(repository: Path, name: str) -> Path:
-    (deb,) = repository.glob(f"{name}_*.deb")
-    return deb
-
-
 def contents(deb: Path) -> list[str]:
     listed = subprocess.check_output(["dpkg-deb", "--contents", deb], text=True)
     return [line.split(maxsplit=5)[5].split(" -> ")[0] for line in listed.splitlines()]
@@ -297,13 +243,6 @@ def test_each_file_is_in_one_deb(repository):
     assert {name: debs for name, debs in owners.items() if len(debs) > 1} == {}
     for name in ("lib/libfranka_hw.so", "bin/franka_sim", "setup.bash", "include/franka/robot.h"):
         assert f".{PREFIX}/{name}" in owners
-
-
-@BUILDS_DEBS
-def test_each_ros_package_installs_its_description(repository):
-    for name in ros_packages():
-        deb = deb_of(repository, f"ros-franka-{name.replace('_', '-')}")
-        assert f".{PREFIX}/share/{name}/package.xml" in contents(deb)
 
 
 @BUILDS_DEBS

@@ -50,12 +50,6 @@ def test_demo_runs_from_the_install_space(installed, tmp_path):
 
 
 @installs
-def test_the_sweep_program_runs_from_the_install_space(installed, tmp_path):
-    result = in_install_space(installed, "pyfranka-sweep --help", tmp_path)
-    assert result.returncode == 0 and "case(index, seed)" in result.stdout, result.stderr
-
-
-@installs
 @pytest.mark.parametrize("robot", ["panda", "fr3"])
 def test_xacro_runs_from_the_install_space(installed, robot, tmp_path):
     result = in_install_space(
