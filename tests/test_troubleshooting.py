@@ -73,7 +73,7 @@ def literals(program: str) -> str:
 
 
 def missing(message: str, program: str) -> list[str]:
-    """Parts of a message whose words are not in a row in the program's sources. Names are in quotes or `…`."""
+    """Parts of a message whose words are not in a row in the program's sources."""
     found = []
     for part in COMPOSED.split(message):
         words = part.split()
