@@ -49,18 +49,6 @@ def test_demo_runs_from_the_install_space(installed, tmp_path):
     assert json.loads((tmp_path / "demo" / "report.json").read_text())[0]["in_tray"]
 
 
-@installs
-@pytest.mark.parametrize("robot", ["panda", "fr3"])
-def test_xacro_runs_from_the_install_space(installed, robot, tmp_path):
-    result = in_install_space(
-        installed,
-        f"xacro $(rospack find franka_description)/robots/{robot}/{robot}.urdf.xacro gazebo:=true hand:=true",
-        tmp_path,
-    )
-    assert result.returncode == 0, result.stderr
-    assert f'<link name="{robot}_hand_tcp"' in result.stdout
-
-
 def places(package: Package, prefix: Path) -> Iterator[tuple[Path, list[Path]]]:
     """The files of a package that users and programs use, and where they may be installed."""
     share, programs = prefix / "share" / package.name, prefix / "lib" / package.name
