@@ -188,10 +188,7 @@ def test_nothrow_names_each_noexcept_function_that_calls_what_throws(repository,
     assert set(found) == {f"src/a.cpp:{line}: {what}" for line, what in ESCAPES.items()}
 
 
-@pytest.mark.parametrize(
-    "check, tool",
-    [("ruff", "ruff"), ("imports", "lint-imports"), ("nothrow", "clang++-22")],
-)
+@pytest.mark.parametrize("check, tool", [("ruff", "ruff"), ("nothrow", "clang++-22")])
 def test_missing_tool_fails_with_a_message(repository, check, tool, monkeypatch, capsys):
     repository.add("a.py", "")
     monkeypatch.setattr(sys, "executable", str(repository.folder / "python3"))
