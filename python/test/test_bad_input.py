@@ -1,27 +1,44 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Bad input of each public function of pyfranka.sim and pyfranka.gym: a sentence, and nothing half done."""
+"""Bad input of each public function of pyfranka: a sentence with the argument's name, and nothing half done.
 
-import inspect
+The calls are made from the signatures, each with one wrong argument. A function with an argument that has no
+kind here fails.
+"""
+
+import re
+from types import SimpleNamespace
 
 import numpy as np
+import pyfranka
 import pyfranka.gym
+import pyfranka.plot
 import pyfranka.sim
 import pytest
+from pyfranka.franka_sim import FrankaSim
+from pyfranka.remote import Remote
 from pyfranka.sim import FR3, KINDS, Gripper, Panda, SimulatedRobot, Simulation, SimulationBatch
-from sentences import ERRORS, check_refused_while_another_thread_steps, faults_of
+from pyfranka_arguments import (
+    CLIENT,
+    FAR,
+    FLAT,
+    HAND,
+    IN_A_WORLD,
+    QUATERNION_0,
+    ROBOT,
+    SIMULATION,
+    STATE,
+)
 from wrong_calls import (
     EYE,
     INF,
     NAN,
     Kind,
-    Table,
-    faults_of_arguments,
-    functions_with_arguments,
+    bound,
+    faults_of_calls,
+    functions_of,
     number,
     numbers,
-    pose,
-    switch,
     text,
     whole,
     wrong_calls,
@@ -29,208 +46,68 @@ from wrong_calls import (
 
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
 ROBOTS_TAKE_TURNS = True
-START = (0, -0.785, 0, -2.356, 0, 1.571, 0.785)  # [rad]
-FAR = 1e4  # [m], [N]: beyond what a world takes
-QUATERNION_0 = (0, 0, 1, 0, 0, 0, 0)
+HUGE = 10**400  # no double
 
-FLAT = [0.0] * 7
-IN_WORLD = Kind({"stone": [0, 0, 1]}, ([1], {3: [0, 0, 1]}, {"brick": [0, 0, 1]}), word="bod")
-SEED = whole(1, -1)
-TICKS = whole(1, -1)
-BODY = text("stone", "nothing")
-POSITIONS = Kind(
-    START, ("anywhere", [1, 2], [NAN] * 7, ["a"], np.ones(7), {"ur5": "random"}, object()), word=""
-)
-ROBOTS = Kind(None, (Panda(), "panda", 5, [5], ["ur5"]), word="robot")
-WORLD = Kind("stone.xml", ("moon.xml", 5, "<mujoco/>"))
 
-SIMULATION: Table = {
-    "__init__": {"world": WORLD, "robots": ROBOTS, "seed": SEED},
-    "__getitem__": {"name": Kind("panda", ("ur5", [1], 5), word="robot")},
-    "serve": {
-        "ip": text("127.0.34.1"),
-        "robot": Kind("panda", ("ur5", 5)),
-        "pace": text("lockstep", "fast"),
-        "patience": Kind(30.0, ("long", 0, -1, NAN, [1])),
-        "wait": text("auto", "sleep"),
-    },
-    "step": {"ticks": TICKS},
-    "reset": {"q": POSITIONS, "objects": IN_WORLD, "seed": SEED},
-    "restore": {"snapshot": Kind(None, (None, 5, Simulation().snapshot()))},
-    "body_pose": {"body": BODY},
-    "place_body": {
-        "body": Kind("stone", BODY.wrong, unknown=("table",)),
-        "position": numbers([0, 0, 1], [0, 0, -FAR]),
-        "orientation": numbers([1, 0, 0, 0], [0, 0, 0, 0]),
-    },
-    "push": {
-        "body": BODY,
-        "force": numbers([1, 0, 0], [FAR, 0, 0], [0, -1001, 0]),
-        "torque": numbers([0, 0, 0], [0, 0, FAR]),
-        "ticks": whole(1, 0, -5),
-    },
-    "render": {
-        "camera": text("", "nowhere"),
-        "width": whole(64, 0, 5000, 64.0),
-        "height": whole(64, -1, 5000),
-    },
-}
+def check(calls, thing, condition=lambda: None):
+    wrong = faults_of_calls(calls, thing, condition)
+    assert not wrong, "\n".join(wrong)
 
-COMMANDED = {"cartesian_velocities": [0.0] * 6}
-MOVED = {"joint_positions": FLAT}
-TORQUE = {"torque": FLAT}
-DURATION = number(0.0, -1.0, INF, 1e7)
-DAMPING = numbers(FLAT, [-1.0] * 7)
 
-ROBOT: Table = {
-    "command": {
-        "torque": numbers(FLAT),
-        "joint_positions": numbers(FLAT),
-        "joint_velocities": numbers(FLAT, np.zeros((2, 7))),
-        "cartesian_pose": pose(),
-        "cartesian_velocities": numbers([0.0] * 6),
-        "elbow": numbers([0.0, 1.0], given=COMMANDED),
-        "controller": text("joint_impedance", "soft", given=MOVED),
-        "limit_rate": switch(given=TORQUE),
-        "damping": Kind(FLAT, DAMPING.wrong, given=TORQUE),
-    },
-    "joint_impedance": {
-        "target": Kind(START, (*numbers(START).wrong, np.degrees(START), [*START[:6], 3.1]), word=""),
-        "duration": DURATION,
-        "stiffness": numbers([100.0] * 7, [-1.0] * 7),
-        "linear": switch(),
-    },
-    "cartesian_impedance": {
-        "target": pose(np.zeros((4, 4)), EYE + 3 * np.eye(4, k=3)),
-        "duration": DURATION,
-        "stiffness": numbers([100.0] * 6, [-1.0] * 6),
-        "nullspace_stiffness": number(1.0, INF, -1.0),
-        "linear": switch(),
-        "damping": DAMPING,
-    },
-    "set_user_stop": {"pressed": switch()},
-    "set_guiding": {"active": switch()},
-    "set_joint_impedance": {"K_theta": numbers([1000.0] * 7, [1e9] * 7, word="")},
-    "set_cartesian_impedance": {"K_x": numbers([100.0] * 6, [-5.0] * 6, word="")},
-    "set_collision_behavior": {
-        "lower_torque": numbers([1.0] * 7),
-        "upper_torque": numbers([1.0] * 7),
-        "lower_force": numbers([1.0] * 6),
-        "upper_force": numbers([1.0] * 6),
-    },
-    "set_EE": {"NE_T_EE": pose(2 * EYE)},
-    "set_K": {"EE_T_K": pose(2 * EYE)},
-    "set_load": {
-        "mass": number(0.1, 100.0, -1.0, INF),
-        "F_x_Cload": numbers([0.0] * 3, [5.0] * 3, word=""),
-        "load_inertia": numbers([0.0] * 9, [-1.0] * 9, word=""),
-    },
-}
+def together(owner, calls):
+    """Calls of an object of which only several arguments together are wrong."""
+    return [(f"{owner.__name__}, {i}", "", None, call) for i, call in enumerate(calls)]
 
-WIDTH, SPEED = number(0.05, INF, 5.0, -0.03), number(0.1, INF, -1, 100)
-EPSILON = number(0.005, INF)
-GRIPPER: Table = {
-    "move": {"width": WIDTH, "speed": SPEED},
-    "grasp": {
-        "width": WIDTH,
-        "speed": SPEED,
-        "force": number(10.0, INF, -1, FAR),
-        "epsilon_inner": EPSILON,
-        "epsilon_outer": EPSILON,
-    },
-}
+
+# ---- simulations -----------------------------------------------------------------------------------------
 
 LOADS = (5, (1.0,), ("a", (0, 0, 0)), (1.0, (0, 0)), (1.0, (0, 0, 0), [1]), (1, (0, 0, 0), np.ones((9, 1))))
-SETUP: Table = {
-    "__init__": {
-        "name": text("left", "a b"),
-        "base": Kind(
-            BASE,
-            (
-                *("a", (1, 2), (NAN, 0, 0), (0, 0, 0, INF)),
-                *((-500, 0, 0), (0, 0, 101), (0, 0, 0, 90)),  # millimeters, and degrees
-            ),
-        ),
-        "hand": Kind(True, ("yes", 1, None)),
-        "load": Kind(None, LOADS),
-        "realism": text("ideal", "reel", word="real"),
-        "urdf": Kind("", (5, "/nowhere.urdf", "<robot>" + 2000 * " ")),
-        "protocol": whole(0, 2),
-        "address": text(""),
-        "arguments": Kind((), ("--patience 5", 5)),
-    }
+BASES = ("a", (1, 2), (NAN, 0, 0), (0, 0, 0, INF))
+BASES += ((-500, 0, 0), (0, 0, 101), (0, 0, 0, 90))  # millimeters, and degrees
+SETUP = {
+    "name": text("left", "a b"),
+    "base": Kind(BASE, BASES),
+    "hand": Kind(True, ("yes", 1, None)),
+    "load": Kind(None, LOADS),
+    "realism": text("ideal", "reel", word="real"),
+    "urdf": Kind("", (5, "<robot>" + 2000 * " "), unknown=("/nowhere.urdf",)),
+    "protocol": whole(0, 2),
+    "address": text(""),
+    "arguments": Kind((), ("--patience 5", 5)),
 }
-
-BATCH: Table = {
-    "__init__": {
-        "number": whole(2, 0),
-        "world": WORLD,
-        "robots": ROBOTS,
-        "seed": SEED,
-        "threads": whole(1, 0),
-        "observe": Kind(None, (["panda.color"], "time", 5, [5]), word=""),
-    },
-    "__getitem__": {"index": Kind(0, (7, "first", 1.5), word="world")},
-    "step": {"ticks": TICKS},
-    "reset": {"q": POSITIONS, "objects": IN_WORLD, "worlds": Kind([0], ([5], 5, ["a"]), word="world")},
-    "replace": {
-        "number": Kind(0, (9, "a", 1.5), word="world"),
-        "simulation": Kind(None, (None, 5, Simulation(robots=[FR3()])), word=""),
-    },
+BATCH = {
+    **IN_A_WORLD,
+    "number": whole(2, 0),
+    "threads": whole(1, 0),
+    "observe": Kind(None, unnamed=(["panda.color"], "time", 5, [5])),
+    "index": Kind(0, (7, "first", 1.5), word="world"),
+    "worlds": Kind([0], ([5], 5, ["a"]), word="world"),
+    "replace.number": Kind(0, (9, "a", 1.5), word="world"),
+    "simulation": Kind(None, unnamed=(None, 5, Simulation(robots=[FR3()]))),
 }
-
-# What concerns several arguments: "function" -> a part of the sentence -> the call of an object.
 TOGETHER = {
-    Simulation: {
-        "__init__": {
-            "Two robots have the name 'a'": lambda x: Simulation(
-                robots=[Panda("a"), FR3("a", base=(0, 1, 0))]
-            ),
-            "protocol of panda is for robots on": lambda x: Simulation(robots=[Panda(protocol=5)]),
-            "vacuum gripper is served on the network": lambda x: Simulation(robots=[Panda(hand="vacuum")]),
-            "10 kg": lambda x: Simulation(robots=[Panda(load=(100.0, (0, 0, 0)))]),
-        },
-        "serve": {"address": lambda x: x.serve("moon")},
-        "reset": {
-            "Joint 4 of": lambda x: x.reset(q=np.ones(7)),
-            "pose of 'stone' must be 3 or 7 finite": lambda x: x.reset(objects={"stone": [0, 0]}),
-            "pose of 'stone' must be 3 or 7 finite numbers, not [nan": lambda x: x.reset(
-                objects={"stone": [NAN, 0, 0]}
-            ),
-            "is not free to move": lambda x: x.reset(objects={"table": [0, 0, 1]}),
-            "is not a unit quaternion": lambda x: x.reset(objects={"stone": QUATERNION_0}),
-            "The position for body 'stone'": lambda x: x.reset(objects={"stone": [FAR, 0, 0]}),
-            "seed must be 0 to": lambda x: x.reset(seed=-1, objects={"stone": [0, 0, 1]}),
-        },
-    },
-    SimulatedRobot: {
-        "command": {
-            "A command is one of": lambda x: x.command(),
-            "given: torque, joint_positions": lambda x: x.command(torque=FLAT, joint_positions=FLAT),
-            "An elbow goes with": lambda x: x.command(torque=FLAT, elbow=[0, 1]),
-            "limit_rate and damping go": lambda x: x.command(joint_positions=FLAT, limit_rate=True),
-        },
-        "joint_impedance": {
-            "Joint 2 of": lambda x: x.joint_impedance(np.degrees(START)),
-            "Joint 7 of": lambda x: x.joint_impedance([*START[:6], 3.1]),
-        },
-        "set_collision_behavior": {
-            "outside of what the robot accepts": lambda x: x.set_collision_behavior(
-                [-1] * 7, [1] * 7, [1] * 6, [1] * 6
-            ),
-        },
-    },
-    SimulationBatch: {
-        "replace": {
-            "already world 1": lambda x: x.replace(0, x[1]),
-            "There is no value 'panda.q'": lambda x: x.replace(0, Simulation(robots=[FR3()])),
-        },
-        "reset": {"is not a unit quaternion": lambda x: x.reset(objects={"stone": QUATERNION_0})},
-    },
+    Simulation: [
+        lambda x: Simulation(robots=[Panda("a"), FR3("a", base=(0, 1, 0))]),
+        lambda x: Simulation(robots=[Panda(protocol=5)]),
+        lambda x: Simulation(robots=[Panda(hand="vacuum")]),
+        lambda x: Simulation(robots=[Panda(load=(100.0, (0, 0, 0)))]),
+        lambda x: x.serve("moon"),
+        lambda x: x.reset(seed=-1, objects={"stone": [0, 0, 1]}),
+    ],
+    SimulatedRobot: [
+        lambda x: x.command(),
+        lambda x: x.command(torque=FLAT, joint_positions=FLAT),
+        lambda x: x.command(torque=FLAT, elbow=[0, 1]),
+        lambda x: x.command(joint_positions=FLAT, limit_rate=True),
+        lambda x: x.set_collision_behavior([-1] * 7, [1] * 7, [1] * 6, [1] * 6),
+    ],
+    SimulationBatch: [lambda x: x.replace(0, x[1])],
 }
+
+# ---- environments ----------------------------------------------------------------------------------------
 
 SIDES = ((0, 10), (1.5, 10), 5)
-# Of an environment, and of many.
+# Keywords of the constructor, which its signature does not list.
 OPTIONS = {
     "task": text("PickAndPlace", "Cook"),
     "robot": text("panda", "ur5"),
@@ -239,9 +116,7 @@ OPTIONS = {
     "reward": text("sparse", "huge"),
     "frequency": number(20.0, 30, 0, INF),
     "realism": text("ideal", "reel", word="real"),
-    "randomize": Kind(
-        None, (["mass"], {"color": 1}, {"load": 1}, {"load": (2, 1)}, {"realism": 5}), word="randomize"
-    ),
+    "randomize": Kind(None, (["mass"], {"color": 1}, {"load": 1}, {"load": (2, 1)}, {"realism": 5})),
     "on_reflex": text("recover", "ignore"),
     "time_limit": Kind("task", ("long", -1, NAN, [1, 2])),
     "camera": text("", "nowhere"),
@@ -250,106 +125,64 @@ OPTIONS = {
     "render_size": Kind((640, 480), SIDES),
 }
 EPISODE_OPTIONS = {
-    "q": Kind(START, ([9.0] * 7, "random"), word=""),
-    "object": Kind([0, 0, 1], ([1, 2], QUATERNION_0, [FAR, 0, 0]), word=""),
-    "goal": Kind([0, 0, 1], ([NAN] * 3, [0, 0, 2.6])),
+    "q": ([9.0] * 7, "random"),
+    "object": ([1, 2], QUATERNION_0, [FAR, 0, 0]),
+    "goal": ([NAN] * 3, [0, 0, 2.6]),
+    "color": (1,),
 }
 
 
-def environment_cases(kind, shape, **more):
-    """Of the options, which a signature does not list."""
-    cases = {
-        "__init__": {
-            "has no option 'hue', 'speed'; its options are robot, control": lambda x: kind(
-                task="Reach", **more, hue=1, speed=2
-            ),
-            "randomize: mass is that of an object": lambda x: kind(
-                task="Reach", **more, randomize={"mass": (1, 2)}
-            ),
-        },
-        "reset": {
-            "options must be a dict": lambda x: x.reset(options=[1]),
-            "not 'color'": lambda x: x.reset(options={"color": 1}),
-        },
-        "step": {
-            "has the shape": lambda x: x.step(np.zeros(3)),
-            "finite numbers": lambda x: x.step(np.full(shape, NAN)),
-            "array of numbers": lambda x: x.step("left"),
-        },
-    }
+def keyword_calls(kind, shape, **more):
+    """Of the options, and of actions, whose shape depends on them."""
     for option, each in OPTIONS.items():
-        for value in each.wrong:
+        for value in [*each.wrong, *each.unknown]:
             if value is not None:
-                arguments = {"task": "PickAndPlace", **more, option: value}
-                cases[f"__init__({option}={value!r})"] = {
-                    each.word or option: lambda x, arguments=arguments: kind(**arguments)
-                }
-    for option, each in EPISODE_OPTIONS.items():
-        for value in each.wrong:
-            cases[f"reset({option}={value!r})"] = {
-                each.word or "": lambda x, options={option: value}: x.reset(seed=3, options=options)
-            }
-    return cases
+                keywords = {"task": "PickAndPlace", **more, option: value}
+                word = str(value) if value in each.unknown else each.word or option
+                yield f"{option}={value!r}", word, value, lambda x, keywords=keywords: kind(**keywords)
+    yield "hue", "'hue'", 1, lambda x: kind(task="Reach", **more, hue=1)
+    yield "mass", "object", 1, lambda x: kind(task="Reach", **more, randomize={"mass": (1, 2)})
+    for option, wrong in EPISODE_OPTIONS.items():
+        for value in wrong:
+            options = {option: value}
+            yield f"reset({options})", "", value, lambda x, o=options: x.reset(seed=3, options=o)
+    yield "options", "options", [1], lambda x: x.reset(options=[1])
+    for action in (np.zeros(3), np.full(shape, NAN), "left"):
+        yield f"step({action!r})", "action", action, lambda x, action=action: x.step(action)
 
 
-TOGETHER[pyfranka.gym.Environment] = environment_cases(pyfranka.gym.Environment, (7,))
-TOGETHER[pyfranka.gym.VectorEnvironment] = {
-    **environment_cases(pyfranka.gym.VectorEnvironment, (2, 7), num_envs=2),
-    "render_mode": {
-        "The render_mode of many environments is one of rgb_array": lambda x: pyfranka.gym.VectorEnvironment(
-            1, render_mode="human", task="Reach"
-        )
-    },
-    "reset_mask": {"reset_mask needs 2 bools": lambda x: x.reset(options={"reset_mask": [True]})},
+NO_KINDS = Kind(None)  # see keyword_calls
+GOAL = Kind(np.zeros(4), ("near", np.zeros(3)), word="goal")
+ENVIRONMENT = {
+    "task": OPTIONS["task"],
+    "seed": whole(1, -1),
+    "options": NO_KINDS,
+    "action": NO_KINDS,
+    "achieved_goal": GOAL,
+    "desired_goal": GOAL,
+    "info": Kind({"reach": 0.0}),
 }
-ACTION = Kind(None, (), word="action")  # see environment_cases
-ENVIRONMENT: Table = {
-    "__init__": {"task": OPTIONS["task"]},
-    "reset": {"seed": SEED, "options": ACTION},
-    "step": {"action": ACTION},
-    "compute_reward": {
-        "achieved_goal": Kind(np.zeros(4), ("near", np.zeros(3)), word="goal"),
-        "desired_goal": Kind(np.zeros(4), ("near", np.zeros(3)), word="goal"),
-        "info": Kind({"reach": 0.0}),
-    },
+OF_REACH = {"given": {"task": "Reach"}}
+VECTOR = {
+    "num_envs": whole(1, 0, **OF_REACH),
+    "threads": whole(1, 0, **OF_REACH),
+    "max_episode_steps": Kind(1, (object(), "a", 1.5, NAN, 0, -5), **OF_REACH),
+    "autoreset_mode": Kind("NextStep", unknown=("never",), **OF_REACH),
+    "seed": Kind(1, (-1, 1.5, "a", [1, 2, 3], [1, -1])),
+    "options": NO_KINDS,
+    "actions": NO_KINDS,
 }
-VECTOR: Table = {
-    "__init__": {
-        "num_envs": whole(1, 0, given={"task": "Reach"}),
-        "threads": whole(1, 0, given={"task": "Reach"}),
-        "max_episode_steps": Kind(1, (object(), "a", 1.5, NAN, 0, -5), given={"task": "Reach"}),
-        "autoreset_mode": Kind("NextStep", ("never",), given={"task": "Reach"}),
-    },
-    "reset": {"seed": Kind(1, (-1, 1.5, "a", [1, 2, 3], [1, -1])), "options": ACTION},
-    "step": {"actions": ACTION},
-}
-
-
-class Thing:
-    """What is called wrongly, and what of it must not change."""
-
-    def __init__(self, thing, sims):
-        self.thing, self._sims = thing, sims
-        self.close = thing.close if hasattr(thing, "close") else lambda: None
-
-    def condition(self):
-        return [
-            (
-                sim.ticks,
-                sim.state_hash(),
-                [(r.state_hash(), r.moving, r.state.q.tolist()) for r in sim.values()],
-            )
-            for sim in self._sims
-        ]
+TOGETHER[pyfranka.gym.VectorEnvironment] = [
+    lambda x: pyfranka.gym.VectorEnvironment(1, render_mode="human", task="Reach"),
+    lambda x: x.reset(options={"reset_mask": [True]}),
+]
 
 
 def in_simulation(get):
     def make(name):
         sim = Simulation("stone.xml", [KINDS[name](name="panda", base=BASE)])
         sim.step(10)
-        made = Thing(get(sim), [sim])
-        made.close = sim.close
-        return made
+        return get(sim), [sim]
 
     return make
 
@@ -357,101 +190,57 @@ def in_simulation(get):
 def batch_of(name):
     batch = SimulationBatch(2, "stone.xml", [KINDS[name](name="panda", base=BASE)])
     batch.step(10)
-    return Thing(batch, list(batch))
+    return batch, list(batch)
 
 
 def environment_of(name):
     env = pyfranka.gym.Environment("PickAndPlace", robot=name)
     env.reset(seed=1)
-    return Thing(env, [env.simulation])
+    return env, [env.simulation]
 
 
 def vector_of(name):
     env = pyfranka.gym.VectorEnvironment(2, task="PickAndPlace", robot=name)
     env.reset(seed=1)
-    return Thing(env, [episode.sim for episode in env.episodes])
+    return env, [episode.sim for episode in env.episodes]
 
 
-# The class, how one is made, and its cases.
+# The class, how an object and its simulations are made, and the kinds of its arguments.
 CLASSES = {
     Simulation: (in_simulation(lambda sim: sim), SIMULATION),
     SimulatedRobot: (in_simulation(lambda sim: sim["panda"]), ROBOT),
-    Gripper: (in_simulation(lambda sim: sim["panda"].gripper), GRIPPER),
-    Panda: (lambda name: Thing(Panda, []), SETUP),
-    FR3: (lambda name: Thing(FR3, []), SETUP),
+    Gripper: (in_simulation(lambda sim: sim["panda"].gripper), HAND),
+    Panda: (lambda name: (Panda, []), SETUP),
+    FR3: (lambda name: (FR3, []), SETUP),
     SimulationBatch: (batch_of, BATCH),
     pyfranka.gym.Environment: (environment_of, ENVIRONMENT),
     pyfranka.gym.VectorEnvironment: (vector_of, VECTOR),
 }
+# close() calls the first one; a simulation makes its robots, and they their hands.
+INTERNAL = {SimulatedRobot: ("__init__",), Gripper: ("__init__",)}
+
+
+def calls_of(kind):
+    calls = [*wrong_calls(kind, CLASSES[kind][1], INTERNAL.get(kind, ("close_extras",)))]
+    calls += together(kind, TOGETHER.get(kind, ()))
+    if kind is pyfranka.gym.Environment:
+        calls += keyword_calls(kind, (7,))
+    elif kind is pyfranka.gym.VectorEnvironment:
+        calls += keyword_calls(kind, (2, 7), num_envs=2)
+    return calls
 
 
 @pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)
-def test_each_public_function_is_in_the_table(kind):
-    # close() calls the first one; a simulation makes its robots, and they their hands.
-    own = {"close_extras"} | ({"__init__"} if kind in (SimulatedRobot, Gripper) else set())
-    assert set(CLASSES[kind][1]) >= functions_with_arguments(kind) - own
+def test_in_this_process(kind, name):
+    thing, sims = CLASSES[kind][0](name)
 
+    def condition():
+        robots = [(r.state_hash(), r.moving, r.state.q.tolist()) for sim in sims for r in sim.values()]
+        return [(sim.ticks, sim.state_hash()) for sim in sims], robots
 
-@pytest.mark.parametrize("kind", CLASSES, ids=lambda kind: kind.__name__)
-def test_bad_input_is_refused_with_a_sentence_and_changes_nothing(kind, name):
-    make, table = CLASSES[kind]
-    used = make(name)
-    wrong = faults_of_arguments(kind, table, used.thing, used.condition)
-    before = used.condition()
-    wrong += faults_of(TOGETHER.get(kind, {}), used.thing, kind.__name__)
-    if used.condition() != before:
-        wrong.append("The calls with several arguments have changed something.")
-    used.close()
-    assert not wrong, "\n".join(wrong)
-
-
-# Right in themselves, and refused while the arm moves.
-REFUSED_IN_MOTION = [
-    lambda x: x.set_joint_impedance([1000.0] * 7),
-    lambda x: x.set_cartesian_impedance([500.0] * 3 + [50.0] * 3),
-    lambda x: x.set_collision_behavior([50.0] * 7, [60.0] * 7, [50.0] * 6, [60.0] * 6),
-    lambda x: x.set_EE(np.eye(4)),
-    lambda x: x.set_K(np.eye(4)),
-    lambda x: x.set_load(0.5, [0, 0, 0.05], 1e-3 * np.eye(3).ravel()),
-    lambda x: x.recover(),
-    lambda x: x.command(torque=[0.0] * 7),
-    lambda x: x.command(cartesian_velocities=[0.0] * 6),
-    lambda x: x.joint_impedance([0.0, -0.8, 0.0, -2.4, 0.0, 1.6, 0.8]),
-    lambda x: x.cartesian_impedance(x.state.O_T_EE),
-]
-
-
-def test_refused_calls_do_not_disturb_a_motion(name):
-    def calls_of(kind):
-        together = [call for cases in TOGETHER.get(kind, {}).values() for call in cases.values()]
-        return [call for _, _, call in wrong_calls(kind, CLASSES[kind][1])] + together
-
-    def things(sim):
-        arm = sim["panda"]
-        return (
-            (arm, calls_of(SimulatedRobot) + REFUSED_IN_MOTION),
-            (arm.gripper, calls_of(Gripper)),
-            (sim, calls_of(Simulation)),
-        )
-
-    hashes = []
-    for disturbed in (False, True):
-        with Simulation("stone.xml", [KINDS[name](name="panda", base=BASE)]) as sim:
-            arm = sim["panda"]
-            arm.command(joint_velocities=[0.0] * 7)
-            for tick in range(1, 21):
-                arm.command(joint_velocities=[1e-3 * tick] + [0.0] * 6)
-                sim.step()
-            arm.gripper.move(0.02)
-            sim.step(5)
-            for thing, calls in things(sim) if disturbed else []:
-                for call in calls:
-                    with pytest.raises(ERRORS):
-                        call(thing)
-            sim.step(300)
-            assert arm.moving
-            hashes.append(sim.state_hash())
-    assert hashes[0] == hashes[1]
+    check(calls_of(kind), thing, condition)
+    for sim in sims:
+        sim.close()
 
 
 def test_bad_input_of_an_episode_keeps_its_random_numbers(name):
@@ -471,8 +260,7 @@ def test_bad_input_of_an_episode_keeps_its_random_numbers(name):
 MISSING_FILES = {
     "world": lambda file: Simulation(world=file),
     "world of a batch": lambda file: SimulationBatch(2, world=file),
-    "urdf of a Panda": lambda file: Panda(urdf=file),
-    "urdf of an FR3": lambda file: FR3(urdf=file),
+    "urdf": lambda file: Panda(urdf=file),
 }
 
 
@@ -483,82 +271,299 @@ def test_a_missing_file_is_named(call, suffix):
         call(f"/nowhere.{suffix}")
 
 
-# ---- closed, and in use by another thread ------------------------------------------------------------------
+# ---- the control interface -------------------------------------------------------------------------------
 
-# What works in any case: names and views.
-ALWAYS = {
-    Simulation: {"close", "keys", "items", "values"},
-    SimulatedRobot: {"name"},
-    Gripper: set(),
+
+def word(right, *unknown) -> Kind:
+    """A word of a line."""
+    return Kind(right, (object(), 5, None, "", "a b", "stone\nquit", "\t"), unknown=unknown)
+
+
+def matrix(size) -> Kind:
+    return Kind(np.eye(size), (np.eye(7 - size), [[1], [1, 2]], None, np.full((size, size), NAN)))
+
+
+def row(right) -> Kind:
+    return numbers(right, [[1], [2, 3]], np.zeros((1, len(right))))
+
+
+def count(right, *beyond) -> Kind:
+    return Kind(right, (object(), 1.5, NAN, None, "5"), unknown=beyond)
+
+
+PRESSED = Kind(True, (object(), 1, "on", "yes", None, NAN))
+THREE = row([0.0] * 3)
+READY = [0.0, -0.7, 0.0, -2.3, 0.0, 1.5, 0.7]
+REMOTE = {
+    "timeout": Kind(None, ("soon", "5", [], -1, 0, NAN, HUGE, 1j, np.complex64(1))),
+    "address": Kind("127.0.0.1", ("", 5, None)),
+    "port": Kind(1340, ("1340", 70000, 0, 1.5)),
+    "line": Kind("time", (5, b"time", "time\nstate", "where \ud800"), unknown=("dance",)),
+    **dict.fromkeys(("pressed", "active", "on", "present"), PRESSED),
+    "operating_mode.mode": word("execution", "dance"),
+    "guiding_mode.mode": word("user", "dance"),
+    "set_input.name": word("x31", "x99"),
+    "button.name": word("circle", "square"),
+    "mesh.name": word("stone", "nothing"),
+    "axes": Kind([True] * 7, (5, [1] * 7)),
+    "user": word("desk", "mars"),
+    "due": number(5.0, "5", HUGE),
+    "error": word("jointPositionError", "nothing"),
+    "joint": count(1),
+    "target": Kind(READY, (5, None, "", "a b", *row(READY).wrong[2:])),
+    "move.speed": number(0.3, "5", HUGE, 100, 0),
+    "what": word("brakes", "lunch"),
+    "health": word("green"),
+    "body": word("stone", "nothing"),
+    "condition": Kind(None, (5, "Idle")),
+    **dict.fromkeys(("mass", "seconds", "width", "speed", "force", "probability"), number(0.04, "5", HUGE)),
+    **dict.fromkeys(("center", "F_x_Cload", "torque", "position", "push.force"), THREE),
+    "edges": row([1.0] * 3),
+    "orientation": row([1.0, 0.0, 0.0, 0.0]),
+    **dict.fromkeys(("inertia", "load_inertia"), matrix(3)),
+    "F_T_NE": matrix(4),
+    "wall.number": count(1, 9),
+    "remove_wall.number": count(1, 8),
+    **dict.fromkeys(("seed", "commands", "step.ticks"), count(1, -1)),
+    "delay.ticks": count(1),
+    "ticks": count(1, 2**70),
 }
-ARGUMENTS = {
-    ("Simulation", "serve"): ("127.0.34.2",),
-    ("Simulation", "body_pose"): ("stone",),
-    ("Simulation", "place_body"): ("stone", (0, 0, 1)),
-    ("Simulation", "push"): ("stone", (0, 0, 1)),
-    ("SimulatedRobot", "command"): (),
-    ("SimulatedRobot", "joint_impedance"): ([0, 0, 0, -1.5, 0, 1.5, 0],),
-    ("SimulatedRobot", "cartesian_impedance"): (np.eye(4),),
-    ("SimulatedRobot", "set_user_stop"): (True,),
-    ("SimulatedRobot", "set_guiding"): (True,),
-    ("SimulatedRobot", "set_joint_impedance"): ([1000.0] * 7,),
-    ("SimulatedRobot", "set_cartesian_impedance"): ([1000.0] * 6,),
-    ("SimulatedRobot", "set_collision_behavior"): ([10.0] * 7, [10.0] * 7, [10.0] * 6, [10.0] * 6),
-    ("SimulatedRobot", "set_EE"): (np.eye(4),),
-    ("SimulatedRobot", "set_K"): (np.eye(4),),
-    ("SimulatedRobot", "set_load"): (0.1, [0, 0, 0], np.zeros(9)),
-    ("Gripper", "move"): (0.05,),
-    ("Gripper", "grasp"): (0.05, 0.1, 10.0),
-}
 
 
-def calls_of(thing, snapshot):
-    """Every public function and attribute of an object, as calls by name."""
-    kind = type(thing)
-    for name, member in inspect.getmembers(kind):
-        if name.startswith("_") or name in ALWAYS[kind]:
-            continue
-        if isinstance(member, property):
-            yield f"{kind.__name__}.{name}", lambda name=name: getattr(thing, name)
-        elif inspect.isfunction(member):
-            arguments = ARGUMENTS.get((kind.__name__, name), ())
-            arguments = (snapshot,) if name == "restore" else arguments
-            keywords = {"torque": [0.0] * 7} if name == "command" else {}
+@pytest.fixture(scope="module")
+def server(franka_sim_session):
+    robots = [
+        Panda(base=(-0.5, 0, 0), realism="ideal", hand="vacuum"),
+        FR3(name="left", base=(0, 2, 0), realism="ideal"),
+    ]
+    return franka_sim_session(*robots, world="stone.xml", pace="lockstep")
+
+
+@pytest.mark.parametrize(("robot", "kept"), [("panda", False), ("left", True)])
+def test_of_the_control_interface(server, robot, kept):
+    remote = Remote(server[robot].address)
+    if kept:
+        remote.__enter__()
+    check(
+        wrong_calls(Remote, REMOTE),
+        remote,
+        lambda: (remote.report(), remote.state_hash(), remote.poses().tolist(), remote.time),
+    )
+    remote.close()
+
+
+@pytest.mark.parametrize("address", ["a..b", "x" * 70, "a\0b", "\ud800"])
+def test_an_address_that_cannot_be_one_is_a_sentence(address):
+    with pytest.raises(ConnectionError, match="There is no control interface at"):
+        Remote(address).state()
+
+
+# ---- clients ---------------------------------------------------------------------------------------------
+
+Handler = pyfranka.AsyncPositionControlHandler
+# A Panda refuses these before it looks at values.
+OF_FR3 = ("start_async_joint_position_control",)
+
+
+def client_calls(thing, table, without=()):
+    """With wrong values, and with an unknown name of an argument."""
+    cls = type(thing)
+    yield from wrong_calls(cls, table, without)
+    for function, (parameters, *_) in functions_of(cls).items():
+        if function != "__init__":
+            needed = {p.name: table[p.name].right for p in parameters if p.default is p.empty}
+            keywords = {**needed, "nothing": 1}
             yield (
-                f"{kind.__name__}.{name}",
-                lambda name=name, a=arguments, k=keywords: getattr(thing, name)(*a, **k),
+                f"{function}(nothing=1)",
+                "nothing",
+                1,
+                lambda x, f=function, k=keywords: getattr(x, f)(**k),
             )
 
 
-@pytest.fixture
-def sim(name):
-    with Simulation("stone.xml", [KINDS[name](base=BASE)]) as simulation:
-        yield simulation
+def what_setters_change(robot):
+    state = robot.read_once()
+    fields = ("robot_mode", "q_d", "NE_T_EE", "EE_T_K", "m_load", "F_x_Cload", "I_load")
+    errors = str(state.current_errors), str(state.last_motion_errors)
+    return [np.array(getattr(state, field)).tolist() for field in fields], errors
 
 
-def all_calls(sim, name):
-    gripper, snapshot = sim[name].gripper, sim.snapshot()
-    return [call for thing in (sim, sim[name], gripper) for call in calls_of(thing, snapshot)]
+@pytest.fixture(scope="module")
+def clients(server, served, robots):
+    """An object of each class for each robot; hands have one client at a time."""
+    vacuum = pyfranka.VacuumGripper(server["panda"].address)
+    return {kind: (robots[kind], served[kind].gripper(), vacuum, robots[kind].load_model()) for kind in KINDS}
 
 
-# Made once, then only shown.
-CACHED = {"SimulatedRobot.gripper"}
-# Views, which another thread's step changes.
-VIEWS = {"SimulatedRobot.live_state", "SimulatedRobot.model"}
+@pytest.mark.parametrize("index", range(4), ids=["Robot", "Gripper", "VacuumGripper", "Model"])
+def test_of_clients(index, clients, name):
+    robot, hand, *_ = clients[name]
+    check(
+        client_calls(clients[name][index], CLIENT, OF_FR3 if name == "panda" else ()),
+        clients[name][index],
+        lambda: (what_setters_change(robot), hand.read_once().width),
+    )
 
 
-def test_a_closed_simulation_raises_at_each_call(sim, name):
-    calls = all_calls(sim, name)
-    called = {called for called, _ in calls}
-    assert {f"SimulatedRobot.{each}" for each in ("state_hash", "state", "model", "moving")} <= called
-    sim.close()
-    for called, call in calls:
-        if called not in CACHED:
-            with pytest.raises(RuntimeError, match="The simulation is closed"):
-                call()
-                pytest.fail(called)
+@pytest.mark.parametrize("kind", ["ArmModel", "ModelKDL"])
+def test_other_models_refuse_wrong_arguments_as_the_robots_own_does(kind, robots, name):
+    if kind == "ArmModel":
+        arm = Simulation(robots=[name])[name]
+        thing, table = arm.model, {**CLIENT, "state": bound("state", arm.state)}
+    else:
+        urdf = robots["fr3"].get_robot_model()
+        names = re.findall(r'link name="(\w*link[08])"', urdf)
+        thing = pyfranka.ModelKDL(urdf, *names)
+        table = CLIENT | {"urdf": text(urdf), "root": text(names[0]), "tip": text(names[1])}
+    check(wrong_calls(type(thing), table), thing)
+    assert np.isfinite(thing.mass(table["state"].right)).all()
 
 
-def test_while_another_thread_steps_each_call_is_refused(sim, name):
-    calls = [(called, call) for called, call in all_calls(sim, name) if called not in CACHED | VIEWS]
-    check_refused_while_another_thread_steps(sim, calls)
+# Values may hold any numbers.
+VALUES = {
+    **dict.fromkeys((pyfranka.Torques, pyfranka.JointPositions, pyfranka.JointVelocities), FLAT),
+    pyfranka.CartesianVelocities: [0.0] * 6,
+    pyfranka.CartesianPose: np.eye(4).tolist(),
+}
+ELBOW = Kind([0.0, 1.0], (object(), "a", [1.0]))
+FUNCTIONS = {
+    "max_derivatives": Kind(FLAT, bound("", FLAT).wrong),
+    "commanded_values": bound("commanded_values", FLAT),
+    "last_commanded_values": Kind(FLAT, bound("", FLAT).wrong),
+    "motion_finished.command": Kind(None, (object(), 5)),
+    "elbow": ELBOW,
+    "log": Kind([], (object(), "a", [5])),
+    "transform": Kind(EYE, (object(), "a", np.eye(3)), word=""),
+}
+
+
+@pytest.mark.parametrize("cls", VALUES, ids=lambda cls: cls.__name__)
+def test_of_values(cls):
+    right = VALUES[cls]
+    values = Kind(right, bound("", right).wrong, word=f"{cls.__name__} needs")
+    table = {"values": values, "command": bound("command", cls(right)), "elbow": ELBOW}
+    check(wrong_calls(cls, table), cls(right))
+
+
+def test_of_attributes(robots):
+    state = pyfranka.RobotState()
+    fields = [name for name, each in vars(pyfranka.RobotState).items() if isinstance(each, property)]
+    for owner, names in ((state, fields), (pyfranka.Torques(FLAT), ("tau_J", "motion_finished"))):
+        calls = [
+            (f"{name} = {wrong!r}", "", wrong, lambda x, n=name, w=wrong, o=owner: setattr(o, n, w))
+            for name in names
+            for wrong in (object(), "a", [[1.0]])
+        ]
+        check(calls, owner, lambda owner=owner: str(owner))
+
+
+def test_of_functions():
+    named = ("limit_rate", "motion_finished", "is_valid_elbow", "log_to_csv", "is_homogeneous_transformation")
+    functions = SimpleNamespace(**{name: getattr(pyfranka, name) for name in named})
+    check(wrong_calls(functions, FUNCTIONS), functions)
+    limits = {"version": whole(5, 2), "q": Kind(FLAT, ([1.0],))}
+    check(wrong_calls(pyfranka.ArmLimits, limits), pyfranka.ArmLimits(5))
+
+
+def test_of_an_asynchronous_motion(robots):
+    """What is wrong by its type raises; what is wrong by its value is in the result, as in libfranka."""
+    fr3 = robots["fr3"]
+    before = what_setters_change(fr3)
+    right = Handler.Configuration([1.0] * 7)
+    configuration = {"goal_tolerance": bound("tolerance", 0.1), "joint_positions": bound("positions", FLAT)}
+    for cls in (Handler.Configuration, Handler.JointPositionTarget):
+        table = CLIENT | configuration
+        names = {name: Kind(each.right, each.wrong[:2], each.word) for name, each in table.items()}
+        check(wrong_calls(cls, names), None)
+    table = CLIENT | {"robot": bound("robot", fr3), "configuration": bound("configuration", right)}
+    table["target"] = bound("target", Handler.JointPositionTarget(FLAT))
+    handler = Handler.configure(fr3, right).handler
+    check(wrong_calls(Handler, table), handler)
+    for wrong in ([1.0] * 3, [NAN] * 7, [-1.0] * 7):
+        result = Handler.configure(fr3, Handler.Configuration(wrong))
+        assert result.handler is None and result.error_message.endswith("."), wrong
+    for robot, tolerance in ((fr3, NAN), (robots["panda"], 0.1)):
+        result = Handler.configure(robot, Handler.Configuration([1.0] * 7, tolerance))
+        assert result.handler is None and result.error_message.endswith(".")
+    for positions in (FLAT[:3], [NAN] * 7):
+        result = handler.set_joint_position_target(Handler.JointPositionTarget(positions))
+        assert not result.was_successful and result.error_message.endswith("."), positions
+    assert handler.get_target_feedback().status == pyfranka.TargetStatus.kIdle
+    handler.stop_control()
+    target = Handler.JointPositionTarget(fr3.read_once().q.tolist())
+    assert "configure a new" in handler.set_joint_position_target(target).error_message
+    assert handler.get_target_feedback().status == pyfranka.TargetStatus.kAborted
+    assert what_setters_change(fr3) == before
+
+
+def test_of_an_active_control(robot):
+    with robot.start_torque_control() as motion:
+        motion.read_once()
+        table = {"command": bound("command", pyfranka.Torques(FLAT))}
+        table["torques"] = bound("torques", pyfranka.Torques(FLAT))
+        check(wrong_calls(type(motion), table), motion)
+        motion.write_once(pyfranka.Torques(FLAT))
+
+
+# ---- programs and plots ----------------------------------------------------------------------------------
+
+FRANKA_SIM = {
+    "world": Kind("", (5,), unknown=("moon.xml",)),
+    "program": Kind("", (), unknown=("/nowhere",)),
+    "pace": Kind("lockstep", unknown=("fast",)),
+    "patience": Kind(None, unknown=("long",)),
+    "wait": Kind(None, unknown=("sleep",)),
+    "linger": Kind(None, unknown=("long",)),
+    **dict.fromkeys(("start", "viewer", "desk", "desk_user", "desk_password", "arguments"), Kind(None)),
+    "name": Kind("panda", unknown=("ur5",)),
+    "since": whole(0, -1),
+}
+
+
+def test_of_franka_sim(server):
+    check(wrong_calls(FrankaSim, FRANKA_SIM), server)
+    check(together(FrankaSim, [lambda x: FrankaSim(5), lambda x: FrankaSim("ur5")]), server)
+
+
+def recording():
+    collector = pyfranka.plot.Collector("robot", 5)
+    collector.add(pyfranka.RobotState())
+    return collector.recording()
+
+
+JOINTS = Kind((1,), (3,), word="joint", unnamed=([0], [8]))
+SIGNALS = Kind(("q",), ("q",), word="signal", unnamed=(["color"], [5], [], ["q+rpy"]))
+PLOT = {
+    "recording": Kind(recording(), (5, None)),
+    "signals": SIGNALS,
+    "plot_abort.signals": Kind((), SIGNALS.wrong, word="signal", unnamed=(["color"], [5], ["q+rpy"])),
+    "joints": JOINTS,
+    "limits": Kind("auto", unknown=("some",)),
+    "title": Kind(""),
+    "abort": Kind(None, ("reason",)),
+    "error": Kind(None, (ValueError("It moved."),)),
+    "version": Kind(5),
+    "log": Kind(None, (5, [5]), unnamed=([],)),
+    "name": Kind("robot"),
+    "text": Kind("", (None, 5)),
+    "file": Kind("", (5,), unknown=("/nowhere.csv",)),
+    "reason": Kind(None),
+    "state": Kind(STATE, (5,)),
+    "time": Kind(None),
+}
+
+
+def test_of_plots():
+    named = ("plot", "plot_abort", "abort_figure", "of_log", "read_log")
+    functions = {name: getattr(pyfranka.plot, name) for name in named}
+    functions["of_text"] = lambda text: pyfranka.plot.Abort.of_text(text)
+    functions["of_text"].__module__ = "pyfranka"
+    functions["add"] = pyfranka.plot.Collector("a").add
+    functions = SimpleNamespace(**functions)
+    check(wrong_calls(functions, PLOT), functions)
+    empty = pyfranka.plot.Recording("empty", np.zeros(1), {})
+    calls = [
+        lambda x: pyfranka.plot.plot_abort(empty),
+        lambda x: pyfranka.plot.Collector("a").recording(),
+    ]
+    check(together(pyfranka.plot, calls), None)
