@@ -75,17 +75,6 @@ def test_observations_are_one_array_of_requested_values(name):
     assert np.isfinite(seen).all(), "a view keeps the batch"
 
 
-def test_default_values_are_observed():
-    with SimulationBatch(
-        1, "stone.xml", [Panda(base=BASE), FR3(base=(0.5, 0, 0, 3.14), hand=False)]
-    ) as batch:
-        robots = [f"panda.{v}" for v in ("q", "dq", "O_T_EE", "robot_mode", "width")]
-        robots += [f"fr3.{v}" for v in ("q", "dq", "O_T_EE", "robot_mode")]
-        assert list(batch.layout) == ["time", *robots, "stone.pose"]
-        batch.step(5)
-        assert batch.observations[0, batch.layout["panda.robot_mode"]] == 1.0, "Idle"
-
-
 def test_worlds_are_made_by_several_threads(monkeypatch):
     makers, make, together = set(), Simulation._make, threading.Barrier(3)
 
@@ -250,28 +239,6 @@ def test_a_world_in_use_by_another_thread_stops_the_batch_before_it_begins():
         assert "Another thread uses this simulation" in text
         batch.step(2)
         assert batch[0].ticks == ticks + 2
-
-
-def test_a_forked_process_may_use_a_simulation_but_makes_a_batch_of_its_own():
-    """`os.fork` as multiprocessing on Linux does it."""
-    with Simulation(robots=[Panda()]) as sim, SimulationBatch(2, threads=2) as batch:
-        batch.step(5)
-        sim.step(100)
-        child = os.fork()
-        if child == 0:
-            result = 1
-            try:
-                batch.step()
-            except RuntimeError as error:
-                sim.step(50)
-                with SimulationBatch(2, threads=2) as own:
-                    own.step(5)
-                result = 0 if "before the process was forked" in str(error) and own.seeds else 2
-            finally:
-                os._exit(result)
-        assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
-        batch.step(5)
-        assert batch[1].ticks == 10
 
 
 def test_each_further_world_takes_less_than_eight_megabytes(name):

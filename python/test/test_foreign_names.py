@@ -7,7 +7,6 @@ import copy
 import datetime
 import functools
 import inspect
-import itertools
 import json
 import os
 import pickle
@@ -161,12 +160,6 @@ def test_durations_are_numbers():
         pyfranka.Duration(2**70)
 
 
-def test_each_error_has_its_flag():
-    names = [name for name in vars(pyfranka.Errors) if not name.startswith("_")]
-    assert len(names) == 41
-    assert not any(getattr(pyfranka.Errors(), name) for name in names)
-
-
 def test_attributes_can_be_assigned():
     state = pyfranka.RobotState()
     pose = np.arange(16.0).reshape(4, 4)
@@ -236,12 +229,15 @@ with pyfranka.sim.Simulation(robots=[pyfranka.sim.FR3()]) as sim:
 """
 
 
-# franky and pylibfranka exclude each other, with pyfranka and without: both register the type Duration.
+# Each of two bindings comes before the other once. franky and pylibfranka exclude each other, with pyfranka
+# and without: both register the type Duration.
 @pytest.mark.parametrize(
     "order",
     [
-        *itertools.permutations(["pyfranka", "panda_py", "pylibfranka"]),
-        *itertools.permutations(["pyfranka", "panda_py", "franky"]),
+        ["pyfranka", "panda_py", "pylibfranka"],
+        ["pylibfranka", "panda_py", "pyfranka"],
+        ["pyfranka", "panda_py", "franky"],
+        ["franky", "panda_py", "pyfranka"],
     ],
     ids=",".join,
 )

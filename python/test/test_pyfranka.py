@@ -142,52 +142,6 @@ def test_walls_and_filters_are_those_of_a_panda(robot, name):
     robot.set_filters(*[1000.0] * 5)
 
 
-# FR3: the formula of its description, minus the margin of the rate limiter.
-VELOCITY = np.array([2.62, 2.62, 2.62, 2.62, 5.26, 4.18, 5.26])
-OFFSET = np.array([0.6599, 0.2517, 0.2, 0.3533, 0.5757, 0.4878, 0.4628])
-DECELERATION = np.array([6.0, 2.585, 3.5, 4.0, 17.0, 5.5, 17.0])
-LOWEST = np.array([-2.9007, -1.8361, -2.9007, -3.0770, -2.8763, 0.4398, -3.0508])
-HIGHEST = np.array([2.9007, 1.8361, 2.9007, -0.1169, 2.8763, 4.6216, 3.0508])
-MARGIN = 1e-3
-
-
-def test_velocity_limits_are_returned(robots):
-    q = np.array([2.6, -1.7, 0.0, -0.3, -2.8, 4.4, 0.1])
-    panda, fr3 = robots["panda"], robots["fr3"]
-    # Panda: minus the increase by three lost packets at the acceleration limit.
-    acceleration = np.array([15.0, 7.5, 10.0, 12.5, 15.0, 20.0, 20.0]) - MARGIN
-    expected = np.array([2.175] * 4 + [2.61] * 3) - (MARGIN + 3e-3 * acceleration)
-    np.testing.assert_allclose(panda.get_upper_joint_velocity_limits(q), expected, atol=1e-9)
-    np.testing.assert_array_equal(
-        panda.get_lower_joint_velocity_limits(q), -panda.get_upper_joint_velocity_limits(q)
-    )
-    upper = np.minimum(VELOCITY, np.sqrt(2 * DECELERATION * (HIGHEST - q)) - OFFSET) - MARGIN
-    lower = np.maximum(-VELOCITY, OFFSET - np.sqrt(2 * DECELERATION * (q - LOWEST))) + MARGIN
-    np.testing.assert_allclose(fr3.get_upper_joint_velocity_limits(q), upper, atol=1e-6)
-    np.testing.assert_allclose(fr3.get_lower_joint_velocity_limits(q), lower, atol=1e-6)
-
-
-@pytest.mark.parametrize(
-    "call, sentence",
-    [
-        (lambda robot: robot.set_joint_impedance([1.0] * 6), "K_theta needs 7 numbers, not 6"),
-        (lambda robot: robot.set_cartesian_impedance("stiff"), "K_x needs 6 numbers"),
-        (lambda robot: robot.set_EE(np.eye(3)), "NE_T_EE needs 16 numbers, not 9"),
-        (lambda robot: robot.set_load(1.0, None, [0.0] * 9), "F_x_Cload needs 3 numbers"),
-        (
-            lambda robot: robot.set_collision_behavior(*[[1.0] * 7] * 4, *[[1.0] * 6] * 3, [1.0] * 7),
-            "upper_force_nominal needs 6 numbers, not 7",
-        ),
-        (lambda robot: robot.get_upper_joint_velocity_limits([0.0]), "q needs 7 numbers, not 1"),
-        (lambda robot: pyfranka.Torques([0.0] * 8), "needs 7 numbers, not 8"),
-        (lambda robot: pyfranka.CartesianPose(EYE, [0.0]), "elbow needs 2 numbers, not 1"),
-    ],
-)
-def test_wrong_array_sizes_are_refused(robots, call, sentence):
-    with pytest.raises(ValueError, match=sentence):
-        call(robots["fr3"])
-
-
 def test_refused_commands_raise_command_exceptions(robot):
     with pytest.raises(pyfranka.CommandException):
         robot.set_load(-1.0, [0.0] * 3, [0.0] * 9)

@@ -7,8 +7,6 @@ import io
 import json
 import math
 import pickle
-import re
-import threading
 import warnings
 from functools import partial
 from pathlib import Path
@@ -31,7 +29,6 @@ from pyfranka.sim import (
     Simulation,
     SimulationBatch,
 )
-from waiting import holds
 
 BASE = (-0.5, 0, 0)  # beside the table of stone.xml
 TORQUES = np.array([0.5, -1.0, 0.3, 0.8, 0.1, -0.2, 0.05])  # [Nm]
@@ -101,8 +98,7 @@ def elbow_motion(sim, robot, controller, **command):
     return state.q[2] - start[0], np.abs(state.O_T_EE - pose).max()
 
 
-@pytest.mark.parametrize("controller", ["joint_impedance", "cartesian_impedance"])
-@pytest.mark.parametrize("pose", [True, False], ids=["poses", "velocities"])
+@pytest.mark.parametrize(("controller", "pose"), [("joint_impedance", True), ("cartesian_impedance", False)])
 def test_a_commanded_elbow_turns_about_a_resting_end_effector(sim, arm, controller, pose):
     turned, moved = elbow_motion(sim, arm, controller, pose=pose)
     assert turned == pytest.approx(0.1, abs=5e-3) and moved < 2e-3
@@ -202,29 +198,6 @@ def test_damping_of_the_joints_ends_a_swing(sim, arm):
     assert overshoot([5.0] * 4 + [1.0] * 3) < 2e-3
 
 
-def test_refusal_is_reported_and_robot_recovers(sim, arm):
-    arm.command(joint_positions=arm.state.q_d)
-    sim.step(5)
-    with pytest.raises(RequestRefused, match="another kind"):
-        arm.command(torque=TORQUES)
-    with pytest.raises(RequestRefused, match="in mode Move"):
-        arm.set_load(0.1, [0, 0, 0], np.zeros(9))
-    arm.command(joint_positions=arm.state.q_d + 0.5)
-    sim.step(5)
-    assert arm.state.robot_mode == pyfranka.RobotMode.Reflex
-    assert "joint_motion_generator_velocity_discontinuity" in str(arm.state.last_motion_errors)
-    with pytest.raises(RequestRefused, match=r"mode Reflex: .*Recover it first"):
-        arm.command(torque=TORQUES)
-    arm.recover()
-    sim.step(2000)
-    assert arm.state.robot_mode == pyfranka.RobotMode.Idle
-    arm.set_user_stop(True)
-    sim.step(500)
-    assert arm.state.robot_mode == pyfranka.RobotMode.UserStopped and arm.brakes_closed
-    sim.reset()
-    assert arm.state.robot_mode == pyfranka.RobotMode.Idle and not arm.brakes_closed
-
-
 def test_a_refusal_says_what_to_do(sim, arm):
     def refused(sentence, *calls):
         for call in calls:
@@ -275,38 +248,6 @@ def test_descriptions_of_equal_robots_are_equal(kind=Panda):
     second = kind(base=[0, 0, 0], load=[0.1, (0, 0, 0), np.eye(3).ravel()], hand=True)
     assert first == second and hash(first) == hash(second) and first.base == (0.0, 0.0, 0.0)
     assert kind(hand="none") == kind(hand=False) != kind(hand="vacuum")
-
-
-def test_everything_shows_itself_in_a_line(sim, arm, name):
-    kind = KINDS[name].__name__
-    arm.gripper.move(0.05)
-    sim.step(600)
-    torques = pyfranka.Torques([0.5] + 6 * [0])
-    shown = {
-        f"<Simulation of '{name}' at 0.6 s>": sim,
-        f"<{kind} '{name}': Idle>": arm,
-        r"<LiveState at 0.6\d* s: Idle, q \[.*-0.785[34].*\]>": arm.live_state,
-        "<ArmModel of a simulated robot: .*>": arm.model,
-        r"<Gripper: width 0.05\d* of 0.08 m, not grasped>": arm.gripper,
-        "<Action move: Running>": arm.gripper.move(0.02),
-        "<Snapshot at 0.6 s>": sim.snapshot(),
-        r"Torques\(\[0.5, 0, 0, 0, 0, 0, 0\]\)": torques,
-        r"Torques\(.*\), the last one of its motion": pyfranka.motion_finished(torques),
-        r"<ArmLimits of an FR3: dq \[.*\] rad/s, tau \[87, .*\] Nm>": pyfranka.ArmLimits(10),
-    }
-    for pattern, thing in shown.items():
-        assert re.fullmatch(pattern, repr(thing)), repr(thing)
-    batch = SimulationBatch(2, robots=[KINDS[name]()])
-    assert repr(batch).startswith(f"<SimulationBatch of 2 worlds, the first: <Simulation of '{name}'")
-    batch.close()
-    gripper, action = arm.gripper, arm.gripper.stop()
-    arm.command(torque=TORQUES)
-    assert repr(arm) == f"<{kind} '{name}': moving>"
-    sim.close()
-    for thing in (sim, arm, gripper, action):
-        assert "The simulation is closed" in repr(thing)
-    with pytest.raises(RuntimeError, match="is closed"), sim:
-        pass
 
 
 def test_every_public_class_shows_itself():
@@ -393,17 +334,6 @@ def test_errors_compare_by_value(stopped_arm):
     assert errors != none and none == pyfranka.Errors() and errors != str(errors)
 
 
-def test_a_log_of_states_keeps_each_one(sim, arm):
-    arm.joint_impedance(arm.state.q + 0.1, 0.1)
-    log = []
-    for _ in range(5):
-        sim.step()
-        log.append(arm.state)
-    times = [state.time.to_msec() for state in log]
-    assert times == list(range(times[0], times[0] + 5))
-    assert all((one.q != other.q).any() for one, other in zip(log, log[1:]))
-
-
 def test_a_state_is_a_dict_of_plain_values(stopped_arm):
     state = stopped_arm.state
     values = state.to_dict()
@@ -425,42 +355,6 @@ def test_notebooks_show_pictures():
     rgb = np.random.default_rng(1).integers(0, 256, (5, 7, 3), dtype=np.uint8)
     shown = Image.open(io.BytesIO(Picture(rgb, None)._repr_png_()))
     assert shown.format == "PNG" and (np.asarray(shown) == rgb).all()
-
-
-def test_a_command_to_a_motion_that_ends_is_refused(sim, arm):
-    arm.joint_impedance(arm.state.q)
-    sim.step(5)
-    arm.finish()
-    for call in (lambda: arm.command(torque=TORQUES), lambda: arm.joint_impedance(arm.state.q)):
-        with pytest.raises(RequestRefused, match="is ending"):
-            call()
-    sim.step(500)
-    arm.command(torque=TORQUES)
-    assert arm.moving
-
-
-def test_a_world_needs_no_robot_and_says_where_robots_overlap():
-    with Simulation(robots=[]) as empty:
-        empty.step(5)
-        assert not list(empty) and empty.ticks == 5
-
-
-def test_a_robot_that_begins_within_another_body_is_a_warning(tmp_path):
-    with pytest.warns(UserWarning, match="begins within other bodies.*another base") as caught:
-        Simulation(robots=[Panda(), FR3()]).close()
-    texts = [str(warning.message) for warning in caught]
-    assert [text.split("'")[1] for text in texts] == ["panda", "fr3"]
-    assert "panda_link1 and fr3_link1 by" in texts[0] and "fr3_link1 and panda_link1 by" in texts[1]
-    world = tmp_path / "box.xml"
-    world.write_text(
-        '<mujoco><worldbody><body name="box" pos="0 0 0.3"><freejoint/>'
-        '<geom type="box" size="0.1 0.1 0.3"/></body></worldbody></mujoco>'
-    )
-    with pytest.warns(UserWarning, match="panda_link1 and box by [0-9]+ mm"):
-        Simulation(robots=[Panda()], world=world).close()
-    with warnings.catch_warnings():
-        warnings.simplefilter("error")
-        Simulation(robots=[Panda(base=(0, 2, 0))], world=world).close()
 
 
 def test_several_robots_share_a_world_and_have_names():
@@ -489,26 +383,6 @@ def test_the_hand_grasps_while_the_simulation_steps(arm, sim):
     sim.step(10)
     arm.gripper.stop()
     assert homing.outcome == GripperOutcome.Interrupted
-
-
-def test_realism_is_chosen_robot_by_robot(name):
-    def pushed(realism, seed=1):
-        """Joint 1 after a push from the side and after its end."""
-        with Simulation(robots=[KINDS[name](realism=realism)], seed=seed) as sim:
-            sim.push(f"{name}_hand", [0, 8, 0], ticks=1000)
-            sim.step(6000)
-            return sim[name].state.q[0], sim[name].state.tau_J.copy()
-
-    start = pushed("ideal")
-    with Simulation(robots=[KINDS[name]()]) as sim:
-        rest = sim[name].state.q[0]
-    assert start[0] == pytest.approx(rest, abs=1e-6), "without friction it returns"
-    assert abs(pushed("real")[0] - rest) > 1e-5, "friction holds it"
-    noisy = pushed("recorded", 1), pushed("recorded", 1), pushed("recorded", 2)
-    assert (noisy[0][1] == noisy[1][1]).all(), "the same seed, the same bits"
-    assert (noisy[0][1] != noisy[2][1]).any()
-    fixed = pushed("recorded,seed=5", 1), pushed("recorded,seed=5", 2)
-    assert (fixed[0][1] == fixed[1][1]).all(), "a seed of its own"
 
 
 def test_random_joints_are_within_the_limits_and_repeat(name):
@@ -548,26 +422,6 @@ def test_arrays_of_a_live_state_are_views_that_cannot_be_written(sim, arm):
     assert arm.model.pose(pyfranka.Frame.EndEffector, arm.state) == pytest.approx(arm.state.O_T_EE, abs=1e-12)
     del sim, arm
     assert gravity.shape == (7,) and np.isfinite(q).all(), "a view keeps the simulation"
-
-
-def test_a_simulation_is_for_one_thread_at_a_time_and_lets_others_run(sim):
-    refused = []
-
-    def one_is_refused():
-        try:
-            sim.step(500)
-        except RuntimeError as error:
-            refused.append(str(error))
-        return refused
-
-    workers = [threading.Thread(target=holds, args=(one_is_refused,)) for _ in range(2)]
-    for worker in workers:
-        worker.start()
-    for worker in workers:
-        worker.join()
-    assert refused, "while one steps, the other one runs"
-    assert all("Another thread uses this simulation" in error for error in refused)
-    sim.step()
 
 
 def test_too_many_contacts_are_a_warning_once(narrow_world):
@@ -617,17 +471,6 @@ def test_a_description_of_ones_own_keeps_its_hand(name, tmp_path):
         sim[name].gripper.move(0.04)
         sim.step(1000)
         assert sim[name].gripper.width == pytest.approx(0.04, abs=1e-3)
-
-
-def test_the_end_effector_follows_the_tool_that_a_description_mounts(name, tmp_path):
-    robots = Path(__file__).resolve().parents[2] / "catkin_ws" / "src" / "franka_sim" / "robots"
-    text = (robots / f"{name}.urdf").read_text()
-    assert text.count('xyz="0 0 0.1034"') == 1
-    own = tmp_path / "own.urdf"
-    own.write_text(text.replace('xyz="0 0 0.1034"', 'xyz="0.05 0 0.2"'))
-    with Simulation("", [KINDS[name](urdf=own)]) as sim:
-        tip, _ = sim.body_pose(f"{name}_hand_tcp")
-        assert sim[name].state.O_T_EE[:3, 3] == pytest.approx(tip, abs=1e-6)
 
 
 def test_a_rounded_inertia_of_a_description_is_repaired_with_a_warning(tmp_path):
