@@ -14,6 +14,7 @@ import pyfranka
 import pyfranka.gym
 import pyfranka.plot
 import pyfranka.sim
+import pyfranka.sweeps
 import pytest
 from pyfranka.franka_sim import FrankaSim
 from pyfranka.remote import Remote
@@ -313,19 +314,22 @@ REMOTE = {
     "target": Kind(READY, (5, None, "", "a b", *row(READY).wrong[2:])),
     "move.speed": number(0.3, "5", HUGE, 100, 0),
     "what": word("brakes", "lunch"),
-    "health": word("green"),
+    "health": Kind("green", word("green").wrong, unnamed=("blue",)),
     "body": word("stone", "nothing"),
     "condition": Kind(None, (5, "Idle")),
-    **dict.fromkeys(("mass", "seconds", "width", "speed", "force", "probability"), number(0.04, "5", HUGE)),
-    **dict.fromkeys(("center", "F_x_Cload", "torque", "position", "push.force"), THREE),
-    "edges": row([1.0] * 3),
+    **dict.fromkeys(("mass", "seconds", "probability"), number(0.04, "5", HUGE)),
+    "width": number(0.04, "5", HUGE, unnamed=(0.09,)),
+    **dict.fromkeys(("speed", "force"), number(0.04, "5", HUGE, unnamed=(-0.1,))),
+    **dict.fromkeys(("center", "F_x_Cload", "position", "push.force"), THREE),
+    "torque": numbers([0.0] * 3, unnamed=([0, 0, 1e6],)),
+    "edges": numbers([1.0] * 3, unnamed=([1, 1, -1],)),
     "orientation": row([1.0, 0.0, 0.0, 0.0]),
     **dict.fromkeys(("inertia", "load_inertia"), matrix(3)),
     "F_T_NE": matrix(4),
     "wall.number": count(1, 9),
     "remove_wall.number": count(1, 8),
     **dict.fromkeys(("seed", "commands", "step.ticks"), count(1, -1)),
-    "delay.ticks": count(1),
+    "delay.ticks": Kind(1, count(1).wrong, unnamed=(21,)),
     "ticks": count(1, 2**70),
 }
 
@@ -352,8 +356,10 @@ def test_of_the_control_interface(server, robot, kept):
     remote.close()
 
 
-@pytest.mark.parametrize("address", ["a..b", "x" * 70, "a\0b", "\ud800"])
-def test_an_address_that_cannot_be_one_is_a_sentence(address):
+@pytest.mark.parametrize(
+    "address", ["a..b", "x" * 70, "a\0b", "\ud800", "127.0.32.20", "no.such.host.invalid"]
+)
+def test_an_address_without_a_robot_is_a_sentence(address):
     with pytest.raises(ConnectionError, match="There is no control interface at"):
         Remote(address).state()
 
@@ -523,6 +529,29 @@ FRANKA_SIM = {
 def test_of_franka_sim(server):
     check(wrong_calls(FrankaSim, FRANKA_SIM), server)
     check(together(FrankaSim, [lambda x: FrankaSim(5), lambda x: FrankaSim("ur5")]), server)
+
+
+def good(case, seed):
+    return 0
+
+
+SWEEP = {
+    "function": Kind(good, unnamed=(3,)),
+    "cases": Kind(1, (0, True, 1.5, "abc", []), word="cases"),
+    "cluster": Kind(None, unnamed=(8786,), unknown=("somewhere", "nowhere.json")),
+    **dict.fromkeys(("output", "progress"), Kind(None)),
+    "retry_failed": Kind(False),
+    "seed": Kind(1, (-1, 1.5, None)),
+    "retries": Kind(1, (-1,)),
+    "workers": Kind(1, (0,)),
+    "patience": Kind(600.0, (NAN, 0)),
+    "index": Kind(0, (-1,)),
+}
+
+
+def test_of_sweeps():
+    functions = SimpleNamespace(sweep=pyfranka.sweeps.sweep, seed_of=pyfranka.sweeps.seed_of)
+    check(wrong_calls(functions, SWEEP), functions)
 
 
 def recording():

@@ -360,12 +360,6 @@ def test_bad_input_is_refused_with_a_sentence(words, status, sentence, log, tmp_
     assert reported.out == "" and sentence in reported.err and "Traceback" not in reported.err
 
 
-def test_it_lists_the_signals(capfd):
-    assert run("--list") == 0
-    lines = capfd.readouterr().out.splitlines()
-    assert [line.split()[0] for line in lines] == list(SIGNALS)
-
-
 def test_the_programs_of_the_page_run(panda, tmp_path, monkeypatch):
     page = (Path(__file__).resolve().parents[2] / "docs" / "how_to" / "plots.md").read_text()
     monkeypatch.chdir(tmp_path)
