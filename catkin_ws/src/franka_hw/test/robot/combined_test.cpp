@@ -139,18 +139,6 @@ TEST_F(Combined, AcceptsASwitchBeforeItHasARobot) {
   EXPECT_FALSE(alone.controllerActive()) << "before doSwitch()";
 }
 
-TEST_F(Combined, CommandsEachArmItsOwn) {
-  start();
-  EXPECT_TRUE(bothMove());
-  EXPECT_FALSE(robot_.hasError());
-  EXPECT_FALSE(robot_.disconnect()) << "not while controllers run";
-  stop();
-  EXPECT_TRUE(cycleUntil([&] {
-    return left_.robot.state().robot_mode == franka_core::RobotMode::kIdle &&
-           right_.robot.state().robot_mode == franka_core::RobotMode::kIdle;
-  }));
-}
-
 TEST_F(Combined, AnErrorOfOneStopsAllUntilAllAreRecovered) {
   left_.robot.script([](auto& script) {
     script.abort_after = 50;
@@ -173,16 +161,6 @@ TEST_F(Combined, AnErrorOfOneStopsAllUntilAllAreRecovered) {
   EXPECT_FALSE(robot_.hasError());
   EXPECT_EQ(1, resets_);
   EXPECT_EQ(moves + 1, right_.robot.count(Command::kMove));
-}
-
-TEST_F(Combined, ErrorsOfAllArmsResetTheControllersOnce) {
-  start();
-  ASSERT_TRUE(bothMove());
-  ASSERT_EQ(0, resets_);
-  robot_.triggerError();
-  recover();
-  EXPECT_TRUE(bothMove());
-  EXPECT_EQ(1, resets_);
 }
 
 TEST_F(Combined, ArmsThatRecoverOneAfterAnotherResetTheControllersOnce) {

@@ -109,23 +109,6 @@ TEST_F(Interfaces, TakeCommands) {
   EXPECT_EQ(hundred, robot_.getJointEffortCommand());
 }
 
-TEST_F(Interfaces, AnswerForTheModelWithTheStatesPose) {
-  franka::RobotState state = robot_.get<franka_hw::FrankaStateInterface>()
-                                 ->getHandle(arm_.arm_id + "_robot")
-                                 .getRobotState();
-  state.q = {};
-  state.F_T_EE = state.EE_T_K = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1};
-  robot_.update(state);
-  const auto model =
-      robot_.get<franka_hw::FrankaModelInterface>()->getHandle(arm_.arm_id + "_model");
-  // The arm points straight up. Distances from the data sheet: 0.333, 0.316, 0.384 up, 0.107 down;
-  // 0.088 forward.
-  const std::array<double, 16> pose = model.getPose(franka::Frame::kFlange);
-  EXPECT_NEAR(0.088, pose[12], 1e-9);
-  EXPECT_NEAR(0.0, pose[13], 1e-9);
-  EXPECT_NEAR(0.333 + 0.316 + 0.384 - 0.107, pose[14], 1e-9);
-}
-
 // --- soft limits ---------------------------------------------------------------------------------
 
 TEST_F(Interfaces, CutCommandsToTheSoftLimits) {

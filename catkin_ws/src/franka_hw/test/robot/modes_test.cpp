@@ -85,39 +85,6 @@ TEST_F(Modes, NineOfAllSetsOfClaimsAreAcceptedAndTheOthersRefused) {
   EXPECT_TRUE(loop_->errors().empty());
 }
 
-TEST_F(Modes, TwoControllersMayShareTheArmAsOneMay) {
-  for (const std::string& one : kKinds) {
-    for (const std::string& other : kKinds) {
-      const bool legal = one != other && (one == "JT" || other == "JT");
-      const std::string second = other + ":2";
-      // The second is started beside the first, which must continue if that is refused.
-      ASSERT_TRUE(loop_->switchTo({one}, {}));
-      EXPECT_EQ(legal, loop_->switchTo({second}, {})) << one << " and " << other;
-      EXPECT_TRUE(loop_->controller(one).isRunning()) << one << " and " << other;
-      EXPECT_EQ(legal, loop_->controller(second).isRunning()) << one << " and " << other;
-      const int before = loop_->controller(one).updates;
-      EXPECT_TRUE(eventually([&] { return loop_->controller(one).updates > before + 3; }));
-      std::vector<std::string> running{one};
-      if (legal) {
-        running.push_back(second);
-      }
-      ASSERT_TRUE(loop_->switchTo({}, running));
-    }
-  }
-  EXPECT_TRUE(loop_->errors().empty());
-}
-
-TEST_F(Modes, APartOfTheJointsIsRefused) {
-  for (const std::string kind : {"JT", "JP", "JV"}) {
-    for (int joints : {1, 6}) {
-      const std::string claims = kind + ":" + std::to_string(joints);
-      arm_.nh.setParam(nameOf(claims) + "/joints", joints);
-      EXPECT_FALSE(loop_->switchTo({claims}, {})) << claims;
-      EXPECT_FALSE(loop_->controller(claims).isRunning()) << claims;
-    }
-  }
-}
-
 TEST_F(Modes, RequestTheirMotionAndSendTheCommandsOfTheController) {
   const MotionGeneratorMode none = MotionGeneratorMode::kNone;
   const ControllerMode torque = ControllerMode::kExternalController;

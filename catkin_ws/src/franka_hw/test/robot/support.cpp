@@ -165,7 +165,6 @@ void TestController::update(const ros::Time& /*time*/, const ros::Duration& peri
     pose_[14] += speed * period.toSec();
     std::array<double, 16> command = pose_;
     command[12] += error;
-    command[dusty_entry] += dust;
     handle.setCommand(command);
   }
   for (auto& handle : twists_) {

@@ -70,8 +70,6 @@ class TestController : public controller_interface::ControllerBase {
   std::atomic<double> torque{0.0};  ///< commanded to every joint [Nm]
   std::atomic<double> speed{0.0};   ///< of joints [rad/s] or along z [m/s]
   std::atomic<Fault> fault{Fault::kNone};
-  std::atomic<double> dust{0.0};    ///< added to one entry of a commanded pose
-  std::atomic<int> dusty_entry{0};  ///< 0 to 15, column-major
 
  protected:
   bool initRequest(hardware_interface::RobotHW* robot_hw, ros::NodeHandle& root_nh,
