@@ -181,16 +181,3 @@ def test_each_public_name_has_a_docstring_and_an_example(module):
     without = {name for name, value in PUBLIC[module].items() if not examples(value)}
     assert without - set(WITHOUT) == set()
     assert set(WITHOUT) & set(PUBLIC[module]) <= without, "These have examples now: take them off the list."
-
-
-def is_in_python(value):
-    return inspect.isfunction(inspect.unwrap(getattr(value, "__func__", value)))
-
-
-@pytest.mark.parametrize("module", MODULES)
-def test_each_public_function_in_python_or_its_class_names_errors(module):
-    public = PUBLIC[module]
-    for name, value in public.items():
-        if is_in_python(value) and WITHOUT.get(name) != PROGRAM:
-            docs = [public[each].__doc__ for each in (name, name.rpartition(".")[0]) if each in public]
-            assert re.search(r"[Rr]aises\s", " ".join(docs)), name

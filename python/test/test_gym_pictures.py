@@ -2,7 +2,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """Pictures of the environments of pyfranka.gym: observations, windows, videos, and what they keep."""
 
-import itertools
 import os
 import subprocess
 import sys
@@ -12,9 +11,8 @@ from unittest.mock import MagicMock
 
 import numpy as np
 import pytest
-from gym_tasks import RANDOMIZE, make, make_vec
+from gym_tasks import make, make_vec
 from gymnasium.utils.env_checker import check_env
-from pyfranka.gym import scripted_policy
 
 
 def test_the_checker_of_gymnasium_passes_with_pictures():
@@ -74,31 +72,6 @@ def test_a_vector_of_environments_has_pictures():
         env.close()
     assert (rows[0]["picture"][0] != rows[0]["picture"][1]).any(), "other scenes"
     vector.close()
-
-
-def video(episodes, steps, **options):
-    """Plays a script, and yields a picture of each step, as gymnasium.wrappers.RecordVideo takes them."""
-    env = make(render_size=(64, 48), render_mode="rgb_array", **options)
-    for seed in range(episodes):
-        observation, _ = env.reset(seed=seed)
-        policy = scripted_policy(env)
-        for _ in range(steps):
-            observation, *_ = env.step(policy(observation))
-            yield env.render()
-    env.close()
-
-
-def test_videos_of_two_environments_side_by_side_equal_those_of_each_alone():
-    long = {"episodes": 1, "steps": 24, "task": "Push", "robot": "fr3"}
-    # Each episode has a new simulation, and the end comes half-way.
-    short = {"episodes": 2, "steps": 6, "task": "PickAndPlace", "randomize": RANDOMIZE}
-    alone = list(video(**long)), list(video(**short))
-    pairs = list(itertools.zip_longest(video(**long), video(**short)))
-    together = [pair[0] for pair in pairs], [pair[1] for pair in pairs[:12]]
-    for one, other in zip(alone, together):
-        assert all(picture.std() > 5.0 for picture in other), "none is black"
-        assert len(one) == len(other) and all((a == b).all() for a, b in zip(one, other))
-    assert [one.shape for one in together[0]] == [(48, 64, 3)] * 24
 
 
 HELD = """

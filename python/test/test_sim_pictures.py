@@ -20,14 +20,6 @@ BASE = (-0.5, 0, 0)  # beside the table of stone.xml
 ROBOTS_TAKE_TURNS = True
 
 
-def test_pictures_come_as_arrays(name):
-    with Simulation("stone.xml", [KINDS[name](base=BASE)]) as sim:
-        picture = sim.render(width=160, height=120)
-        assert picture.rgb.shape == (120, 160, 3) and picture.rgb.std() > 10.0
-        with pytest.raises(RuntimeError, match="no camera"):
-            sim.render("nowhere")
-
-
 def test_a_named_camera_sees_distances(name, tmp_path):
     """It looks down on a table from 1 m."""
     world = tmp_path / "camera.xml"
@@ -141,16 +133,3 @@ def test_a_process_that_was_forked_after_a_picture_ends_by_itself():
     command = [sys.executable, "-W", "ignore::DeprecationWarning", "-c", code]  # Python's own, from 3.12 on
     ended = subprocess.run(command, capture_output=True, text=True, timeout=120)
     assert (ended.returncode, ended.stderr) == (3, "")
-
-
-def test_a_process_that_was_forked_before_the_first_picture_draws():
-    code = (
-        "import multiprocessing, pyfranka.sim\n"
-        "def draw(number):\n"
-        "    with pyfranka.sim.Simulation() as sim:\n"
-        "        return sim.render(width=64, height=48).rgb.shape\n"
-        "with multiprocessing.get_context('fork').Pool(2) as pool:\n"
-        "    print(pool.map(draw, range(4)))\n"
-    )
-    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
-    assert ended.stdout == f"{[(48, 64, 3)] * 4}\n", ended.stderr

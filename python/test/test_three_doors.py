@@ -58,13 +58,6 @@ def test_states_stay_and_are_values(door):
     assert set(log[2].to_dict()) == {"time", "width", "max_width", "is_grasped", "temperature"}
 
 
-def test_robots_and_hands_are_not_values(door):
-    for thing in door:
-        for keep in (pickle.dumps, copy.copy, copy.deepcopy):
-            with pytest.raises(TypeError, match="can be neither pickled nor copied"):
-                keep(thing)
-
-
 # Exception -> calls of a robot and its hand.
 WRONG = {
     ValueError: (

@@ -1,134 +1,62 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""pyfranka.VacuumGripper with the test's own fake gripper."""
+"""pyfranka.VacuumGripper with the simulated one."""
 
-import socket
-import struct
 import threading
 from datetime import timedelta
 
 import pyfranka
 import pytest
+from pyfranka.sim import Panda
+from waiting import wait_for
 
-ADDRESS, PORT = "127.0.32.3", 1339
-CONNECT, VACUUM, DROP_OFF, STOP = range(4)
-SUCCESS, FAIL, UNSUCCESSFUL, ABORTED = range(4)
-HEADER = struct.Struct("<HII")
-
-
-class FakeGripper:
-    """Answers requests with `status`, or keeps them waiting for a stop; sends states periodically."""
-
-    def __init__(self):
-        self.status, self.waits, self.requests = SUCCESS, False, []
-        self.waiting = threading.Event()
-        self._listener = socket.create_server((ADDRESS, PORT))
-        self._thread = threading.Thread(target=self._serve, daemon=True)
-        self._thread.start()
-
-    def close(self):
-        self._listener.shutdown(socket.SHUT_RDWR)
-        self._listener.close()
-        self._thread.join(60)
-
-    def _serve(self):
-        while True:
-            try:
-                client, peer = self._listener.accept()
-            except OSError:
-                return
-            ended = threading.Event()
-            with client:
-                self._talk(client, peer, ended)
-            ended.set()
-
-    def _talk(self, client, peer, ended):
-        stream = client.makefile("rb")
-        client.settimeout(60)
-        pending = []
-        while True:
-            head = stream.read(HEADER.size)
-            if len(head) < HEADER.size:
-                return
-            command, number, size = HEADER.unpack(head)
-            body = stream.read(size - HEADER.size)
-            if command == CONNECT:
-                version, port = struct.unpack("<HH", body)
-                client.sendall(HEADER.pack(command, number, 14) + struct.pack("<HH", SUCCESS, version))
-                states = threading.Thread(
-                    target=self._send_states, args=((peer[0], port), ended), daemon=True
-                )
-                states.start()
-                continue
-            self.requests.append((command, body))
-            if command == STOP:
-                for waiting in pending:
-                    self._reply(client, *waiting, ABORTED)
-                pending.clear()
-                self._reply(client, command, number, SUCCESS)
-            elif self.waits:
-                pending.append((command, number))
-                self.waiting.set()
-            else:
-                self._reply(client, command, number, self.status)
-
-    @staticmethod
-    def _reply(client, command, number, status):
-        client.sendall(HEADER.pack(command, number, 12) + struct.pack("<H", status))
-
-    @staticmethod
-    def _send_states(peer, ended):
-        with socket.socket(socket.AF_INET, socket.SOCK_DGRAM) as sender:
-            while not ended.wait(0.02):
-                sender.sendto(struct.pack("<I???Bii", 2500, True, False, True, 2, 80, 600), peer)
+Status = pyfranka.VacuumGripperDeviceStatus
 
 
 @pytest.fixture
-def fake():
-    gripper = FakeGripper()
-    yield gripper
-    gripper.close()
+def robot(franka_sim):
+    return franka_sim(Panda(hand="vacuum"), pace="realtime").robot
 
 
-def test_state(fake):
-    gripper = pyfranka.VacuumGripper(ADDRESS)
+def test_a_part_is_held_and_dropped(robot):
+    gripper = pyfranka.VacuumGripper(robot.address)
     assert gripper.server_version == 1
+    robot.remote.part(True)
+    assert gripper.vacuum(50, timedelta(seconds=10), pyfranka.VacuumGripper.ProductionSetupProfile.P2)
     state = gripper.read_once()
     assert (state.in_control_range, state.part_detached, state.part_present) == (True, False, True)
-    assert state.device_status == pyfranka.VacuumGripperDeviceStatus.Orange
-    assert (state.actual_power, state.vacuum) == (80, 600)
-    assert state.time == pytest.approx(2.5)
+    assert 500 <= state.vacuum <= 510, "[mbar], of 50 times 10"
+    assert state.time > 0.0 and state.device_status == Status.Green
+    assert gripper.drop_off(timedelta(seconds=10))
+    wait_for(lambda: not gripper.read_once().part_present, "the drop")
+    robot.remote.pump("orange")
+    wait_for(lambda: gripper.read_once().device_status == Status.Orange, "the warning of the pump")
 
 
-def test_commands_arrive_unchanged(fake):
-    gripper = pyfranka.VacuumGripper(ADDRESS)
-    profile = pyfranka.VacuumGripper.ProductionSetupProfile.P2
-    assert gripper.vacuum(100, timedelta(seconds=1.5), profile)
-    assert gripper.drop_off(timedelta(milliseconds=250))
-    assert gripper.stop()
-    assert fake.requests == [
-        (VACUUM, struct.pack("<BBq", 100, 2, 1500)),
-        (DROP_OFF, struct.pack("<q", 250)),
-        (STOP, b""),
-    ]
-
-
-def test_failures_are_reported(fake):
-    gripper = pyfranka.VacuumGripper(ADDRESS)
-    fake.status = UNSUCCESSFUL
-    assert not gripper.vacuum(100, timedelta(seconds=1))
-    fake.status = FAIL
+def test_failures_are_reported(robot):
+    gripper = pyfranka.VacuumGripper(robot.address)
+    begin = robot.remote.time
+    assert not gripper.vacuum(50, timedelta(seconds=0.5)), "there is no part"
+    assert 0.5 <= robot.remote.time - begin < 100.0, "in the robot's time"
+    robot.remote.pump("red")
     with pytest.raises(pyfranka.CommandException, match="libfranka vacuum gripper: "):
-        gripper.drop_off(timedelta(seconds=1))
+        gripper.vacuum(50, timedelta(seconds=1))
 
 
-def test_stop_from_another_thread(fake):
-    """The fake runs in this process: a wait with the interpreter's lock held would never end."""
-    gripper = pyfranka.VacuumGripper(ADDRESS)
-    fake.waits = True
-    stopper = threading.Thread(target=lambda: (fake.waiting.wait(60), gripper.stop()))
+def test_stop_from_another_thread(robot):
+    """If a command held the interpreter's lock, the other thread would stand still."""
+    gripper = pyfranka.VacuumGripper(robot.address)
+    ended = threading.Event()
+
+    def stop_until_it_ended():  # the first stop may come before the command
+        while not ended.wait(0.005):
+            gripper.stop()
+
+    stopper = threading.Thread(target=stop_until_it_ended)
     stopper.start()
-    with pytest.raises(pyfranka.CommandException, match="aborted"):
-        gripper.vacuum(100, timedelta(seconds=60))
-    stopper.join(60)
-    assert not stopper.is_alive()
+    try:
+        with pytest.raises(pyfranka.CommandException, match="aborted"):
+            gripper.vacuum(50, timedelta(hours=1))
+    finally:
+        ended.set()
+        stopper.join(60)
