@@ -185,14 +185,6 @@ def test_options_of_a_session(project):
     result = run(project, test, "--franka-sim-program=/nowhere/franka_sim")
     result.assert_outcomes(errors=1)
     assert "There is no program '/nowhere/franka_sim'." in result.stdout.str()
-    result = run(project, test, "--franka-sim-realism=dreams")
-    result.assert_outcomes(errors=1)
-    assert "realism 'dreams'" in result.stdout.str()
-    page = (Path(__file__).resolve().parents[2] / "docs" / "python.md").read_text()
-    usage = project.runpytest_inprocess("--help").stdout.str()
-    for name in ("program", "pace", "realism"):
-        assert f"--franka-sim-{name}" in usage and f"franka_sim_{name}" in usage
-        assert f"--franka-sim-{name}" in page and f"franka_sim_{name}" in page
 
 
 def test_short_names_of_fixtures_can_be_left_to_the_project(project):
@@ -247,9 +239,6 @@ def test_paths_may_be_like_paths(tmp_path):
         assert state.m_load == pytest.approx(0.3) and state.I_load == pytest.approx(inertia)
     with FrankaSim(Panda(hand=False)) as sim, pytest.raises(pyfranka.NetworkException):
         sim.robot.gripper()
-    for wrong, error in ((5, TypeError), ("ur5", ValueError)):
-        with pytest.raises(error, match="robots are|no robot 'ur5'"):
-            FrankaSim(wrong)
 
 
 def test_the_fixture_takes_the_arguments_of_franka_sim_and_of_a_robot(franka_sim):

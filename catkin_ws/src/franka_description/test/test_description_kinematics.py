@@ -71,24 +71,6 @@ def test_flange_matches_the_dh_table(q):
         np.testing.assert_allclose(pose, modified_dh(q), atol=1e-13)
 
 
-def test_stretched_and_ready_pose():
-    """Two poses calculated by hand: all joints zero, and the ready pose in the xz plane."""
-    name = "fr3"
-    robot = expand(f"{name}/{name}", hand="true")
-    zero = robot.pose(f"{name}_link8")
-    np.testing.assert_allclose(zero[:3, 3], [0.088, 0, 0.333 + 0.316 + 0.384 - 0.107], atol=1e-15)
-    np.testing.assert_allclose(zero[:3, :3], np.diag([1, -1, -1]), atol=1e-15)
-
-    # Upper arm leaning 45 deg back, forearm horizontal, flange straight down; (x, z) coordinates.
-    s = math.sqrt(0.5)
-    elbow = np.array([0, 0.333]) + 0.316 * np.array([-s, s]) + 0.0825 * np.array([s, s])
-    wrist = elbow + [0.384, 0.0825]
-    flange = wrist + [0.088, -0.107]
-    tcp = robot.pose(f"{name}_hand_tcp", positions(name, READY))
-    np.testing.assert_allclose(tcp[:3, 3], [flange[0], 0, flange[1] - 0.1034], atol=1e-14)
-    np.testing.assert_allclose(tcp[:3, :3], np.diag([1, -1, -1]), atol=1e-14)
-
-
 def test_hand_is_rotated_at_the_flange_and_fingers_open():
     name = "panda"
     robot = expand(f"{name}/{name}", hand="true")
