@@ -16,9 +16,11 @@ import pytest
 from hypothesis import strategies as st
 from hypothesis.stateful import initialize, invariant
 from pyfranka import RobotMode, RobotState
-from pyfranka.sim import FR3, Panda, SimulatedRobot, Simulation
+from pyfranka.sim import FR3, Gripper, Panda, SimulatedRobot, Simulation
+from pyfranka_arguments import HAND, ROBOT, SIMULATION
 from sentences import ERRORS, unlike_ours
 from state_machines import Machine, rule, run
+from wrong_calls import wrong_calls
 
 # The solver of constraints, such as those of fingers, friction and stops, couples all robots of a world in
 # the last bits. Robots with fingers and friction stand alone.
@@ -29,9 +31,9 @@ SETUPS = {
     "middle": FR3(name="middle", base=(0, 2, 0), hand=False),
     "right": Panda(name="right", base=(0, 4, 0, 1.5), hand=False),
 }
-# A ball falls beside them, without end.
+# A stone falls beside them, without end.
 WORLD = (
-    "<mujoco><worldbody><body name='ball' pos='0 -3 1'><freejoint/>"
+    "<mujoco><worldbody><body name='stone' pos='0 -3 1'><freejoint/>"
     "<geom size='0.05' mass='1'/></body></worldbody></mujoco>"
 )
 LINEUPS = (["panda"], ["fr3"], ["left", "middle"], ["left", "middle", "right"])
@@ -39,8 +41,6 @@ STOPPED = (RobotMode.UserStopped, RobotMode.Other)
 TICKS = st.sampled_from([1, 1, 7, 60, 400])
 SIZES = st.sampled_from([0.0, 1e-4, 0.02, -0.02, 0.2, -0.2, 3.0])
 INDICES = st.integers(0, 6)
-WRONG = (None, "a", [], [0.0] * 5, [math.nan] * 7, [math.inf] * 6, [1e9] * 7, [-1.0] * 6, math.nan, -1.0, 1e9)
-WRONG += (np.zeros((4, 4)), np.full((4, 4), math.nan), 2**70, object(), True)
 
 
 def unit(index: int, count: int = 7) -> np.ndarray:
@@ -136,7 +136,7 @@ SETTERS = {
         },
     ),
 }
-HAND = {
+HAND_CALLS = {
     "hand: homing": ("gripper.homing", lambda s, x, i: {}),
     "hand: move": ("gripper.move", lambda s, x, i: {"width": 0.01 * i, "speed": 0.1 * abs(x)}),
     "hand: grasp": (
@@ -145,51 +145,18 @@ HAND = {
     ),
     "hand: stop": ("gripper.stop", lambda s, x, i: {}),
 }
-CALLS = {**COMMANDS, **ENDS, **SETTERS, **HAND}
+CALLS = {**COMMANDS, **ENDS, **SETTERS, **HAND_CALLS}
 # The field of the state that shows what a setter has set.
 SHOWN = {"set_EE": ("NE_T_EE", "NE_T_EE"), "set_K": ("EE_T_K", "EE_T_K"), "set_load": ("m_load", "mass")}
-# Calls of a simulation that never succeed.
+# Calls that never succeed, of the classes of a robot, its hand and its simulation.
 REFUSED = {
-    "a step backwards": lambda sim: sim.step(-1),
-    "a reset to no pose": lambda sim: sim.reset(q=[math.nan] * 7),
-    "a reset beyond the limits": lambda sim: sim.reset(q={next(iter(sim)): [9.0] * 7}),
-    "a reset of an unknown robot": lambda sim: sim.reset(q={next(iter(sim)): "random", "ur5": "random"}),
-    "a reset of an unknown body": lambda sim: sim.reset(objects={"ball": [0, -3, 2], "brick": [0, 0, 1]}),
-    "a reset of a link": lambda sim: sim.reset(objects={f"{next(iter(sim))}_link3": [0, 0, 1]}),
-    "a reset to a wrong seed": lambda sim: sim.reset(objects={"ball": [0, -3, 2]}, seed=-1),
-    "a foreign snapshot": lambda sim: sim.restore(foreign_snapshot()),
-    "a place for a link": lambda sim: sim.place_body(f"{next(iter(sim))}_link3", [0, 0, 1]),
-    "no place": lambda sim: sim.place_body("ball", [math.nan, 0, 1]),
-    "a place without direction": lambda sim: sim.place_body("ball", [0, -3, 2], [0, 0, 0, 0]),
-    "a push of nothing": lambda sim: sim.push("brick", [1, 0, 0]),
-    "an endless push": lambda sim: sim.push("ball", [math.inf, 0, 0]),
-    "a push of wrong length": lambda sim: sim.push("ball", [1, 0, 0], ticks=-3),
-    "an address that is none": lambda sim: sim.serve("moon", robot=next(iter(sim))),
-    "an unknown pace": lambda sim: sim.serve("127.0.0.1", robot=next(iter(sim)), pace="fast"),
-    "a picture of an unknown camera": lambda sim: sim.render(camera="none"),
-    "a picture without size": lambda sim: sim.render(width=0),
-}
-# Calls of a simulation with arguments of which one is wrong.
-OF_WORLD = {
-    "step": {"ticks": 5},
-    "push": {"body": "ball", "force": [1, 0, 0], "torque": [0, 0, 0], "ticks": 5},
-    "place_body": {"body": "ball", "position": [1, -3, 1], "orientation": [1, 0, 0, 0]},
-    "reset": {"q": None, "objects": {"ball": [1, -3, 1]}, "seed": None},
-    "restore": {"snapshot": None},
-    "body_pose": {"body": "ball"},
-    "serve": {"ip": "moon", "robot": None, "pace": "lockstep", "patience": 1.0, "wait": "auto"},
+    kind: [*wrong_calls(kind, table, ("__init__", "__getitem__", "close_extras"))]
+    for kind, table in ((SimulatedRobot, ROBOT), (Gripper, HAND), (Simulation, SIMULATION))
 }
 ROUNDING = 1e-6
 FIELDS = [name for name, value in vars(RobotState).items() if isinstance(value, property)]
 FIELDS = [name for name in FIELDS if isinstance(getattr(RobotState(), name), (float, np.ndarray))]
 _cells: dict[tuple[str, ...], "Cell"] = {}
-_foreign = []
-
-
-def foreign_snapshot():
-    if not _foreign:
-        _foreign.append(Simulation(robots=[Panda(name="alone")]))
-    return _foreign[0].snapshot()
 
 
 @dataclass
@@ -303,36 +270,16 @@ class CallsMachine(Machine):
 
     @rule(which=INDICES, name=st.sampled_from(list(CALLS)), size=SIZES, index=INDICES)
     def call(self, which, name, size, index):
-        self.make(which, name, size, index, lambda arguments: arguments)
-
-    @rule(
-        which=INDICES,
-        name=st.sampled_from(list(CALLS)),
-        size=SIZES,
-        index=INDICES,
-        spoiled=INDICES,
-        wrong=st.integers(0, len(WRONG) - 1),
-    )
-    def call_with_a_wrong_value(self, which, name, size, index, spoiled, wrong):
-        def spoil(arguments):
-            if not arguments:
-                return arguments
-            name = list(arguments)[spoiled % len(arguments)]
-            return {**arguments, name: WRONG[wrong]}
-
-        self.make(which, name, size, index, spoil)
-
-    def make(self, which, name, size, index, change) -> None:
         robot, pair = self.pair(which)
         function, arguments = CALLS[name]
         if function.startswith("gripper") and not pair.among.setup.hand:
             return
-        arguments = change(arguments(pair.among.state, size, index))
+        arguments = arguments(pair.among.state, size, index)
         error, result = refusal(call, pair.among, function, arguments)
         if error:
             return
         other = call(pair.alone, function, arguments)
-        if name in HAND:
+        if name in HAND_CALLS:
             self.actions[robot].append((result, other))
         self.note_effect(robot, function, arguments)
 
@@ -349,24 +296,17 @@ class CallsMachine(Machine):
         elif function in ("command", "joint_impedance", "cartesian_impedance"):
             self.ending.discard(robot)
 
-    @rule(function=st.sampled_from(list(OF_WORLD)), spoiled=INDICES, wrong=st.integers(0, len(WRONG) - 1))
-    def call_of_the_world_with_a_wrong_value(self, function, spoiled, wrong):
-        name = list(OF_WORLD[function])[spoiled % len(OF_WORLD[function])]
-        arguments = {**OF_WORLD[function], name: WRONG[wrong]}
-        error, _ = refusal(lambda: getattr(self.cell.sim, function)(**arguments))
-        if error:
+    @rule(which=INDICES, kind=st.sampled_from(list(REFUSED)), index=st.integers(0, 10**6))
+    def refused_call(self, which, kind, index):
+        _, pair = self.pair(which)
+        if kind is Gripper and not pair.among.setup.hand:
             return
-        for pair in self.cell.pairs.values():
-            getattr(pair.world, function)(**arguments)
-        if function == "reset":
-            self.forget_motions()
-
-    @rule(name=st.sampled_from(list(REFUSED)))
-    def refused_call(self, name):
+        things = {SimulatedRobot: pair.among, Simulation: self.cell.sim}
         before = self.cell.sim.state_hash()
-        error, _ = refusal(REFUSED[name], self.cell.sim)
-        assert error, f"{name} was accepted."
-        assert self.cell.sim.state_hash() == before
+        where, _, _, wrong_call = REFUSED[kind][index % len(REFUSED[kind])]
+        error, _ = refusal(wrong_call, things.get(kind) or pair.among.gripper)
+        assert error, f"{where} was accepted."
+        assert self.cell.sim.state_hash() == before, where
 
     @rule(ticks=TICKS)
     def step(self, ticks):
@@ -400,18 +340,18 @@ class CallsMachine(Machine):
     @rule(x=st.floats(0.5, 2.0))
     def place_the_ball(self, x):
         for world in self.cell.worlds:
-            world.place_body("ball", [x, -3, 1])
+            world.place_body("stone", [x, -3, 1])
 
     @rule(which=INDICES, size=SIZES, index=INDICES)
     def reset(self, which, size, index):
         """To a pose of one robot; the others begin at theirs."""
         name, pair = self.pair(which)
         q = pair.among.state.q + size * unit(index)
-        error, _ = refusal(lambda: self.cell.sim.reset(q={name: q}, objects={"ball": [1, -3, 1]}))
+        error, _ = refusal(lambda: self.cell.sim.reset(q={name: q}, objects={"stone": [1, -3, 1]}))
         if error:
             return
         for robot, other in self.cell.pairs.items():
-            other.world.reset(q={name: q} if robot == name else None, objects={"ball": [1, -3, 1]})
+            other.world.reset(q={name: q} if robot == name else None, objects={"stone": [1, -3, 1]})
         self.forget_motions()
 
     @rule()
@@ -434,7 +374,7 @@ class CallsMachine(Machine):
             assert not (text := difference(pair.among, pair.alone, len(self.names) > 1)), text
             for one, two in self.actions[name]:
                 assert one.outcome == two.outcome, (one, two)
-            poses = [np.concatenate(w.body_pose("ball")).tobytes() for w in (self.cell.sim, pair.world)]
+            poses = [np.concatenate(w.body_pose("stone")).tobytes() for w in (self.cell.sim, pair.world)]
             assert poses[0] == poses[1]
 
 
