@@ -260,18 +260,13 @@ def test_a_grasp_of_the_expected_width_succeeds(hand_with_stone):
     assert hand_with_stone.reaches(0.03)
 
 
-@pytest.mark.parametrize("expected", [0.015, 0.05])
-def test_a_grasp_of_another_width_reports_another_object(hand_with_stone, expected):
-    state, success, text = hand_with_stone.grasp(expected).result()
-    assert (state, success) == (SUCCEEDED, False)
-    assert "another one than expected" in text
-
-
 @pytest.mark.parametrize("expected, grasped", [(0.04, True), (0.02, False)])
 def test_a_grasp_allows_the_inner_epsilon_below_and_the_outer_above(hand_with_stone, expected, grasped):
     """The stone is 0.03 m wide."""
     epsilon = GraspEpsilon(inner=0.015, outer=0.002)
-    assert hand_with_stone.grasp(expected, epsilon=epsilon).result()[:2] == (SUCCEEDED, grasped)
+    state, success, text = hand_with_stone.grasp(expected, epsilon=epsilon).result()
+    assert (state, success) == (SUCCEEDED, grasped)
+    assert grasped or "another one than expected" in text
 
 
 def test_a_blocked_move_ends_and_reports_the_width(hand_with_stone):
@@ -279,13 +274,6 @@ def test_a_blocked_move_ends_and_reports_the_width(hand_with_stone):
     assert (state, success) == (SUCCEEDED, False)
     assert "something is in their way" in text and "instead of 0.0 mm" in text
     assert hand_with_stone.fingers.until(lambda width: abs(width - 0.03) < 2e-3)
-
-
-def test_a_lost_object_shows_in_the_width(hand_with_stone):
-    assert hand_with_stone.grasp(0.03, force=5.0).result()[:2] == (SUCCEEDED, True)
-    # Out of the fingers, but not out of the world.
-    hand_with_stone.server.robot.remote.push("stone", (20, 0, 0), ticks=60)
-    assert hand_with_stone.fingers.until(lambda width: width < 0.005)
 
 
 class Interruption:
@@ -354,18 +342,6 @@ def test_interruptions_take_less_than_100_ms(interruption):
     assert statistics.median(interruption(*pair).seconds for pair in PAIRS) < 0.1
 
 
-def test_a_stopped_grasp_stays_where_it_is(hand):
-    running = hand.grasp(0.02, SLOW)
-    hand.fingers.until(lambda width: width < 0.0785)
-    assert hand.stop().result()[:2] == (SUCCEEDED, True)
-    hand.fingers.next(3)
-    begin = hand.fingers.width
-    hand.fingers.next(15)
-    assert running.result()[0] == ABORTED
-    assert 0.03 < begin < 0.0785
-    assert hand.fingers.width == pytest.approx(begin, abs=5e-4)
-
-
 @pytest.fixture(scope="module")
 def stream(started):
     """Goals, each once the previous one is carried out: their states, and joint states meanwhile."""
@@ -416,24 +392,14 @@ INVALID = [
 ]
 
 
-def check_invalid_goals_are_refused(hand):
+@pytest.mark.parametrize("kind", ["move", "grasp"])
+def test_invalid_goals_are_refused_and_end_no_running_one(hand, kind):
+    running = getattr(hand, kind)(0.0, SLOW)
+    running.until_active()
     for row, (send, sentence) in enumerate(INVALID):
         state, success, text = send(hand).result()
         assert (state, success) == (ABORTED, False), row
         assert sentence in text, row
-
-
-def test_invalid_goals_are_refused_and_move_nothing(hand):
-    check_invalid_goals_are_refused(hand)
-    hand.fingers.next(3)
-    assert hand.fingers.width == pytest.approx(0.08, abs=2e-3)
-
-
-@pytest.mark.parametrize("kind", ["move", "grasp"])
-def test_invalid_goals_end_no_running_one(hand, kind):
-    running = getattr(hand, kind)(0.0, SLOW)
-    running.until_active()
-    check_invalid_goals_are_refused(hand)
     assert not running.ended.is_set()
     running.handle.cancel()
     assert running.result()[0] == PREEMPTED
