@@ -14,6 +14,7 @@ import pyfranka
 import pytest
 from matplotlib.legend import Legend
 from pyfranka import franka_plot, plot
+from pyfranka.franka_sim import FrankaSim
 from pyfranka.plot.recording import ERRORS, FIELDS, Abort, Recording, kind_of, of_log
 from pyfranka.plot.signals import EVIDENCE, SIGNALS, worst
 from pyfranka.plot.sources import read_bag, read_log
@@ -94,18 +95,39 @@ def aborted(robot, motion):
     return raised.value
 
 
+class Robot:
+    """What the tests need to know of a robot: its version, its client's limits, and aborts of motions."""
+
+    Q = np.array([2.6, -1.7, 0.0, -0.3, -2.8, 4.4, 0.1])  # [rad] where its limits are asked for
+
+    def __init__(self, connection):
+        self.version = connection.server_version()
+        self.lower = connection.get_lower_joint_velocity_limits(self.Q)
+        self.upper = connection.get_upper_joint_velocity_limits(self.Q)
+        self.aborts = {motion: aborted(connection, motion) for motion in ABORTS}
+
+
+@pytest.fixture(scope="module")
+def robots():
+    """Robots that have ended: a connection in lock-step would get states while figures are drawn."""
+    described = Panda(realism="ideal"), FR3(base=(0, 2, 0), realism="ideal")
+    with FrankaSim(*described, pace="lockstep") as server:
+        return {kind: Robot(server[kind].connect()) for kind in ("panda", "fr3")}
+
+
+@pytest.mark.parametrize("name", ["panda", "fr3"])
 @pytest.mark.parametrize("motion", ABORTS)
-def test_the_marked_value_is_that_of_the_reason(robot, motion, tmp_path):
+def test_the_marked_value_is_that_of_the_reason(robots, name, motion, tmp_path):
     """The marks come from the plotted values, the sentences from libfranka: of the states, and of a file."""
-    error = aborted(robot, motion)
+    robot, error = robots[name], robots[name].aborts[motion]
     reported = EXCESS.findall(str(error))
     assert reported, str(error)
     file = tmp_path / "log.csv"
     file.write_text(pyfranka.log_to_csv(error.log))
-    file.with_suffix(".txt").write_text(f"{error}\nRobot's protocol version: {robot.server_version()}\n")
-    recordings = of_log(error.log, robot.server_version()), read_log(file)[0]
+    file.with_suffix(".txt").write_text(f"{error}\nRobot's protocol version: {robot.version}\n")
+    recordings = of_log(error.log, robot.version), read_log(file)[0]
     for recording in recordings:
-        assert recording.version == robot.server_version()
+        assert recording.version == robot.version
         for flag, part, value, limit, age in reported:
             (signal,) = EVIDENCE[flag]
             excess = worst(signal, recording)
@@ -124,8 +146,7 @@ def drawn(figure, tmp_path):
 
 
 def test_an_abort_is_drawn_with_its_reason_and_its_limit(robots, tmp_path):
-    error = aborted(robots["panda"], jump_of_velocity)
-    figure = plot.abort_figure(error, robots["panda"].server_version())
+    figure = plot.abort_figure(robots["panda"].aborts[jump_of_velocity], robots["panda"].version)
     axes = figure.axes[0]
     assert axes.get_ylabel().startswith("cmd.ddq_d")
     red = [line for line in axes.lines if line.get_color() == plot.figure.VIOLATION]
@@ -140,13 +161,14 @@ def test_an_abort_is_drawn_with_its_reason_and_its_limit(robots, tmp_path):
         )
 
 
-def panels():
-    """Each signal, each pair that can share a panel, and some of three."""
+def panels(part):
+    """Each signal, and one of three parts of all pairs that can share a panel and of some of three."""
     alike = {}
     for name, signal in SIGNALS.items():
         alike.setdefault((signal.unit, signal.parts), []).append(name)
-    pairs = ("+".join(pair) for names in alike.values() for pair in combinations(names, 2))
-    return [*SIGNALS, *pairs, "cmd.q_d+q+q_d", "cmd.tau_J_d+tau_J+tau_J_d"]
+    several = ["+".join(pair) for names in alike.values() for pair in combinations(names, 2)]
+    several += ["cmd.q_d+q+q_d", "cmd.tau_J_d+tau_J+tau_J_d"]
+    return [*SIGNALS, *several[part::3]]
 
 
 def is_signal(line):
@@ -155,14 +177,14 @@ def is_signal(line):
 
 
 @pytest.mark.parametrize(
-    "motion, limits, joints",
-    [(jump_of_velocity, "auto", ()), (jump_of_twist, "all", (2, 7)), (jump_of_torque, "none", (7,))],
+    "part, motion, limits, joints",
+    [(0, jump_of_velocity, "auto", ()), (1, jump_of_twist, "all", (2, 7)), (2, jump_of_torque, "none", (7,))],
 )
-def test_all_lines_are_visible_and_in_the_legend(robots, motion, limits, joints):
+def test_all_lines_are_visible_and_in_the_legend(robots, part, motion, limits, joints):
     """With several signals one legend has their styles, another one the colors of their parts."""
-    recording = of_log(aborted(robots["panda"], motion).log, robots["panda"].server_version())
-    figure = plot.plot(recording, panels(), limits=limits, joints=joints)
-    for panel, axes in zip(panels(), figure.axes):
+    recording = of_log(robots["panda"].aborts[motion].log, robots["panda"].version)
+    figure = plot.plot(recording, panels(part), limits=limits, joints=joints)
+    for panel, axes in zip(panels(part), figure.axes):
         lines = [line for line in axes.lines if is_signal(line)]
         legends = [each for each in axes.findobj(Legend) if not each.get_patches()]
         entries = [line for legend in legends for line in legend.get_lines()]
@@ -176,7 +198,7 @@ def test_all_lines_are_visible_and_in_the_legend(robots, motion, limits, joints)
             assert low <= np.nanmin(line.get_ydata()) <= np.nanmax(line.get_ydata()) <= high, panel
 
 
-def test_a_file_may_be_a_text_or_like_a_path(robots, tmp_path):
+def test_a_file_may_be_a_text_or_like_a_path(tmp_path):
     class Place:
         def __fspath__(self):
             return str(tmp_path / "nothing.csv")
@@ -238,13 +260,12 @@ def test_limits_far_away_do_not_set_the_scale(tmp_path):
 
 
 def test_limits_are_those_of_the_robot(robots):
-    q = np.array([2.6, -1.7, 0.0, -0.3, -2.8, 4.4, 0.1])
     for robot in robots.values():
-        limits = pyfranka.ArmLimits(robot.server_version())
-        lower, upper = limits.velocity_range([q, q])
+        limits = pyfranka.ArmLimits(robot.version)
+        lower, upper = limits.velocity_range([robot.Q, robot.Q])
         # The client's margins: of the rate limiter, and of a Panda's lost packets.
-        np.testing.assert_allclose(upper[1], robot.get_upper_joint_velocity_limits(q), atol=0.07)
-        np.testing.assert_allclose(lower[0], robot.get_lower_joint_velocity_limits(q), atol=0.07)
+        np.testing.assert_allclose(upper[1], robot.upper, atol=0.07)
+        np.testing.assert_allclose(lower[0], robot.lower, atol=0.07)
         assert limits.translation[1] > 0 and limits.rotation[2] > 0 and (limits.dtau == 1000).all()
     with pytest.raises(ValueError, match="7 joint positions"):
         limits.velocity_range([0.0] * 6)
@@ -274,7 +295,7 @@ def run(*words):
 @pytest.fixture(scope="module")
 def log(robots, tmp_path_factory):
     file = tmp_path_factory.mktemp("log") / "franka_abort_panda_1.csv"
-    error = aborted(robots["panda"], jump_of_velocity)
+    error = robots["panda"].aborts[jump_of_velocity]
     file.write_text(pyfranka.log_to_csv(error.log))
     file.with_suffix(".txt").write_text(str(error))
     return file
