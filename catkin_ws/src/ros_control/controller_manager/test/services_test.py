@@ -64,24 +64,6 @@ class ServicesTest(unittest.TestCase):
             self.assertTrue(self.manager.switch(stop_controllers=["a"], strictness=STRICT).ok)
         self.assertLess(sorted(times)[5], 0.1)
 
-    def test_the_others_are_answered_while_a_switch_waits_for_the_loop(self):
-        self.assertTrue(self.manager.load("a").ok)
-        answers = []
-        switch = threading.Thread(
-            target=lambda: answers.append(self.manager.switch(start_controllers=["a"], strictness=STRICT))
-        )
-        switch_waits = self.manager.halt_loop()
-        switch.start()
-        wait_for(switch_waits, "The switch")
-        self.assertTrue(self.manager.load("c").ok)
-        self.assertTrue(self.manager.unload("c").ok)
-        self.assertEqual({"a": "initialized"}, self.manager.states())
-        self.assertEqual([], answers)
-        self.manager.run_loop(True)
-        switch.join(DEADLINE)
-        self.assertTrue(answers[0].ok)
-        self.assertEqual({"a": "running"}, self.manager.states())
-
     def test_controllers_are_listed_while_one_is_being_loaded(self):
         self.assertTrue(self.manager.load("a").ok)
         answers = []
@@ -94,14 +76,6 @@ class ServicesTest(unittest.TestCase):
         load.join(DEADLINE)
         self.assertTrue(answers[0].ok)
         self.assertEqual({"a": "initialized", "slow": "initialized"}, self.manager.states())
-
-    def test_a_switch_fails_after_its_timeout(self):
-        self.assertTrue(self.manager.load("a").ok)
-        self.manager.run_loop(False)
-        begin = time.monotonic()
-        answer = self.manager.switch(start_controllers=["a"], strictness=STRICT, timeout=0.3)
-        self.assertFalse(answer.ok)
-        self.assertGreaterEqual(time.monotonic() - begin, 0.3)
 
 
 if __name__ == "__main__":

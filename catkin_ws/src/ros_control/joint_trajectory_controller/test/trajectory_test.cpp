@@ -87,24 +87,6 @@ TEST_F(SplineTest, ReproducesPolynomials) {
   }
 }
 
-TEST_F(SplineTest, DerivativesAgreeWithFiniteDifferences) {
-  const Spline segment(1.0, stateOf({0.1, -1.0}, {0.3, 0.2}, {-0.5, 0.7}), 3.0,
-                       stateOf({0.9, 2.0}, {-0.2, 0.0}, {0.1, 0.0}));
-  const double h = 1e-5;
-  Spline::State before;
-  Spline::State at;
-  Spline::State after;
-  for (double t = 1.1; t < 2.9; t += 0.1) {
-    segment.sample(t - h, before);
-    segment.sample(t, at);
-    segment.sample(t + h, after);
-    for (int i : {0, 1}) {
-      EXPECT_NEAR((after.position[i] - before.position[i]) / (2 * h), at.velocity[i], 1e-8);
-      EXPECT_NEAR((after.velocity[i] - before.velocity[i]) / (2 * h), at.acceleration[i], 1e-8);
-    }
-  }
-}
-
 TEST_F(SplineTest, MixedBoundaryValuesUseTheLowerDegree) {
   Spline::State state;
   Spline(0.0, stateOf({0.0}, {5.0}), 2.0, stateOf({1.0})).sample(1.0, state);
