@@ -132,37 +132,6 @@ TEST(CartesianImpedance, FollowsTheFormulasOnRandomStates) {
   }
 }
 
-TEST(CartesianImpedance, StartsSoftly) {
-  Random random;
-  Arm arm = random.arm();
-  arm.dq.fill(0.0);
-  CartesianImpedance impedance;
-  impedance.start(arm.O_T_EE, arm.q, 0.5);
-  impedance.setCompliance({200.0, 10.0, 0.5});
-  // Pushed by 10 cm in the same cycle: no spring yet, so only Coriolis torques.
-  arm.O_T_EE[12] += 0.1;
-  EXPECT_LT((unsaturated(impedance, arm, joints(arm.coriolis)) - joints(arm.coriolis))
-                .lpNorm<Eigen::Infinity>(),
-            1e-12);
-  // One millisecond later 0.5 % of 200 N/m.
-  const Eigen::Map<const Eigen::Matrix<double, 6, 7>> J(arm.zero_jacobian.data());
-  const Vector7 expected = joints(arm.coriolis) - J.row(0).transpose() * (1.0 * 0.1);
-  EXPECT_LT((unsaturated(impedance, arm, expected) - expected).lpNorm<Eigen::Infinity>(), 1e-12);
-}
-
-TEST(CartesianImpedance, IsAtRestWhereItStarted) {
-  Random random;
-  Arm arm = random.arm();
-  arm.dq.fill(0.0);
-  arm.coriolis.fill(0.0);
-  CartesianImpedance impedance;
-  impedance.start(arm.O_T_EE, arm.q, 10.0);
-  impedance.setCompliance({200.0, 10.0, 10.0});
-  for (int i = 0; i < 2000; ++i) {
-    ASSERT_LT(impedance.update(arm).lpNorm<Eigen::Infinity>(), 1e-12);
-  }
-}
-
 TEST(CartesianImpedance, ResetsItsTargetsWhenRestarted) {
   Random random;
   Arm arm = random.arm();
