@@ -6,9 +6,12 @@ A controller that throws, in starting() or in update(), ends none of them; and w
 restart_controllers_after_recovery false no arm moves by itself after a recovery.
 """
 
+from contextlib import ExitStack
+
 import pytest
 import rospy
-from control_nodes import COMBINED, ONE, SUCCEEDED, ControlNode
+from control_nodes import SUCCEEDED, ControlNode, node_of, robots_of
+from pyfranka.franka_sim import FrankaSim
 from ros_client import launched
 from waiting import wait_for
 
@@ -22,18 +25,14 @@ PLUGINS = """<library path="lib/libfranka_control_throwing_controller">
   <class name="test/Throwing" type="franka_control_test::ThrowingController"
          base_class_type="controller_interface::ControllerBase"/>
 </library>"""
-LAUNCH = """<launch>
-  <param name="{node}/restart_controllers_after_recovery" value="false"/>
-  <include file="$(find franka_control)/launch/{file}"> {arguments} <arg name="sim" value="true"/> </include>
-</launch>"""
 SIMULATION = """<launch> <include file="$(find franka_sim_mujoco)/launch/panda.launch">
   <arg name="headless" value="true"/> </include> </launch>"""
 
-# Arms with their addresses.
-ONE_ARM = {"fr3": "127.0.7.31"}
-TWO_ARMS = {"panda_1": "127.0.7.32", "panda_2": "127.0.7.33"}
-SIMULATED = {"panda": "nowhere"}  # the controllers run in the simulation's process
-SETUPS = {"one arm": ONE_ARM, "two arms": TWO_ARMS, "simulated": SIMULATED}
+SETUPS = {
+    "one arm": ("fr3", 1),
+    "two arms": ("panda", 2),
+    "simulated": ("panda", 0),
+}  # robot, number of robots
 WORDS = {"starting": "I do not want to start", "update": "I have had enough"}
 BEST_EFFORT = 1
 
@@ -44,26 +43,12 @@ def with_setups(*names):
     return pytest.mark.parametrize("setup", names, indirect=True, scope="module")
 
 
-def launch_file(arms):
-    if arms == SIMULATED:
-        return SIMULATION
-    if arms == ONE_ARM:
-        node, file = ONE, "franka_control.launch"
-        given = {"robot": "fr3", "load_gripper": "false", "robot_ip": arms["fr3"]}
-    else:
-        node, file = COMBINED, "franka_combined_control.launch"
-        addresses = ", ".join(f"{arm}/robot_ip: {address}" for arm, address in arms.items())
-        given = {"robot_ips": f"{{{addresses}}}"}
-    arguments = " ".join(f'<arg name="{name}" value="{value}"/>' for name, value in given.items())
-    return LAUNCH.format(node=node, file=file, arguments=arguments)
-
-
 class Node(ControlNode):
     """With two controllers of all joints, one of which throws."""
 
-    def __init__(self, arms, log):
+    def __init__(self, arms, process):
         super().__init__(arms)
-        self._log = log
+        self._log = process.log
         joints = [f"{arm}_joint{i}" for arm in arms for i in range(1, 8)]
         for name in ("thrower", "good"):
             rospy.set_param(
@@ -101,11 +86,18 @@ def node(setup, tmp_path_factory):
     folder = tmp_path_factory.mktemp("throwing")
     (folder / "package.xml").write_text(PACKAGE)
     (folder / "plugins.xml").write_text(PLUGINS)
-    (folder / "robot.launch").write_text(launch_file(setup))
-    with pytest.MonkeyPatch.context() as patch:
+    with pytest.MonkeyPatch.context() as patch, ExitStack() as stack:
         patch.setenv("ROS_PACKAGE_PATH", str(folder), prepend=":")
-        with launched(str(folder / "robot.launch"), log=folder / "log") as session:
-            yield Node(setup, session.log)
+        robot, count = setup
+        if count:
+            server = stack.enter_context(FrankaSim(*robots_of(robot, count), pace="patient"))
+            process = node_of([server], folder, restart_controllers_after_recovery=False)
+            arms = {robot.name: robot.address for robot in server.robots}
+        else:  # the controllers run in the simulation's process
+            (folder / "robot.launch").write_text(SIMULATION)
+            process = launched(str(folder / "robot.launch"), log=folder / "log")
+            arms = {robot: "nowhere"}
+        yield Node(arms, stack.enter_context(process))
 
 
 @pytest.fixture

@@ -6,13 +6,13 @@ The short form runs each controller with one of the robots, so that both are use
 """
 
 import pytest
-from control_nodes import MODES, ControlNode
-from ros_client import follow, launched, set_example_parameters
+from control_nodes import MODES, ControlNode, node_of, robots_of
+from pyfranka.franka_sim import FrankaSim
+from ros_client import set_example_parameters
 from waiting import wait_for
 
-RUNS = 2.5  # [s] of the robot
-RETURNS = "effort_joint_trajectory_controller"
-AT_HOME = 0.02  # [rad]
+RUNS = 2.5  # [s] of the robot: joint_impedance reaches its speed after 2 s
+READS = 1.0  # [s] of a controller that does not move the arm
 # Minimum motion of the arm while it runs [rad]; None: it only reads, or holds the arm.
 CONTROLLERS = {
     "joint_velocity": 0.03,
@@ -37,14 +37,12 @@ def robot(request):
 
 @pytest.fixture(scope="module")
 def node(robot, tmp_path_factory):
-    launch = ["franka_control", "franka_control.launch", "sim:=true", f"robot:={robot}"]
-    log = tmp_path_factory.mktemp("examples") / "launch.log"
-    with launched(*launch, "robot_ip:=127.0.7.2", log=log):
+    with (
+        FrankaSim(*robots_of(robot, 1), pace="patient") as server,
+        node_of([server], tmp_path_factory.mktemp("examples")),
+    ):
         set_example_parameters(robot)
-        node = ControlNode({robot: "127.0.7.2"})
-        node.controllers.load(RETURNS)
-        node.home = node.arms[0].state.q
-        yield node
+        yield ControlNode({robot: server.robot.address})
 
 
 @pytest.fixture
@@ -52,17 +50,10 @@ def arm(node, robot, name, long_run):
     """The arm, at rest at its first position. @param name of the controller"""
     if not long_run and robot != ("panda", "fr3")[list(CONTROLLERS).index(name) % 2]:
         pytest.skip("the same with the other robot: ./franka test --long")
-    arm = node.arms[0]
-
-    def away():
-        return max(abs(a - b) for a, b in zip(arm.state.q, node.home))
-
-    if away() > AT_HOME:
-        node.controllers.start(RETURNS)
-        follow(f"/{RETURNS}", {f"{arm.name}_joint{i + 1}": q for i, q in enumerate(node.home)}, 1.5)
-        wait_for(lambda: away() < AT_HOME, "The first position")
-        node.controllers.stop(RETURNS)
-    wait_for(lambda: arm.is_in("idle"), "Rest")
+    (arm,) = node.arms
+    arm.operator.reset()
+    count = arm.states
+    wait_for(lambda: arm.states > count + 1 and arm.is_in("idle"), "Rest")
     return arm
 
 
@@ -73,14 +64,14 @@ def test_runs_and_stops(node, arm, name):
     arm.aborts.clear()
     begin = arm.state
     node.controllers.start(controller)
-    end_time, farthest = arm.state.time + RUNS, 0.0
+    end_time, farthest = arm.state.time + (RUNS if CONTROLLERS[name] else READS), 0.0
 
     def has_run():
         nonlocal farthest
         farthest = max(farthest, *(abs(a - b) for a, b in zip(begin.q, arm.state.q)))
         return arm.state.time > end_time and farthest >= (CONTROLLERS[name] or 0.0)
 
-    wait_for(has_run, f"{RUNS} s of the robot, and its motion,", WAIT)
+    wait_for(has_run, "The end of its time, and its motion,", WAIT)
     end = arm.state
     node.controllers.stop(controller)
     wait_for(lambda: arm.is_in("idle"), "Rest")

@@ -10,12 +10,12 @@ import signal
 
 import pytest
 import rospy
-from control_nodes import OK, SUCCEEDED, ControlNode, Diagnosis, arms_and_launch, follow_pose
+from control_nodes import OK, SUCCEEDED, ControlNode, Diagnosis, follow_pose, node_of, robots_of
 from franka_msgs.msg import ErrorRecoveryGoal
 from geometry_msgs.msg import PoseStamped
 from pyfranka.franka_sim import FrankaSim
-from pyfranka.sim import Panda
-from ros_client import launched, set_example_parameters
+from pyfranka.sim import KINDS
+from ros_client import set_example_parameters
 from waiting import wait_for
 
 AGAIN = pytest.mark.long_form("the same with automatic reconnection")
@@ -40,10 +40,10 @@ def setup(request):
 class Node(ControlNode):
     """A node whose robots can be killed and started again."""
 
-    def __init__(self, arms, session, reconnects):
-        super().__init__(arms)
-        self._addresses, self._session = arms, session
-        self.reconnects, self.robots, self.diagnosis = reconnects, {}, Diagnosis(self.name[1:])
+    def __init__(self, servers, process, reconnects):
+        super().__init__({name: server.robot.address for name, server in servers.items()})
+        self.robots, self._process, self.reconnects = servers, process, reconnects
+        self.diagnosis = Diagnosis(self.name[1:])
         self.controller = POSE if self.alone else TRAJECTORY
         if self.alone:
             set_example_parameters("panda")
@@ -52,10 +52,11 @@ class Node(ControlNode):
 
     @property
     def log(self):
-        return self._session.log.read_text(errors="replace")
+        return self._process.output
 
     def start(self, arm):
-        self.robots[arm.name] = FrankaSim(robot_at(self._addresses[arm.name]), pace="patient")
+        robot = KINDS["panda"](name=arm.name, hand=False, address=arm.operator.address)
+        self.robots[arm.name] = FrankaSim(robot, pace="patient")
         arm.operator = self.robots[arm.name].robot.remote
 
     def signal(self, arm, number):
@@ -83,25 +84,17 @@ class Node(ControlNode):
         return len(self.controllers.states()) >= 2
 
 
-def robot_at(address):
-    return Panda(address=address, hand="none")
-
-
 @pytest.fixture(scope="module")
 def node(setup, tmp_path_factory):
     count, reconnects = setup
-    folder = tmp_path_factory.mktemp("lost")
-    arms, launch = arms_and_launch("panda", count, 15, folder, reconnects)
-    robots = {name: FrankaSim(robot_at(address), pace="patient") for name, address in arms.items()}
-    options = ["realtime_config:=ignore", "connect_timeout:=30"]
+    servers = {each.name: FrankaSim(each, pace="patient") for each in robots_of("panda", count)}
+    own = {"reconnect": reconnects} if count == 1 else {"panda_2": {"reconnect": reconnects}}
     try:
-        with launched(*launch, *options, log=folder / "launch.log") as session:
-            node = Node(arms, session, reconnects)
-            node.robots = robots
-            yield node
+        with node_of(list(servers.values()), tmp_path_factory.mktemp("lost"), **own) as process:
+            yield Node(servers, process, reconnects)
     finally:
-        for robot in robots.values():
-            robot.kill()
+        for server in servers.values():
+            server.kill()
 
 
 @pytest.fixture

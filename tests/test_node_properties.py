@@ -11,12 +11,13 @@ import rospy
 from actionlib_msgs.msg import GoalStatus
 from cell import load_of
 from control_msgs.msg import FollowJointTrajectoryAction
-from control_nodes import SUCCEEDED, ControlNode, arms_and_launch
+from control_nodes import SUCCEEDED, ControlNode, node_of, robots_of
 from franka_msgs.srv import SetLoad
 from hypothesis import strategies as st
 from hypothesis.stateful import initialize
+from pyfranka.franka_sim import FrankaSim
 from pyfranka.remote import LineRefused
-from ros_client import Action, call, launched, outcome, trajectory, trigger
+from ros_client import Action, call, outcome, trajectory, trigger
 from state_machines import Machine, rule, run
 from waiting import holds, wait_for
 
@@ -26,7 +27,7 @@ REST, LAST = "all_but_the_last", "the_last"  # controllers of all joints but the
 SETUPS = [("panda", 1), ("panda", 2), ("fr3", 3)]  # robot, number of arms
 STOPS = {"panda": ["user_stop", "input x4"], "fr3": ["user_stop", "input x33"]}  # sources of the stop
 SIDES = st.integers(0, 2)  # of an arm; modulo their number
-SEQUENCES = {1: 4, 2: 10, 3: 6}  # by the number of arms
+SEQUENCES = {1: 3, 2: 6, 3: 4}  # by the number of arms
 
 
 class NodeMachine(Machine):
@@ -273,9 +274,12 @@ def patient(goals: dict[str, float], seconds: float):
 @pytest.fixture(scope="module", params=SETUPS, ids=lambda setup: f"{setup[1]}_{setup[0]}")
 def node(request, tmp_path_factory):
     robot, count = request.param
-    folder = tmp_path_factory.mktemp("node")
-    arms, launch = arms_and_launch(robot, count, 61, folder)
-    with launched(*launch, "sim:=true", "realism:=ideal", log=folder / "launch.log"):
+    robots = robots_of(robot, count, realism="ideal")
+    with (
+        FrankaSim(*robots, pace="patient") as server,
+        node_of([server], tmp_path_factory.mktemp("node")),
+    ):
+        arms = {robot.name: robot.address for robot in server.robots}
         NodeMachine.node, NodeMachine.robot = ControlNode(arms), robot
         controllers = NodeMachine.node.controllers
         joints = [f"{arm}_joint{i}" for arm in arms for i in range(1, 8)]

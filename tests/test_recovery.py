@@ -9,9 +9,10 @@ import pytest
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from control_msgs.msg import FollowJointTrajectoryAction
-from control_nodes import SUCCEEDED, ControlNode, arms_and_launch, follow_pose, go_to
+from control_nodes import SUCCEEDED, ControlNode, follow_pose, go_to, node_of, robots_of
 from geometry_msgs.msg import PoseStamped
-from ros_client import Action, follow, launched, set_example_parameters, trajectory
+from pyfranka.franka_sim import FrankaSim
+from ros_client import Action, follow, set_example_parameters, trajectory
 from waiting import wait_for
 
 SETUPS = {"panda": ("panda", 1), "2 fr3": ("fr3", 2)}  # robot, number of arms
@@ -28,14 +29,12 @@ def setup(request):
 
 @pytest.fixture(scope="module")
 def node(setup, tmp_path_factory):
-    robot, count = setup
-    folder = tmp_path_factory.mktemp("recovery")
-    arms, launch = arms_and_launch(robot, count, 5, folder)
-    with launched(*launch, "sim:=true", log=folder / "launch.log"):
-        node = ControlNode(arms)
-        node.used = UsedByPose(node) if node.alone else UsedByTrajectory(node)
-        node.controllers.load(node.used.CONTROLLER)
-        yield node
+    with FrankaSim(*robots_of(*setup), pace="patient") as server:
+        with node_of([server], tmp_path_factory.mktemp("recovery")):
+            node = ControlNode({robot.name: robot.address for robot in server.robots})
+            node.used = UsedByPose(node) if node.alone else UsedByTrajectory(node)
+            node.controllers.load(node.used.CONTROLLER)
+            yield node
 
 
 class UsedByPose:

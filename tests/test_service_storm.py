@@ -9,15 +9,14 @@ import xmlrpc.client
 from pathlib import Path
 
 import pytest
-import ros_nodes
 import rospy
 from actionlib_msgs.msg import GoalStatus
-from control_nodes import ControlNode
+from control_nodes import ControlNode, node_of, robots_of
 from controller_manager_msgs.srv import ListControllers, ListControllerTypes, LoadController, SwitchController
-from fci_session import memory_of, simulated
+from fci_session import memory_of
 from franka_msgs.msg import FrankaState
-from ros_client import Controllers, call, join
-from ros_nodes import parameters
+from pyfranka.franka_sim import FrankaSim
+from ros_client import call
 from setters import SETTERS
 from std_msgs.msg import Bool
 from std_srvs.srv import Trigger
@@ -37,25 +36,15 @@ pytestmark = pytest.mark.own_process
 @pytest.fixture(scope="module")
 def running(tmp_path_factory):
     """The node's process, its only arm in motion, and the simulated robot."""
-    folder = tmp_path_factory.mktemp("storm")
-    with simulated("panda", "lockstep", hand=False) as robot, ros_nodes.master(folder) as master:
-        master.set("/robot_description", ros_nodes.robot_description("panda"))
-        own = {"robot_ip": robot.address, "realtime_config": "ignore", "shutdown_timeout": 40.0}
-        master.set("/franka_control", parameters("franka_control_node.yaml", arm_id="panda") | own)
-        for name, values in parameters("default_controllers.yaml", arm_id="panda").items():
-            master.set(f"/{name}", values)
-        master.set("/franka_state_controller/publish_rate", PUBLISHED)
-        with master.node("franka_control", "franka_control_node", "franka_control") as process:
-            process.must_print("is ready")
-            join(master.uri)
-            controllers = Controllers()
-            controllers.load(LOOKING, MOVING)
-            controllers.start(LOOKING, MOVING)
-            node = ControlNode({"panda": robot.address})
+    robots = robots_of("panda", 1, realism="ideal")
+    with FrankaSim(*robots, pace="lockstep") as server:
+        folder = tmp_path_factory.mktemp("storm")
+        with node_of([server], folder, publish_rate=PUBLISHED, shutdown_timeout=40.0) as process:
+            node = ControlNode({"panda": server.robot.address})
+            node.controllers.load(MOVING)
+            node.controllers.start(MOVING)
             node.wait_until_all_are("moving")
-            yield process, node, robot
-            print(process.output[-3000:])
-            rospy.signal_shutdown("the test has ended")
+            yield process, node, server.robot
 
 
 class Caller(threading.Thread):

@@ -4,17 +4,22 @@
 
 import math
 from collections.abc import Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
+import ros_nodes
 import rospy
 import yaml
 from actionlib_msgs.msg import GoalStatus
 from diagnostic_msgs.msg import DiagnosticArray
 from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
 from geometry_msgs.msg import Point, PoseStamped
+from own_process import logs
+from pyfranka.franka_sim import FrankaSim, ServedRobot
 from pyfranka.remote import Remote
-from ros_client import Action, Controllers, follow, trigger
-from ros_nodes import CONTROL_CONFIG
+from pyfranka.sim import FR3, KINDS, Panda
+from ros_client import START, Action, Controllers, follow, join, trigger
+from ros_nodes import parameters, robot_description, xacro
 from std_msgs.msg import Bool, String
 from waiting import wait_for
 
@@ -23,6 +28,7 @@ ONE, COMBINED = "/franka_control", "/combined_panda"
 PUSH = {"force": (0, 0, -220), "ticks": 60}  # far beyond the thresholds [N, ms]
 SUCCEEDED = (GoalStatus.SUCCEEDED, "")
 TRAJECTORY_ERROR = 0.01  # [rad]
+PUBLISH_RATE = 100.0  # of states [Hz]: a test soon sees what has changed
 MODES = {
     "idle": FrankaState.ROBOT_MODE_IDLE,
     "moving": FrankaState.ROBOT_MODE_MOVE,
@@ -41,73 +47,99 @@ ONE_ARM = """
   <xacro:franka_arm arm_id="{arm}" connected_to="base" xyz="0 {place} 0" joint_limits="${{limits}}" />"""
 
 
-def arms_and_launch(robot: str, count: int, first: int, folder: Path, reconnect: bool = False):
-    """Arms with their addresses, and the launch of a node for them.
+def robots_of(kind: str, count: int, **options) -> list[Panda | FR3]:
+    """Simulated arms without hands, side by side, on the addresses that franka_sim finds."""
+    names = [kind] if count == 1 else [f"{kind}_{i + 1}" for i in range(count)]
+    return [KINDS[kind](name=name, base=(0, i, 0), hand=False, **options) for i, name in enumerate(names)]
 
-    @param first last number of the first address
-    @param reconnect whether the node reconnects automatically; with several arms: for the second one
+
+@contextmanager
+def node_of(servers: Sequence[FrankaSim], folder: Path, publish_rate: float = PUBLISH_RATE, **own):
+    """The node of all robots of these servers, whose master this process joins. Only the arms' state
+    controllers run, and no launch file is used: those have test_hardware.py.
+
+    @param publish_rate of the arms' states [Hz]
+    @param own parameters of the node; those of an arm in a dictionary with its name
     """
-    names = [robot] if count == 1 else [f"{robot}_{i + 1}" for i in range(count)]
-    arms = {name: f"127.0.7.{first + i}" for i, name in enumerate(names)}
-    if count > 1:
-        more = f", {names[1]}/reconnect: true" if reconnect else ""
-        return arms, _combined_launch(robot, arms, folder, more)
-    launch = ["franka_control", "franka_control.launch", "load_gripper:=false", f"robot:={robot}"]
-    return arms, [*launch, f"robot_ip:={arms[robot]}", f"reconnect:={str(reconnect).lower()}"]
+    robots = [robot for server in servers for robot in server.robots]
+    single = len(robots) == 1
+    name, kind = (ONE, "franka_control_node") if single else (COMBINED, "franka_combined_control_node")
+    with ros_nodes.master(folder) as master:
+        watchers = _set_parameters(master, robots, folder, own)
+        for watcher in watchers:
+            master.set(f"{'' if single else name}/{watcher}/publish_rate", publish_rate)
+        with master.node("franka_control", kind, name[1:]) as process:
+            logs.append(process.log)
+            join(master.uri)
+            controllers = Controllers("" if single else name)
+            wait_for(lambda: _is_served(controllers, process), "The controller manager", START)
+            controllers.load(*watchers)
+            controllers.start(*watchers)
+            try:
+                yield process
+            finally:
+                rospy.signal_shutdown("the test has ended")
 
 
-def _combined_launch(robot: str, arms: dict[str, str], folder: Path, more: str) -> list[str]:
-    """The launch of several arms with their addresses; for two Pandas only the addresses are needed.
+def _is_served(controllers: Controllers, process: ros_nodes.Node) -> bool:
+    assert process.process.poll() is None, process.output
+    return (
+        rospy.get_master().lookupService(f"{controllers.namespace}/controller_manager/load_controller")[0]
+        == 1
+    )
 
-    @param more further entries of robot_ips, each after a comma
+
+def _set_parameters(master: ros_nodes.Master, robots: list[ServedRobot], folder: Path, own: dict):
+    """Those of the node and of its controllers, as the launch files have them.
+
+    @returns the controllers of the arms' states
     """
-    addresses = ", ".join(f"{arm}/robot_ip: {address}" for arm, address in arms.items()) + more
-    launch = ["franka_control", "franka_combined_control.launch"]
-    launch += [f"robot_ips:={{{addresses}}}", f"sim_robot:={robot}"]
-    if list(arms) == ["panda_1", "panda_2"]:
-        return launch
-    placed = "".join(ONE_ARM.format(arm=arm, place=place) for place, arm in enumerate(arms))
-    description = folder / "arms.urdf.xacro"
-    description.write_text(DESCRIPTION.format(robot=robot, arms=placed))
-    states = ", ".join(f"{arm}_state_controller/joint_states" for arm in arms)
-    return [
-        *launch,
-        f"robot:={description}",
-        f"hw_config_file:={_for_arms('franka_combined_control_node.yaml', arms, folder)}",
-        f"controllers_file:={_for_arms('default_combined_controllers.yaml', arms, folder)}",
-        "controllers_to_start:=" + " ".join(f"{arm}_state_controller" for arm in arms),
-        f"joint_states_source_list:=[{states}]",
-    ]
+    own = {"realtime_config": "ignore", "connect_timeout": 30.0, **own}
+    if len(robots) == 1:
+        (robot,) = robots
+        master.set("/robot_description", robot_description(robot.kind, hand="false", arm_id=robot.name))
+        node = parameters("franka_control_node.yaml", arm_id=robot.name)
+        master.set(ONE, node | own | {"robot_ip": robot.address})
+        controllers = parameters("default_controllers.yaml", arm_id=robot.name)
+        namespace, watchers = "/", ["franka_state_controller"]
+    else:
+        arms = [robot.name for robot in robots]
+        node = _for_arms(parameters("franka_combined_control_node.yaml"), arms)
+        for robot in robots:
+            node[robot.name] |= {"robot_ip": robot.address, **own.pop(robot.name, {})}
+        master.set(COMBINED, node | own | {"robot_description": _arms_description(robots, folder)})
+        controllers = _for_arms(parameters("default_combined_controllers.yaml"), arms)
+        namespace, watchers = f"{COMBINED}/", [f"{arm}_state_controller" for arm in arms]
+    for name, values in controllers.items():
+        master.set(namespace + name, values)
+    return watchers
 
 
-def _for_arms(name: str, arms, folder: Path) -> Path:
-    """A file for panda_1 and panda_2, rewritten for other arms: all get the values of panda_1."""
-    text = yaml.safe_dump(_without_second_arm(yaml.safe_load((CONTROL_CONFIG / name).read_text())))
-    merged = {}
-    for arm in arms:
-        _merge(merged, yaml.safe_load(text.replace("panda_1", arm)))
-    path = folder / name
-    path.write_text(yaml.safe_dump(merged))
-    return path
+def _arms_description(robots: list[ServedRobot], folder: Path) -> str:
+    placed = "".join(ONE_ARM.format(arm=robot.name, place=place) for place, robot in enumerate(robots))
+    file = folder / "arms.urdf.xacro"
+    file.write_text(DESCRIPTION.format(robot=robots[0].kind, arms=placed))
+    return xacro(file)
 
 
-def _without_second_arm(value):
-    if isinstance(value, dict):
-        return {k: _without_second_arm(v) for k, v in value.items() if not k.startswith("panda_2")}
+def _for_arms(value, arms: list[str]):
+    """Values for panda_1 and panda_2, for other arms: all get those of panda_1."""
     if isinstance(value, list):
-        return [item for item in value if not str(item).startswith("panda_2")]
-    return value
+        lists = ([_named_after(item, arm) for arm in arms] if "panda_1" in item else [] for item in value)
+        return [item for copies in lists for item in copies]
+    if not isinstance(value, dict):
+        return value
+    found = {}
+    for name, part in value.items():
+        if "panda_1" in name:
+            found |= {_named_after(name, arm): _named_after(part, arm) for arm in arms}
+        elif "panda_2" not in name:
+            found[name] = _for_arms(part, arms)
+    return found
 
 
-def _merge(into: dict, more: dict) -> None:
-    """Lists that both have are joined."""
-    for key, value in more.items():
-        if isinstance(value, dict):
-            _merge(into.setdefault(key, {}), value)
-        elif isinstance(value, list):
-            into[key] = into.get(key, []) + value
-        else:
-            into[key] = value
+def _named_after(value, arm: str):
+    return yaml.safe_load(yaml.safe_dump(value).replace("panda_1", arm))
 
 
 class Arm:
@@ -148,9 +180,10 @@ class Arm:
 
 
 class ControlNode:
-    """A node and its arms, given with the addresses of their simulated robots."""
+    """A node and its arms."""
 
     def __init__(self, arms: dict[str, str]):
+        """@param arms with the addresses of their simulated robots"""
         self.alone = len(arms) == 1
         self.name = ONE if self.alone else COMBINED
         self.arms = [Arm(arm, address, self.name, self.alone) for arm, address in arms.items()]

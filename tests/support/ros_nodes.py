@@ -32,6 +32,11 @@ def robot_description(robot: str, **arguments: str) -> str:
         capture_output=True,
         check=True,
     ).stdout.strip()
+    return xacro(file, **arguments)
+
+
+def xacro(file: str | Path, **arguments: str) -> str:
+    """What a file becomes."""
     command = [executable("xacro", "xacro"), file, *(f"{name}:={value}" for name, value in arguments.items())]
     return subprocess.run(command, text=True, capture_output=True, check=True).stdout
 
