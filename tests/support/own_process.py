@@ -8,7 +8,8 @@ Tests with the mark `own_process` run in child processes of pytest, which send t
     pytestmark = pytest.mark.own_process("robot")   one process for each value of the parameter `robot`
     @pytest.mark.own_process                        one process for each case of this test
 
-The tests of one process share their module's fixtures.
+The tests of one process share their module's fixtures. If all tests of a run need the same one, it is that of
+the run itself.
 """
 
 import json
@@ -35,6 +36,7 @@ def pytest_configure(config):
         "markers", "own_process(*parameters): run in a child process, one for each value of the parameters"
     )
     descriptor = os.environ.pop(REPORTS, None)
+    config.pluginmanager.register(LastLines())
     config.pluginmanager.register(Child(config, int(descriptor)) if descriptor else Parent())
 
 
@@ -110,10 +112,16 @@ class Parent:
 
     def __init__(self):
         self._groups = {}
+        self._is_alone = False
 
-    @staticmethod
-    def _key(item):
-        return None if item.get_closest_marker("skip") else group_of(item)
+    def pytest_collection_finish(self, session):
+        keys = {group_of(item) for item in session.items if not item.get_closest_marker("skip")}
+        self._is_alone = len(keys) == 1 and None not in keys
+        if self._is_alone:
+            os.environ[GROUP] = uuid.uuid4().hex
+
+    def _key(self, item):
+        return None if self._is_alone or item.get_closest_marker("skip") else group_of(item)
 
     @pytest.hookimpl(tryfirst=True)
     def pytest_runtest_protocol(self, item):
@@ -134,6 +142,8 @@ class Parent:
     def pytest_sessionfinish(self):
         for group in self._groups.values():
             group.end()
+        if self._is_alone:
+            kill_processes_with(GROUP, os.environ.pop(GROUP))
 
     @pytest.hookimpl(tryfirst=True)
     def pytest_timeout_set_timer(self, item, settings):
@@ -141,12 +151,8 @@ class Parent:
         return True if self._key(item) else None
 
 
-class Child:
-    """Sends each report to the parent."""
-
-    def __init__(self, config, descriptor: int):
-        os.set_inheritable(descriptor, False)
-        self._config, self._out = config, os.fdopen(descriptor, "w", encoding="utf-8", buffering=1)
+class LastLines:
+    """Of logs, in reports of failures."""
 
     @pytest.hookimpl(hookwrapper=True)
     def pytest_runtest_makereport(self, item):
@@ -155,6 +161,14 @@ class Child:
             for log in logs:
                 lines = log.read_text(errors="replace").splitlines()[-LAST_LINES:]
                 report.sections.append((str(log), "\n".join(lines)))
+
+
+class Child:
+    """Sends each report to the parent."""
+
+    def __init__(self, config, descriptor: int):
+        os.set_inheritable(descriptor, False)
+        self._config, self._out = config, os.fdopen(descriptor, "w", encoding="utf-8", buffering=1)
 
     def pytest_runtest_logreport(self, report):
         data = self._config.hook.pytest_report_to_serializable(config=self._config, report=report)
