@@ -25,7 +25,11 @@ LAUNCHES = {
 pytestmark = pytest.mark.own_process("launch")
 
 
-@pytest.fixture(scope="module", params=LAUNCHES)
+# Over the network, a robot of a ROS world is one like the others: test_served_robots.py.
+IN_A_WORLD = pytest.param("panda in a ROS world", marks=pytest.mark.long_form("a further robot"))
+
+
+@pytest.fixture(scope="module", params=["fr3", IN_A_WORLD])
 def launch(request):
     return request.param
 

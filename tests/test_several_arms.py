@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Four arms in one simulation as fast as possible: they start, and leave processor time for others."""
+"""Two arms in one simulation as fast as possible: they start, and leave processor time for others."""
 
 import time
 from pathlib import Path
@@ -18,7 +18,7 @@ from waiting import wait_for
 HERE = Path(__file__).resolve().parent
 
 CONTROLLER = "cartesian_impedance_example_controller"
-ARMS = [f"arm_{i}" for i in range(4)]
+ARMS = [f"arm_{i}" for i in range(2)]
 DEADLINE = 120.0  # wall seconds, for a machine with much else to do
 # A robot of one joint, whose controller no launch file starts.
 LATE = """
@@ -83,7 +83,7 @@ def test_joint_states_hold_arm_and_hand_in_kinematic_order():
 def test_late_subscribers_get_the_transforms_of_every_arm():
     buffer = tf2_ros.Buffer()
     listener = tf2_ros.TransformListener(buffer)
-    for arm in ARMS[1:]:  # those without a hand
+    for arm in ARMS[1:]:  # without a hand
         names = (f"{arm}_link0", f"{arm}_link8", rospy.Time(0))
         wait_for(lambda names=names: buffer.can_transform(*names), f"A transform of {arm}", DEADLINE)
         place = buffer.lookup_transform(*names).transform.translation
