@@ -318,7 +318,7 @@ def test_a_node_waiting_for_a_recovery_exits_on_interrupt(master):
     set_controllers(master, "panda")
     with (
         simulated("panda", "lockstep", hand=False, address=OTHER) as robot,
-        Proxy(BEHIND_PROXY, OTHER, version=5) as proxy,
+        Proxy(BEHIND_PROXY, OTHER) as proxy,
         one(master) as node,
     ):
         node.must_print("is ready")

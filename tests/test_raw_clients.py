@@ -7,14 +7,16 @@ error_flags_test.cpp.
 """
 
 import os
+import time
 
 import pytest
 from fci_motion import begin, drive, hold
-from fci_session import descriptors_of, memory_of, simulated
+from fci_proxy import Proxy
+from fci_session import client_process, descriptors_of, memory_of, simulated
 from fci_wire import COMMUNICATION, Client, connected
-from network_fixtures import LOST
 from waiting import wait_for
 
+LOST = "communication_constraints_violation"
 LONG = bool(os.environ.get("FRANKA_TEST_LONG"))
 
 
@@ -41,6 +43,17 @@ def test_a_silent_connection_frees_the_robot(raw):
     with Client(raw.address, raw.protocol) as silent:
         assert silent.ended()
     connected(raw).close()
+
+
+def test_replies_may_take_longer_than_a_second(raw):
+    with Proxy("127.0.24.2", raw.address) as proxy, client_process("pyfranka") as client:
+        assert client.run_task("connect", address=proxy.address)["outcome"] == "ok"
+        proxy.hold_replies()
+        client.give("set_load")
+        wait_for(lambda: proxy.holds_a_reply, "The robot's reply")
+        time.sleep(1.2)  # the fault itself
+        proxy.release_replies()
+        assert client.result()["outcome"] == "ok"
 
 
 def test_connecting_again_and_again_leaks_nothing(raw):

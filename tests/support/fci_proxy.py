@@ -1,79 +1,29 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""A worse network between a client and a robot in lock-step, the same for the same seed.
+"""A proxy between a client and a robot that can hold the robot's replies.
 
-A `Proxy` has its own address and looks like the robot: it forwards the TCP stream (with the UDP port of
-`Connect` replaced by its own), states and commands. A `Channel` decides about each datagram, from the
-datagram's number within the motion. It needs no root and no tc.
-
-Its clock is the robot's ticks, so that the machine's speed changes nothing. A robot in lock-step waits for
-the answer to each state. If the answer, or the state, is lost, the proxy answers itself, and tells the
-robot's own link to lose that answer: the robot counts it as lost, and continues.
+It has its own address and looks like the robot: it forwards the TCP stream (with the UDP port of `Connect`
+replaced by its own), states and commands.
 """
 
-import random
 import select
 import socket
 import struct
 import threading
 from contextlib import ExitStack
-from dataclasses import dataclass, field
 
-from fci_wire import HEADER, LAYOUTS, LIMIT, MOVE, PORT, State
-from pyfranka.remote import Remote
-
-
-@dataclass
-class Channel:
-    """Changes the datagrams of one direction; each may become several, or none.
-
-    `rule(number, datagram, random)` returns a list of datagrams; number counts from the motion's first
-    command on, from 0. All datagrams before it pass.
-    """
-
-    rule: object = None
-    seed: int = 0
-    seen: int = 0
-    chance: random.Random = field(default_factory=random.Random)
-
-    def restart(self):
-        self.chance.seed(self.seed)
-        self.seen = 0
-
-    def apply(self, data: bytes) -> list[bytes]:
-        number, self.seen = self.seen, self.seen + 1
-        return [data] if self.rule is None else self.rule(number, data, self.chance)
-
-
-def worst_share(passed: list[bool], window: int = 100) -> float:
-    """The smallest share of `True` in a window of consecutive ones."""
-    windows = [passed[i : i + window] for i in range(max(1, len(passed) - window + 1))]
-    return min(sum(each) / len(each) for each in windows) if passed else 1.0
-
-
-def losing(probability: float):
-    """Loses each datagram independently."""
-    return lambda number, data, chance: [] if chance.random() < probability else [data]
-
-
-def losing_from(first: int, count: int):
-    """Loses exactly these, counted from the motion's first."""
-    return lambda number, data, chance: [] if first <= number < first + count else [data]
+from fci_wire import HEADER, LIMIT, PORT
 
 
 class Proxy:
     """Serves one client at a time, until it is closed."""
 
-    def __init__(self, address: str, robot: str, version: int):
-        self.address, self.robot, self.version = address, robot, version
-        self.commands, self.states = Channel(), Channel()
-        self.passed: list[bool] = []  # whether a tick of the last motion had its command
-        self.rates: list[float] = []  # control_command_success_rate of each of its states
+    def __init__(self, address: str, robot: str):
+        self.address, self.robot = address, robot
         self._holds, self._held = False, []  # the robot's replies
         self._stack = ExitStack()
 
     def __enter__(self):
-        self._remote = self._stack.enter_context(Remote(self.robot))
         self._listener = self._stack.enter_context(socket.create_server((self.address, PORT), backlog=4))
         self._wake_out, self._wake_in = map(self._stack.enter_context, socket.socketpair())
         self._thread = threading.Thread(target=self._run, daemon=True)
@@ -85,11 +35,6 @@ class Proxy:
         self._thread.join(LIMIT)
         assert not self._thread.is_alive(), "The proxy does not end."
         self._stack.close()
-
-    def set(self, commands=None, states=None, seed: int = 1):
-        """Sets the rules for the next motions; call it between motions."""
-        self.commands = Channel(commands, seed)
-        self.states = Channel(states, seed + 1)
 
     def hold_replies(self):
         """Keeps the robot's replies until `release_replies`."""
@@ -139,8 +84,6 @@ class _Link:
         self.proxy, self.client, self.robot = proxy, client, robot
         self.to_client, self.to_robot = to_client, to_robot
         self.client_udp = self.robot_udp = None
-        self.due = None  # message_id of the state that has no answer yet
-        self.command = b""  # the motion's last one; empty before the first
 
     def run(self) -> bool:
         sockets = [self.client, self.robot, self.to_client, self.to_robot, self.proxy._wake_out]
@@ -149,9 +92,10 @@ class _Link:
             if self.proxy._wake_out in ready:
                 return False
             if self.to_robot in ready:
-                self._state()
+                state, self.robot_udp = self.to_robot.recvfrom(65536)
+                self.to_client.sendto(state, self.client_udp)
             if self.to_client in ready:
-                self._command()
+                self.to_robot.sendto(self.to_client.recv(65536), self.robot_udp)
             for source, sink in ((self.client, self.robot), (self.robot, self.client)):
                 if source in ready and not self._stream(source, sink):
                     return True
@@ -170,56 +114,3 @@ class _Link:
         else:
             sink.sendall(data)
         return bool(data)
-
-    def _state(self):
-        data, self.robot_udp = self.to_robot.recvfrom(65536)
-        proxy = self.proxy
-        is_state = len(data) == LAYOUTS[proxy.version].state_size
-        if not is_state or State(proxy.version, data).mode != MOVE:
-            self.due, self.command = None, b""
-            self._send([data], self.to_client, self.client_udp)
-            return
-        state = State(proxy.version, data)
-        self.due = state.message_id
-        if not self.command:  # before the first command the robot repeats its state
-            self._send([data], self.to_client, self.client_udp)
-            return
-        proxy.rates.append(state.rate)
-        sent = proxy.states.apply(data)
-        self._send(sent, self.to_client, self.client_udp)
-        if data not in sent:
-            self._lose()
-
-    def _command(self):
-        data, _ = self.to_client.recvfrom(65536)
-        proxy = self.proxy
-        if self.due is None or struct.unpack_from("<Q", data)[0] != self.due:
-            self._send([data], self.to_robot, self.robot_udp)  # the robot ignores it
-            return
-        if not self.command:
-            proxy.states.restart()
-            proxy.commands.restart()
-            proxy.passed, proxy.rates = [], []
-        self.command = data
-        sent = proxy.commands.apply(data)
-        self._send(sent, self.to_robot, self.robot_udp)
-        if data in sent:
-            self._answered(True)
-        else:
-            self._lose()
-
-    # The robot loses its next command, which it gets now: it has waited for one.
-    def _lose(self):
-        self.proxy._remote.lose(1)
-        answer = struct.pack("<Q", self.due) + self.command[8:]
-        self._send([answer], self.to_robot, self.robot_udp)
-        self._answered(False)
-
-    def _answered(self, passed: bool):
-        self.proxy.passed.append(passed)
-        self.due = None
-
-    @staticmethod
-    def _send(datagrams, sink, address):
-        for data in datagrams:
-            sink.sendto(data, address)
