@@ -15,7 +15,6 @@ import pytest
 from overlay import compiler_cache
 from pyfranka.franka_sim import FrankaSim
 from pyfranka.sim import KINDS
-from starvation import busy
 
 TOP = Path(__file__).resolve().parents[1]
 SOURCE = TOP / "examples" / "cpp"
@@ -179,19 +178,6 @@ def test_cartesian_impedance(programs, kind):
     assert yielded == pytest.approx(10 / 200, rel=0.05), "of the spring, and a small overshoot"
 
 
-@pytest.mark.long_form("eight busy processes for each processor")
-@pytest.mark.parametrize("name, kind", [("joint_impedance", "panda"), ("cartesian_impedance", "fr3")])
-def test_impedances_on_a_starved_machine(programs, kind, name):
-    """Program and robot wait for each other."""
-    with FrankaSim(KINDS[kind](realism="ideal")) as sim, busy():
-        program = Program(programs / name, sim.robot.address)
-        if name == "cartesian_impedance":
-            program.line()
-            sim.robot.remote.push(f"{kind}_hand", [0, 10, 0], ticks=4000)
-        program.end()
-        assert sim.robot.remote.state().mode == "Idle"
-
-
 @with_panda
 def test_force_control(programs, kind, tmp_path):
     (tmp_path / "table.xml").write_text(TABLE)
@@ -214,14 +200,6 @@ def test_grasp(programs, kind, tmp_path, something):
     assert held.split()[0] == ("holds" if something else "empty")
     assert numbers([held])[0] == pytest.approx(0.04 if something else 0.0, abs=2e-3)
     assert numbers([released])[0] == pytest.approx(0.08, abs=1e-3)
-
-
-def test_each_program_has_a_test_and_stands_in_the_documentation():
-    tested = {name.removeprefix("test_") for name in globals() if name.startswith("test_")}
-    assert tested >= PROGRAMS, PROGRAMS - tested
-    pages = "".join(page.read_text() for page in (TOP / "docs").glob("*.md"))
-    for name in PROGRAMS:
-        assert f"examples/cpp/{name}.cpp" in pages, name
 
 
 def test_each_program_has_help(programs):

@@ -14,19 +14,17 @@ from session_parts import smooth
 
 
 class Motion:
-    """Joint 4 there and back, or zero torque; counts cycles, and their longest period. From the cycle
-    `jump_at` on the joint is commanded 0.01 rad further."""
+    """Joint 4 there and back, or zero torque."""
 
-    def __init__(self, seconds, amplitude, announce, held, pause, jump_at=0):
-        self.seconds, self.amplitude, self.jump_at = seconds, amplitude, jump_at
+    def __init__(self, seconds, amplitude, announce, held, pause):
+        self.seconds, self.amplitude = seconds, amplitude
         self.announce, self.held, self.pause = announce, held, pause
-        self.time, self.cycles, self.longest, self.first = 0.0, 0, 0.0, None
+        self.time, self.cycles, self.first = 0.0, 0, None
 
     def next(self, q_d, period):
         """@returns joint positions and whether they are the last."""
         self.time += period
         self.cycles += 1
-        self.longest = max(self.longest, period)
         self.first = self.first or list(q_d)
         if self.cycles == 50 and self.announce:
             print("moving", flush=True)
@@ -37,11 +35,20 @@ class Motion:
         q = list(self.first)
         x = self.time / self.seconds
         q[3] += self.amplitude * (smooth(2 * x) - smooth(2 * x - 1))
-        q[3] += 0.01 if self.jump_at and self.cycles >= self.jump_at else 0.0
         return q, self.time >= self.seconds
 
 
-class Panda:
+class Client:
+    """What all libraries name alike."""
+
+    def recover(self):
+        self.robot.automatic_error_recovery()
+
+    def set_load(self):
+        self.robot.set_load(0.0, [0.0] * 3, [0.0] * 9)
+
+
+class Panda(Client):
     def __init__(self, address):
         from panda_py import libfranka
 
@@ -66,14 +73,8 @@ class Panda:
             impedance = self.library.ControllerMode.kJointImpedance
             self.robot.control_joint_position(callback, impedance, False)
 
-    def recover(self):
-        self.robot.automatic_error_recovery()
 
-    def set_load(self):
-        self.robot.set_load(0.0, [0.0] * 3, [0.0] * 9)
-
-
-class Own:
+class Own(Client):
     def __init__(self, address):
         import pyfranka
 
@@ -97,14 +98,8 @@ class Own:
         else:
             self.robot.control_joint_positions(callback, limit_rate=False, cutoff_frequency=1000.0)
 
-    def recover(self):
-        self.robot.automatic_error_recovery()
 
-    def set_load(self):
-        self.robot.set_load(0.0, [0.0] * 3, [0.0] * 9)
-
-
-class Pylibfranka:
+class Pylibfranka(Client):
     def __init__(self, address):
         import pylibfranka
 
@@ -130,12 +125,6 @@ class Pylibfranka:
             command.motion_finished = finished
             control.writeOnce(command)
 
-    def recover(self):
-        self.robot.automatic_error_recovery()
-
-    def set_load(self):
-        self.robot.set_load(0.0, [0.0] * 3, [0.0] * 9)
-
 
 LIBRARIES = {"panda": Panda, "pyfranka": Own, "pylibfranka": Pylibfranka}
 
@@ -160,12 +149,9 @@ class Session:
 
         return attempt(act)
 
-    def move(
-        self, seconds=1.0, amplitude=0.01, torque=False, announce=False, held=False, pause=0.0, jump_at=0
-    ):
-        motion = Motion(seconds, amplitude, announce, held, pause, jump_at)
-        seen = attempt(lambda: self.client.move(motion, torque))
-        return {**seen, "cycles": motion.cycles, "longest": motion.longest}
+    def move(self, seconds=1.0, amplitude=0.01, torque=False, announce=False, held=False, pause=0.0):
+        motion = Motion(seconds, amplitude, announce, held, pause)
+        return attempt(lambda: self.client.move(motion, torque))
 
     def recover(self):
         return {**attempt(self.client.recover), "mode": self.client.mode()}
