@@ -202,6 +202,13 @@ def test_the_rate_of_states_can_be_set(tmp_path):
         assert config.params["/franka_state_controller/publish_rate"].value == 1000
 
 
+def test_an_arm_without_its_hand_keeps_running():
+    name = "franka_control/franka_control.launch"
+    config = read(FILES[name], ["robot_ip:=10.0.0.1"], Reader(with_descriptions=False))
+    (hand,) = [node for node in config.nodes if node.type == "franka_gripper_node"]
+    assert not hand.required
+
+
 def test_paths_may_contain_spaces():
     bare = {
         name
