@@ -1,9 +1,7 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The demo as a user starts it: every listed seed places the stone, and a carried stone does not slip.
-
-The short form runs one seed with each robot.
-"""
+"""The demo as a user starts it. In the long form every listed seed places the stone, and a carried stone does
+not slip."""
 
 import json
 import subprocess
@@ -11,8 +9,7 @@ import sys
 
 import pytest
 
-SEEDS, SEEDS_IN_SHORT = range(1, 21), range(1, 2)
-IN_SHORT = ("fr3", "ideal")  # a Panda with the realism "real" shows the progress
+SEEDS = range(1, 21)
 
 
 def pick_and_place(output, *arguments: str, timeout: float = 800.0) -> tuple[int, list[dict], str]:
@@ -35,25 +32,18 @@ def pick_and_place(output, *arguments: str, timeout: float = 800.0) -> tuple[int
     return result.returncode, results, result.stdout
 
 
-def combinations():
-    """Robots and realisms; most of them in the long form only."""
-    for robot in ("panda", "fr3"):
-        for realism in ("ideal", "real", "recorded"):
-            of_long = pytest.mark.long_form("the other robots and realisms")
-            yield pytest.param(robot, realism, marks=() if (robot, realism) == IN_SHORT else of_long)
-
-
-@pytest.mark.parametrize("robot, realism", list(combinations()))
-def test_every_seed_places_the_stone(robot, realism, tmp_path, long_run):
-    seeds = list(SEEDS if long_run else SEEDS_IN_SHORT)
-    options = [text for seed in seeds for text in ("--seed", str(seed))]
+@pytest.mark.long_form("all robots, realisms and seeds")
+@pytest.mark.parametrize("realism", ["ideal", "real", "recorded"])
+@pytest.mark.parametrize("robot", ["panda", "fr3"])
+def test_every_seed_places_the_stone(robot, realism, tmp_path):
+    options = [text for seed in SEEDS for text in ("--seed", str(seed))]
     options += ["--realism", realism]
     carried = ["--hold", "60"] if realism == "ideal" else []  # friction keeps the arm off its way
     code, results, _ = pick_and_place(
         tmp_path, f"robot:={robot}", "--speed", "0", "--no-pictures", *options, *carried
     )
     assert code == 0
-    assert [result["seed"] for result in results] == seeds
+    assert [result["seed"] for result in results] == list(SEEDS)
     assert all(result["in_tray"] for result in results)
     assert not carried or all(result["slip"] < 1e-3 for result in results)
 
@@ -61,7 +51,7 @@ def test_every_seed_places_the_stone(robot, realism, tmp_path, long_run):
 def test_demo_shows_progress_and_pictures(tmp_path):
     from PIL import Image
 
-    code, results, output = pick_and_place(tmp_path, "--speed", "0", "--realism", "real")
+    code, results, output = pick_and_place(tmp_path, "robot:=fr3", "--speed", "0", "--realism", "real")
     assert code == 0
     assert "rests in the red tray" in output and "from the tray's center" in output
     assert "simulated" in output and "wall" in output
