@@ -65,26 +65,6 @@ def joint_impedance_torques(error, error_rate):
     return k_gains * error + d_gains * error_rate
 
 
-def cartesian_impedance_torques(J, pose, desired, q, dq, q_nullspace, stiffness, nullspace_stiffness):
-    """(7,) [Nm] without Coriolis torques, after the gains have reached their targets.
-
-    @param J (6, 7); pose, desired (4, 4); stiffness its two, [N/m] and [Nm/rad]
-    """
-    turn = turn_of(pose[:3, :3].T @ desired[:3, :3])
-    error = np.concatenate([desired[:3, 3] - pose[:3, 3], pose[:3, :3] @ turn])
-    gains = np.repeat(stiffness, 3)
-    wrench = gains * error - 2 * np.sqrt(gains) * (J @ dq)
-    own = nullspace_stiffness * (q_nullspace - q) - 2 * np.sqrt(nullspace_stiffness) * dq
-    return J.T @ (wrench - np.linalg.pinv(J.T) @ own) + own
-
-
-def turn_of(rotation):
-    """Vector part of the quaternion: the axis times the sine of half the angle."""
-    cosine = np.sqrt(max(0.0, 1 + np.trace(rotation))) / 2
-    skew = rotation - rotation.T
-    return np.array([skew[2, 1], skew[0, 2], skew[1, 0]]) / (4 * cosine)
-
-
 def start_time(times, desired, formula, earliest, latest):
     """Start time of a controller: the time at which desired values match its formula, to 0.1 ms.
 

@@ -143,11 +143,6 @@ def thresholds(**changed):
     return arguments
 
 
-def nominal(**changed):
-    """Those of set_force_torque_collision_behavior."""
-    return {name: values for name, values in thresholds(**changed).items() if name.endswith("nominal")}
-
-
 def good_values():
     """Requests of the setters that the state shows, with its fields."""
     hand = transform((0.01, -0.02, 0.15), 0.0, 0.5)
@@ -163,20 +158,6 @@ def good_values():
     }
 
 
-def bad_values():
-    """A value of each setter that every robot refuses."""
-    nan = float("nan")
-    return {
-        "set_EE_frame": {"NE_T_EE": columns(np.diag([1.0, 1.0, -1.0, 1.0]))},
-        "set_K_frame": {"EE_T_K": columns(np.diag([1.1, 1.0, 1.0, 1.0]))},
-        "set_joint_impedance": {"joint_stiffness": [nan] + [1000.0] * 6},
-        "set_cartesian_impedance": {"cartesian_stiffness": [3001.0] * 3 + [100.0] * 3},
-        "set_force_torque_collision_behavior": nominal(upper_torque=-1.0),
-        "set_full_collision_behavior": thresholds(upper_force=nan),
-        "set_load": {"mass": -0.1, "F_x_center_load": [0.0] * 3, "load_inertia": [0.0] * 9},
-    }
-
-
 def test_setters_take_effect(resting):
     for name, (values, effect) in good_values().items():
         resting.sets(name, **values)
@@ -186,16 +167,6 @@ def test_setters_take_effect(resting):
 
         wait_for(seen, f"The effect of {name}")
     assert resting.arm.state.m_total == pytest.approx(resting.arm.state.m_ee + 0.4, abs=1e-6)
-
-
-def test_impossible_values_are_refused(node):
-    assert bad_values().keys() == SETTERS.keys()
-    node.wait_for_rest()
-    before = node.arm.state.q
-    for name, values in bad_values().items():
-        success, error = node.set(name, **values)
-        assert not success and "invalid argument" in error, name
-    assert apart(node.arm.state.q, before) < 1e-6
 
 
 def test_transforms_connect_the_base_with_the_end_effector(robot, resting):

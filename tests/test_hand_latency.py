@@ -20,10 +20,7 @@ STEP = 20  # [ticks], shorter than the time between two widths
 # the one before, and a world that is paused brings no further one.
 ARRIVAL = 1.0
 PUBLISHED = rospy.Duration(0.04)  # [s] between two widths, at most
-LAUNCHES = {
-    "ideal": ["franka_gazebo", "fr3.launch", "headless:=true"],
-    "in-simulation": ["franka_gazebo", "panda.launch", "headless:=true", "realism:=real"],
-}
+LAUNCH = ["franka_gazebo", "panda.launch", "headless:=true", "realism:=real"]
 
 
 class Hand:
@@ -46,7 +43,7 @@ class Hand:
         """Moves the fingers [m]. @returns times [s] until the first motion and until the result, or more: the
         goal, the widths and the result may arrive some steps late."""
         begin, before, count = self._time, self._widths[-1][1], len(self._results)
-        goal, first = self.begin(width), None
+        goal, first = self._action.send(MoveGoal(width=width, speed=0.1)), None
         while len(self._results) == count:
             if abs(self.next_width() - before) > MOVED and first is None:
                 first = self._widths[-1][0] - begin
@@ -54,10 +51,6 @@ class Hand:
         status, text = outcome(goal, WAIT)
         assert status == GoalStatus.SUCCEEDED, text
         return {"first": first and first.to_sec(), "took": (self._time - begin).to_sec()}
-
-    def begin(self, width):
-        """Begins a move of the fingers [m]. @returns the goal's handle"""
-        return self._action.send(MoveGoal(width=width, speed=0.1))
 
     def next_width(self):
         """Steps the world, again if the width was lost. @returns the width then [m]"""
@@ -72,22 +65,9 @@ class Hand:
 
 @pytest.mark.own_process
 def test_moves_of_a_real_hand_take_a_second(tmp_path):
-    with launched(*LAUNCHES["in-simulation"], log=tmp_path / "launch.log"):
+    with launched(*LAUNCH, log=tmp_path / "launch.log"):
         hand = Hand()
         hand.move(0.04)
         small, large = hand.move(0.041), hand.move(0.08)
     assert small["took"] >= MIN_DURATION and large["took"] >= MIN_DURATION, (small, large)
     assert large["first"] >= START, large
-
-
-@pytest.mark.own_process
-def test_an_ideal_hand_moves_at_once(tmp_path):
-    """The result follows the arrival of the fingers within 0.2 s: a real hand would take until 1 s."""
-    with launched(*LAUNCHES["ideal"], log=tmp_path / "launch.log"):
-        hand = Hand()
-        hand.move(0.04)
-        result = hand.begin(0.041)
-        wait_for(lambda: abs(hand.next_width() - 0.041) < MOVED, "The fingers' arrival", WAIT)
-        for _ in range(10):
-            hand.next_width()
-        assert outcome(result, WAIT)[0] == GoalStatus.SUCCEEDED
