@@ -21,7 +21,6 @@ from waiting import wait_for
 
 WORLD_ROBOT = "127.0.31.21"
 LAUNCHED_ROBOT = "127.0.31.22"
-PAIR = ("127.0.31.23", "127.0.31.24")
 VERSION = re.compile(r"\d+\.\d+\.\d+")
 START_LIMIT = 120.0  # [s] of a launch on a busy machine
 
@@ -134,12 +133,3 @@ def test_desk_serves_the_simulated_robot_of_franka_control(tmp_path):
 
 def connected(remote: Remote) -> None:
     assert remote.report().client == 5
-
-
-@pytest.mark.long_form("a launch file more")
-def test_desk_serves_both_simulated_robots_of_franka_combined_control(tmp_path):
-    ips = f"robot_ips:={{panda_1/robot_ip: {PAIR[0]}, panda_2/robot_ip: {PAIR[1]}}}"
-    launch = ["franka_control", "franka_combined_control.launch", "sim:=true", "desk:=true", ips]
-    with Session(*launch, log=tmp_path / "launch.log") as session:
-        for address in PAIR:
-            assert VERSION.match(awaited(session, lambda address=address: system_version(address)))

@@ -3,7 +3,6 @@
 """The program franka_desk: options, passwords, several robots, its end."""
 
 import contextlib
-import dataclasses
 import http.client
 import json
 import os
@@ -16,8 +15,7 @@ from pathlib import Path
 import pytest
 from desk_robot import ScriptedRobot
 from desk_server import basic, unverified
-from pyfranka.desk import Options, cli
-from pyfranka.desk.profiles import PROFILES
+from pyfranka.desk import cli
 from pyfranka.franka_sim import FrankaSim, find_program
 from pyfranka.sim import FR3, Panda
 from waiting import wait_for
@@ -194,19 +192,6 @@ def test_desk_serves_before_its_robot_is_there(environment):
         _, (place,) = places(process, 1)
         status, body = get(place, "/api/system", {})
         assert status == 503 and str(port) in json.loads(body)["message"]
-
-
-def test_the_page_names_every_option_with_its_default():
-    page = (Path(__file__).parent.parent / "docs/desk.md").read_text()
-    rows = dict(re.findall(r"^\| `([\w-]+)` \| ([^|]*?) ?\|", page, re.MULTILINE))
-    for field in dataclasses.fields(Options):
-        default = field.default
-        shown = f"{default:g}" if isinstance(default, float) else str(default)
-        if isinstance(default, bool):
-            shown = "on" if default else "off"
-        assert rows[field.name.replace("_", "-")] == shown
-    for profile in PROFILES.values():
-        assert f"`{profile.name}`" in page and profile.version in page
 
 
 def test_franka_sim_starts_desk_with_its_password_and_ends_it(environment, monkeypatch):

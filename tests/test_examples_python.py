@@ -17,7 +17,6 @@ from PIL import Image, ImageStat
 
 TOP = Path(__file__).resolve().parents[1]
 EXAMPLES = TOP / "examples" / "python"
-NO_PROGRAMS = {"common", "sweep_stiffness"}
 QUICK = {"first_steps"}
 LONG = {"random_episodes", "record_and_plot", "task_rewards", "train_reach"}
 sys.path.append(str(TOP / "docs" / "site"))
@@ -154,14 +153,3 @@ def test_a_notebook_runs_in_jupyter_and_shows_its_picture(folder, name):
     assert not any(output.output_type == "error" for output in outputs)
     picture = "stiffness" if name == "sweep_stiffness" else name
     assert (folder / f"{picture}.png").exists()
-
-
-def test_each_example_has_a_test_and_each_picture_stands_in_the_documentation():
-    programs = {path.stem for path in EXAMPLES.glob("*.py")} - NO_PROGRAMS
-    tested = {name.removeprefix("test_") for name in globals() if name.startswith("test_")}
-    assert programs <= tested, programs - tested
-    pages = {page.stem: page.read_text() for page in (TOP / "docs").glob("*.md")}
-    for name in (*programs, "sweep_stiffness"):
-        assert f"(pictures/{name}.png)" in "".join(pages.values()), name
-        assert f"`examples/python/{name}.py`" in pages["examples_python"], name
-        assert (TOP / "docs" / "pictures" / f"{name}.png").exists()

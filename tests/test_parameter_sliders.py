@@ -5,18 +5,14 @@
 import json
 import re
 import subprocess
-import sys
-from pathlib import Path
 
 import pytest
 import waiting
-from docsite.dynamic_parameters import read_config
 from franka_sim_mujoco.session import Session
 from PIL import Image
 from pyfranka.remote import Remote
 from screen import children_of, click, drag, press, virtual_screen, window_of
 
-EXAMPLES = Path(__file__).resolve().parent.parent / "catkin_ws/src/franka_example_controllers"
 ADDRESS = "127.0.7.21"
 CONTROLLER = "cartesian_impedance_example_controller"
 SERVER = f"/{CONTROLLER}/dynamic_reconfigure_compliance_param_node"
@@ -200,55 +196,3 @@ def test_sliders_appear_and_disappear_with_their_controller(sliders):
     wait_for(session, lambda: len(panel.scales()) == 3, "the sliders come back")
     panel.pull(0, panel.shows(0, STIFFEST), -STIFFEST, STIFFEST)
     wait_for(session, lambda: robot.parameters()["translational_stiffness"] == 0.0, "the new value")
-
-
-# A process of its own: Tk ends a process whose screen has gone.
-LABELS = """
-import json, sys, tkinter
-from importlib.machinery import SourceFileLoader
-
-def texts_of(widget):
-    own = [str(widget["text"])] if "text" in widget.keys() else []
-    return own + [text for child in widget.winfo_children() for text in texts_of(child)]
-
-sliders = SourceFileLoader("parameter_sliders", sys.argv[1]).load_module()
-root, found = tkinter.Tk(), []
-for parameter in json.load(sys.stdin):
-    frame = tkinter.Frame(root)
-    sliders.Row(frame, 0, parameter, lambda value: None)
-    found.append(texts_of(frame))
-print(json.dumps(found))
-"""
-
-
-def described(parameters: list) -> list[dict]:
-    """The parameters of a .cfg file as the panel receives them."""
-    return [
-        {
-            "name": each.name,
-            "type": each.type,
-            "description": each.meaning,
-            "min": float(each.lowest),
-            "max": float(each.highest),
-            "default": float(each.default),
-        }
-        for each in parameters
-    ]
-
-
-def test_each_number_has_its_unit_limits_and_default():
-    """What the panel shows of the examples' parameters, as their .cfg files give them."""
-    names = ("compliance_param", "desired_mass_param", "teleop_gripper_param")
-    files = [EXAMPLES / "cfg" / f"{name}.cfg" for name in names]
-    parameters = [each for file in files for each in read_config(file).parameters]
-    program = [sys.executable, "-c", LABELS, str(EXAMPLES / "scripts/parameter_sliders")]
-    options = {"stdout": subprocess.PIPE, "text": True, "check": True, "timeout": 60}
-    with virtual_screen():
-        printed = subprocess.run(program, input=json.dumps(described(parameters)), **options).stdout
-    for parameter, texts in zip(parameters, json.loads(printed), strict=True):
-        unit = re.search(r"\[(.*)\]", parameter.meaning)
-        assert (unit is None) == (parameter.name == "k_p"), "all but one have a unit"
-        assert {parameter.name, unit[1] if unit else ""} <= set(texts)
-        limits = {f"{parameter.lowest:g}", f"{parameter.highest:g}", f"Reset to {parameter.default:g}"}
-        assert limits <= set(texts)
-        assert not any("[" in text for text in texts), "the unit stands in its own column"
