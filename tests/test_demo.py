@@ -51,7 +51,7 @@ def test_every_seed_places_the_stone(robot, realism, tmp_path):
 def test_demo_shows_progress_and_pictures(tmp_path):
     from PIL import Image
 
-    code, results, output = pick_and_place(tmp_path, "robot:=fr3", "--speed", "0", "--realism", "real")
+    code, results, output = pick_and_place(tmp_path, "robot:=fr3", "--speed", "5", "--realism", "real")
     assert code == 0
     assert "rests in the red tray" in output and "from the tray's center" in output
     assert "simulated" in output and "wall" in output

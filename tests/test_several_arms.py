@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Two arms in one simulation as fast as possible: they start, and leave processor time for others."""
+"""Two arms in one simulation that is faster than real time: they start, and add no processes."""
 
 import time
 from pathlib import Path
