@@ -52,7 +52,6 @@ sim_test(robot_unit_test
     test/robot/self_collision_test.cpp
     test/robot/supervisor_parts_test.cpp
     test/robot/transform_entrances_test.cpp
-    test/robot/unit_limits_test.cpp
     test/robot/unit_motion_test.cpp
     test/robot/unit_restart_test.cpp
   LIBRARIES franka_sim_robot)
@@ -73,6 +72,7 @@ sim_test(robot_motion_test
     test/robot/motion/brake_trajectory_test.cpp
     test/robot/motion/elbow_test.cpp
     test/robot/motion/inverse_kinematics_test.cpp
+    test/robot/motion/motion_limits_test.cpp
     test/robot/motion/joint_limits_test.cpp
     test/robot/motion/motion_generator_test.cpp
     test/robot/motion/motion_start_test.cpp

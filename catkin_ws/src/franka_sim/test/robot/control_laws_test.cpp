@@ -18,24 +18,15 @@ namespace {
 
 class Laws : public FciTest {
  protected:
-  RobotCommand still() const {
-    RobotCommand command;
-    command.q_c = start.q_d;
-    command.O_T_EE_c = start.O_T_EE_c;
-    return command;
-  }
-
   void hold(ControllerMode controller, int ticks) {
-    start = unit.state();
+    const RobotState start = unit.state();
     startMove(controller == ControllerMode::kCartesianImpedance
                   ? MotionGeneratorMode::kCartesianPosition
                   : MotionGeneratorMode::kJointPosition,
               controller);
-    drive(ticks, [&](int, const RobotState&) { return still(); });
+    drive(ticks, [&](int, const RobotState&) { return still(start); });
     ASSERT_EQ(RobotMode::kMove, unit.state().robot_mode);
   }
-
-  RobotState start;
 };
 
 TEST_F(Laws, JointStiffnessMatchesItsSetting) {

@@ -17,6 +17,7 @@ using franka_core::MotionGeneratorMode;
 using franka_core::RobotCommand;
 using franka_core::RobotMode;
 using franka_core::RobotState;
+using Joints = std::array<double, 7>;
 using Status = franka_core::fci::Status;
 
 /// A unit with the settings of the FCI.
@@ -88,6 +89,15 @@ class FciTest : public ArmTest {
       answer = unit.takeAnswer(which);
     }
     return answer;
+  }
+
+  /// The command of a client that stands still.
+  static RobotCommand still(const RobotState& state) {
+    RobotCommand command;
+    command.q_c = state.q_d;
+    command.O_T_EE_c = state.O_T_EE_c;
+    command.elbow_c = state.elbow_c;
+    return command;
   }
 
   std::vector<int> raised() const {

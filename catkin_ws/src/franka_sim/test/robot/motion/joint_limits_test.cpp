@@ -65,22 +65,26 @@ TEST(JointLimits, SpeedLimitOfAnFr3ShrinksTowardsTheEnds) {
       SCOPED_TRACE(::testing::Message() << "protocol " << protocol << ", joint " << joint + 1);
       // Closed form, 0.3 rad before the end (protocol 5.5).
       const auto& near = limits.velocity_near_ends;
-      Joints q = kReady;
-      q[joint] = near.q_max[joint] - 0.3;
-      const double highest = std::sqrt(near.deceleration[joint] * 0.3) - near.offset[joint];
-      EXPECT_NEAR(highest, limits.highestVelocity(joint, q[joint]), 1e-12);
+      const double limit = std::sqrt(near.deceleration[joint] * 0.3) - near.offset[joint];
       const double shrunk = 0.5 * near.deceleration[joint] * kTick;  // at most, in a tick
-      Motion motion(protocol, MotionGeneratorMode::kJointVelocity, q);
-      Joints dq{};
-      ErrorSet fault;
-      while (!fault && dq[joint] < 2.0) {
-        dq[joint] += 4e-3;  // jerk-limited steps in turn: 4 rad/s^2
-        fault = motion.step(jointVelocities(dq)).errors;
+      for (const double sign : {-1.0, 1.0}) {
+        Joints q = kReady;
+        q[joint] = sign > 0.0 ? near.q_max[joint] - 0.3 : near.q_min[joint] + 0.3;
+        const auto limit_at = [&](double q) {
+          return sign > 0.0 ? limits.highestVelocity(joint, q) : -limits.lowestVelocity(joint, q);
+        };
+        EXPECT_NEAR(limit, limit_at(q[joint]), 1e-12);
+        Motion motion(protocol, MotionGeneratorMode::kJointVelocity, q);
+        Joints dq{};
+        ErrorSet fault;
+        while (!fault && std::abs(dq[joint]) < 2.0) {
+          dq[joint] += sign * 4e-3;  // jerk-limited steps in turn: 4 rad/s^2
+          fault = motion.step(jointVelocities(dq)).errors;
+        }
+        EXPECT_EQ(RobotError::kJointMotionGeneratorVelocityLimitsViolation, fault);
+        EXPECT_GT(sign * dq[joint], limit_at(motion.desired().q_d[joint]));
+        EXPECT_LT(sign * dq[joint], limit_at(motion.desired().q_d[joint]) + 4e-3 + shrunk);
       }
-      EXPECT_EQ(RobotError::kJointMotionGeneratorVelocityLimitsViolation, fault);
-      EXPECT_GT(dq[joint], limits.highestVelocity(joint, motion.desired().q_d[joint]));
-      EXPECT_LT(dq[joint],
-                limits.highestVelocity(joint, motion.desired().q_d[joint]) + 4e-3 + shrunk);
     }
   }
 }
