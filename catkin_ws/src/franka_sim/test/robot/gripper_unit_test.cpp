@@ -11,7 +11,6 @@
 #include <stdexcept>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include "fake_hand.h"
 
@@ -101,63 +100,20 @@ TEST_F(GripperTest, TemperatureFollowsTheSquaredForce) {
   EXPECT_EQ(parameters.room_temperature, gripper.temperature());
 }
 
-TEST_F(GripperTest, MovesToAWidthAtTheRequestedSpeed) {
-  startAt(0.0);
-  for (const double speed : {0.02, 0.05, 0.1}) {
-    for (const double width : {0.08, 0.03, 0.0}) {
-      const double way = std::abs(width - hand.width());
-      EXPECT_FALSE(gripper.isBusy());
-      EXPECT_EQ(GripperState::kIdle, gripper.state());
-      const GripperUnit::Ticket ticket = gripper.move(width, speed);
-      EXPECT_TRUE(gripper.isBusy());
-      run(static_cast<int>(500 * way / speed));
-      EXPECT_NEAR(speed, std::abs(hand.speed()), 0.1 * speed) << "halfway to " << width;
-      const double halfway = narrowest = widest = gripper.width();
-      const double time = 0.5 * way / speed + finish(ticket);
-      EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
-      EXPECT_EQ(GripperState::kIdle, gripper.state());
-      EXPECT_NEAR(width, gripper.width(), 1e-3);
-      EXPECT_NEAR(way / speed, time, 0.3);
-      run(1000);
-      EXPECT_GT(narrowest, std::min(halfway, width) - 1e-3) << "overshoots";
-      EXPECT_LT(widest, std::max(halfway, width) + 1e-3) << "overshoots";
-      EXPECT_NEAR(width, gripper.width(), 1e-4) << "stays there";
-    }
-  }
-}
-
-TEST_F(GripperTest, WorksWithLightAndHeavyFingersAndWithoutCoupling) {
-  for (const double mass : {0.015, 0.03, 0.115, 0.3}) {
-    for (const double coupling : {0.0, 20000.0}) {
-      hand = FakeHand(mass, coupling);
-      gripper = GripperUnit(GripperParameters{});
-      putStone();
-      startAt(0.06);
-      const GripperUnit::Ticket ticket = graspTheStone();
-      EXPECT_LT(finish(ticket), 3.0) << mass << " " << coupling;
-      EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket)) << mass << " " << coupling;
-      run(500);
-      EXPECT_NEAR(2.5, hand.padForce()[0], 0.25) << mass << " " << coupling;
-      EXPECT_NEAR(2.5, hand.padForce()[1], 0.25) << mass << " " << coupling;
-      hand.has_object = false;
-      const GripperUnit::Ticket open = gripper.move(0.08, 0.1);
-      finish(open);
-      EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(open)) << mass << " " << coupling;
-      EXPECT_NEAR(0.08, gripper.width(), 1e-3) << mass << " " << coupling;
-    }
-  }
-}
-
 TEST_F(GripperTest, MovesEndWhereTheFingersArriveOrStandStill) {
   struct Row {
     double from, to, speed, obstacle;  // [m], [m/s]; an obstacle of no width is none
     double time, tolerance;            // [s]
     GripperOutcome outcome;
   };
-  for (const Row& row : {Row{0.04, 0.0405, 0.0005, 0, 1.0, 0.1, GripperOutcome::kSucceeded},
+  for (const Row& row : {Row{0.0, 0.08, 0.1, 0, 0.9, 0.1, GripperOutcome::kSucceeded},
+                         Row{0.08, 0.03, 0.02, 0, 2.52, 0.1, GripperOutcome::kSucceeded},
+                         Row{0.04, 0.0405, 0.0005, 0, 1.0, 0.1, GripperOutcome::kSucceeded},
                          Row{0.04, 0.04, 0.1, 0, 0.0, 0.01, GripperOutcome::kSucceeded},
                          Row{0.04, 0.08, 0.0, 0, 0.2, 0.01, GripperOutcome::kFailed},
-                         Row{0.03, 0.0, 0.1, 0.03, 0.2, 0.05, GripperOutcome::kFailed}}) {
+                         Row{0.03, 0.0, 0.1, 0.03, 0.2, 0.05, GripperOutcome::kFailed},
+                         Row{0.06, 0.0, 0.1, 0.025, 0.375, 0.1, GripperOutcome::kFailed}}) {
+    SCOPED_TRACE(::testing::Message() << row.from << " to " << row.to);
     hand = FakeHand();
     gripper = GripperUnit(GripperParameters{});
     putStone(row.obstacle);
@@ -165,9 +121,14 @@ TEST_F(GripperTest, MovesEndWhereTheFingersArriveOrStandStill) {
     hand.object.movable = false;
     startAt(row.from);
     const GripperUnit::Ticket ticket = gripper.move(row.to, row.speed);
-    EXPECT_NEAR(row.time, finish(ticket), row.tolerance) << row.from << " to " << row.to;
-    EXPECT_EQ(row.outcome, gripper.outcome(ticket)) << row.from << " to " << row.to;
+    EXPECT_NEAR(row.time, finish(ticket), row.tolerance);
+    EXPECT_EQ(row.outcome, gripper.outcome(ticket));
+    EXPECT_EQ(GripperState::kIdle, gripper.state());
+    run(500);
     EXPECT_EQ(row.outcome == GripperOutcome::kSucceeded, std::abs(row.to - gripper.width()) < 1e-4);
+    EXPECT_LT(hand.padForce()[0], 0.1) << "nothing keeps pressing";
+    EXPECT_GT(narrowest, std::min(row.from, row.to) - 1e-3) << "overshoots";
+    EXPECT_LT(widest, std::max(row.from, row.to) + 1e-3) << "overshoots";
   }
 }
 
@@ -213,47 +174,72 @@ TEST_F(GripperTest, HeldObjectIsHeldUntilTheNextCommandBegins) {
   EXPECT_FALSE(gripper.isGrasped());
 }
 
-TEST_F(GripperTest, ObstacleEndsAMoveAsFailed) {
-  putStone();
-  hand.object.movable = false;
-  startAt(0.06);
-  const GripperUnit::Ticket ticket = gripper.move(0.0, 0.1);
-  EXPECT_NEAR(0.35 + 0.025, finish(ticket), 0.1);
-  EXPECT_EQ(GripperOutcome::kFailed, gripper.outcome(ticket));
-  EXPECT_EQ(GripperState::kIdle, gripper.state());
-  EXPECT_NEAR(0.025, gripper.width(), 1e-3);
-  run(500);
-  EXPECT_LT(hand.padForce()[0], 0.1) << "nothing keeps pressing";
+/// A grasp with its outcome.
+struct GraspRow {
+  const char* name;
+  double object;    ///< its width, or the inner one of a hollow object; 0: none [m]
+  double from, to;  ///< width of the hand, and of the grasp [m]
+  double end;       ///< width afterwards [m]
+  double inner{0.005}, outer{0.005};
+  double force{5.0};                      ///< [N]
+  double mass{0.115}, coupling{20000.0};  ///< of the fingers [kg], [N/m]
+  double beside{0.0};                     ///< of the center [m]
+  bool hollow{false};
+};
+
+class Grasp : public GripperTest, public ::testing::WithParamInterface<GraspRow> {};
+
+TEST_P(Grasp, HoldsAnObjectOfItsWidthWithHalfOfTheForceOnEachFinger) {
+  const GraspRow& row = GetParam();
+  hand = FakeHand(row.mass, row.coupling);
+  putStone(row.object, row.beside);
+  hand.has_object = row.object > 0.0;
+  hand.object.hollow = row.hollow;
+  hand.object.movable = !row.hollow;
+  startAt(row.from);
+  const GripperUnit::Ticket ticket = gripper.grasp(row.to, row.inner, row.outer, 0.1, row.force);
+  EXPECT_LT(finish(ticket), 3.0);
+  const double excess = row.object - row.to;
+  const bool holds = row.object > 0.0 && excess < row.outer && excess > -row.inner;
+  EXPECT_EQ(holds ? GripperOutcome::kSucceeded : GripperOutcome::kFailed, gripper.outcome(ticket));
+  run(2000);
+  EXPECT_EQ(holds ? GripperState::kHolding : GripperState::kIdle, gripper.state());
+  EXPECT_EQ(holds, gripper.isGrasped());
+  const double expected = holds ? 0.5 * row.force : 0.0;
+  for (const double force : hand.padForce()) {
+    // Friction beside the center takes a part.
+    EXPECT_NEAR(expected, force, row.beside == 0.0 ? 0.05 * row.force : hand.object.friction);
+  }
+  EXPECT_NEAR(row.end, gripper.width(), 1e-3);
+  EXPECT_NEAR(0.0, hand.object.position, holds ? 1e-3 : 0.02) << "the fingers center an object";
+  hand.has_object = false;
+  const GripperUnit::Ticket open = gripper.move(0.08, 0.1);
+  finish(open);
+  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(open));
+  EXPECT_NEAR(0.08, gripper.width(), 1e-3);
 }
 
-TEST_F(GripperTest, GraspHoldsWithHalfOfTheForceOnEachFinger) {
-  for (const double force : {1.0, 5.0, 40.0}) {
-    putStone();
-    gripper = GripperUnit(GripperParameters{});
-    startAt(0.06);
-    const GripperUnit::Ticket ticket = gripper.grasp(0.025, 0.005, 0.005, 0.1, force);
-    EXPECT_LT(finish(ticket), 1.0);
-    EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
-    EXPECT_EQ(GripperState::kHolding, gripper.state());
-    EXPECT_TRUE(gripper.isGrasped());
-    run(2000);
-    EXPECT_NEAR(0.5 * force, hand.padForce()[0], 0.05 * force);
-    EXPECT_NEAR(0.5 * force, hand.padForce()[1], 0.05 * force);
-    EXPECT_TRUE(gripper.isGrasped());
-  }
-}
-
-TEST_F(GripperTest, GraspCentersAnObject) {
-  for (const double beside : {0.01, -0.01}) {
-    putStone(0.025, beside);
-    gripper = GripperUnit(GripperParameters{});
-    startAt(0.07);
-    const GripperUnit::Ticket ticket = graspTheStone();
-    EXPECT_LT(finish(ticket), 2.0);
-    EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket)) << beside;
-    EXPECT_NEAR(0.0, hand.object.position, 1e-3) << beside;
-  }
-}
+constexpr GraspRow kGrasps[] = {
+    {"Gently", 0.025, 0.06, 0.025, 0.025, 0.005, 0.005, 1.0},
+    {"Strongly", 0.025, 0.06, 0.025, 0.025, 0.005, 0.005, 40.0},
+    {"Nothing", 0.0, 0.06, 0.025, 0.0},
+    {"TooWide", 0.035, 0.06, 0.025, 0.035},
+    {"TooNarrow", 0.015, 0.06, 0.025, 0.015},
+    {"WithinAWideOuterEpsilon", 0.035, 0.06, 0.025, 0.035, 0.005, 0.011},
+    {"WithinAWideInnerEpsilon", 0.015, 0.06, 0.025, 0.015, 0.011, 0.005},
+    {"WithinTheOuterEpsilon", 0.029, 0.06, 0.025, 0.029},
+    {"WithinTheInnerEpsilon", 0.021, 0.06, 0.025, 0.021},
+    {"LightFingers", 0.025, 0.06, 0.025, 0.025, 0.005, 0.005, 5.0, 0.015},
+    {"HeavyFingers", 0.025, 0.06, 0.025, 0.025, 0.005, 0.005, 5.0, 0.3},
+    {"LightUncoupledFingers", 0.025, 0.06, 0.025, 0.025, 0.005, 0.005, 5.0, 0.015, 0.0},
+    {"HeavyUncoupledFingers", 0.025, 0.06, 0.025, 0.025, 0.005, 0.005, 5.0, 0.3, 0.0},
+    {"BesideTheCenter", 0.025, 0.07, 0.025, 0.025, 0.005, 0.005, 5.0, 0.115, 20000.0, 0.01},
+    {"OnTheOtherSide", 0.025, 0.07, 0.025, 0.025, 0.005, 0.005, 5.0, 0.115, 20000.0, -0.01},
+    {"FromInside", 0.06, 0.02, 0.06, 0.06, 0.005, 0.005, 5.0, 0.115, 20000.0, 0.0, true},
+    {"NothingFromInside", 0.0, 0.02, 0.06, 0.08},
+};
+INSTANTIATE_TEST_SUITE_P(Rows, Grasp, ::testing::ValuesIn(kGrasps),
+                         [](const auto& row) { return row.param.name; });
 
 TEST_F(GripperTest, GraspDoesNotThrowTheObject) {
   putStone(0.025, 0.01);
@@ -267,58 +253,6 @@ TEST_F(GripperTest, GraspDoesNotThrowTheObject) {
   }
   EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
   EXPECT_GT(furthest, -0.005);
-}
-
-TEST_F(GripperTest, GraspOfNothingFailsAndReleases) {
-  startAt(0.06);
-  const GripperUnit::Ticket ticket = graspTheStone();
-  EXPECT_LT(finish(ticket), 1.5);
-  EXPECT_EQ(GripperOutcome::kFailed, gripper.outcome(ticket));
-  EXPECT_EQ(GripperState::kIdle, gripper.state());
-  EXPECT_FALSE(gripper.isGrasped());
-  EXPECT_NEAR(0.0, gripper.width(), 1e-3);
-}
-
-TEST_F(GripperTest, GraspOfTheWrongWidthFails) {
-  struct Row {
-    double object, inner, outer;
-    GripperOutcome outcome;
-  };
-  for (const Row& row : {Row{0.035, 0.005, 0.005, GripperOutcome::kFailed},
-                         Row{0.015, 0.005, 0.005, GripperOutcome::kFailed},
-                         Row{0.035, 0.005, 0.011, GripperOutcome::kSucceeded},
-                         Row{0.015, 0.011, 0.005, GripperOutcome::kSucceeded},
-                         Row{0.029, 0.005, 0.005, GripperOutcome::kSucceeded},
-                         Row{0.021, 0.005, 0.005, GripperOutcome::kSucceeded}}) {
-    putStone(row.object);
-    gripper = GripperUnit(GripperParameters{});
-    startAt(0.06);
-    const GripperUnit::Ticket ticket = gripper.grasp(0.025, row.inner, row.outer, 0.1, 5);
-    finish(ticket);
-    EXPECT_EQ(row.outcome, gripper.outcome(ticket)) << row.object;
-    EXPECT_EQ(row.outcome == GripperOutcome::kSucceeded, gripper.isGrasped()) << row.object;
-  }
-}
-
-TEST_F(GripperTest, GraspFromInsideOpensAndHolds) {
-  hand.has_object = true;
-  hand.object.left = hand.object.right = 0.03;
-  hand.object.hollow = true;
-  startAt(0.02);
-  const GripperUnit::Ticket ticket = gripper.grasp(0.06, 0.005, 0.005, 0.1, 5);
-  EXPECT_LT(finish(ticket), 1.5);
-  EXPECT_EQ(GripperOutcome::kSucceeded, gripper.outcome(ticket));
-  run(1000);
-  EXPECT_NEAR(2.5, hand.padForce()[0], 0.25);
-  EXPECT_NEAR(2.5, hand.padForce()[1], 0.25);
-}
-
-TEST_F(GripperTest, GraspFromInsideOfNothingEndsAtTheStops) {
-  startAt(0.02);
-  const GripperUnit::Ticket ticket = gripper.grasp(0.06, 0.005, 0.005, 0.1, 5);
-  EXPECT_LT(finish(ticket), 2.0);
-  EXPECT_EQ(GripperOutcome::kFailed, gripper.outcome(ticket));
-  EXPECT_NEAR(0.08, gripper.width(), 1e-3);
 }
 
 TEST_F(GripperTest, GraspingAHeldObjectAgainKeepsHolding) {
@@ -368,30 +302,6 @@ TEST_F(GripperTest, StopDuringAMoveHoldsTheWidth) {
     run(2000);
     EXPECT_NEAR(width, gripper.width(), 2e-3);
     EXPECT_NEAR(0.0, hand.speed(), 1e-4);
-  }
-}
-
-TEST_F(GripperTest, EveryCommandInterruptsEveryOther) {
-  using Command = std::function<GripperUnit::Ticket(GripperUnit&)>;
-  const std::vector<Command> commands = {
-      [](GripperUnit& g) { return g.homing(); },
-      [](GripperUnit& g) { return g.move(0.05, 0.1); },
-      [](GripperUnit& g) { return g.grasp(0.02, 0.03, 0.03, 0.1, 5); },
-  };
-  for (const Command& first : commands) {
-    for (const Command& second : commands) {
-      gripper = GripperUnit(GripperParameters{});
-      startAt(0.07);
-      const GripperUnit::Ticket a = first(gripper);
-      run(50);
-      EXPECT_EQ(GripperOutcome::kRunning, gripper.outcome(a));
-      const GripperUnit::Ticket b = second(gripper);
-      EXPECT_EQ(GripperOutcome::kInterrupted, gripper.outcome(a));
-      EXPECT_EQ(GripperOutcome::kRunning, gripper.outcome(b));
-      EXPECT_LT(finish(b), 20.0);
-      EXPECT_NE(GripperOutcome::kRunning, gripper.outcome(b));
-      EXPECT_EQ(GripperOutcome::kInterrupted, gripper.outcome(a));
-    }
   }
 }
 
