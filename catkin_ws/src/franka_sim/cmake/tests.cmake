@@ -34,7 +34,7 @@ if(NOT catkin_FOUND)
 endif()
 
 # One program each: rt_guard.h works in one translation unit of a program.
-foreach(name control_unit external_force gripper_unit modes_and_requests repeatability)
+foreach(name control_unit external_force gripper_unit modes_and_requests)
   sim_test(robot_${name}_test SOURCES test/robot/${name}_test.cpp LIBRARIES franka_sim_robot)
 endforeach()
 
@@ -53,7 +53,6 @@ sim_test(robot_unit_test
     test/robot/supervisor_parts_test.cpp
     test/robot/transform_entrances_test.cpp
     test/robot/unit_motion_test.cpp
-    test/robot/unit_restart_test.cpp
   LIBRARIES franka_sim_robot)
 
 find_package(rapidcheck REQUIRED)

@@ -12,6 +12,7 @@
 #include <string>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include "arm_fixture.h"
 
@@ -25,68 +26,6 @@ using franka_core::RobotMode;
 using franka_core::RobotState;
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-TEST_F(ArmTest, EveryRequestInEveryModeFollowsTheTable) {
-  using Request = std::function<std::optional<Status>(ControlUnit&)>;
-  const Request start = [](ControlUnit& u) { return u.request(torqueControl()); };
-  const Request stop = [](ControlUnit& u) { return u.request(codec::StopMoveRequest{}); };
-  const Request recover = [](ControlUnit& u) {
-    return u.request(codec::AutomaticErrorRecoveryRequest{});
-  };
-  const Request press = [](ControlUnit& u) { return u.request(UserStop{true}); };
-  const Request release = [](ControlUnit& u) { return u.request(UserStop{false}); };
-  constexpr auto kYes = Status::kSuccess;
-  constexpr auto kNo = Status::kCommandNotPossibleRejected;
-  constexpr auto kManual = Status::kManualErrorRecoveryRequiredRejected;
-  constexpr auto kStarted = Status::kMotionStarted;
-  constexpr auto kLater = std::nullopt;
-  struct Cell {
-    const char* what;
-    RobotMode from;
-    Request request;
-    std::optional<Status> status;
-    RobotMode to;
-  };
-  const Cell cells[] = {
-      {"start in Idle", RobotMode::kIdle, start, kStarted, RobotMode::kMove},
-      {"start in Move", RobotMode::kMove, start, kNo, RobotMode::kMove},
-      {"start in UserStopped", RobotMode::kUserStopped, start, kNo, RobotMode::kUserStopped},
-      {"stop in Idle", RobotMode::kIdle, stop, kNo, RobotMode::kIdle},
-      {"stop in Move", RobotMode::kMove, stop, kLater, RobotMode::kIdle},
-      {"stop in UserStopped", RobotMode::kUserStopped, stop, kNo, RobotMode::kUserStopped},
-      {"press in Idle", RobotMode::kIdle, press, kYes, RobotMode::kUserStopped},
-      {"press in Move", RobotMode::kMove, press, kYes, RobotMode::kUserStopped},
-      {"press twice", RobotMode::kUserStopped, press, kYes, RobotMode::kUserStopped},
-      {"release in Idle", RobotMode::kIdle, release, kYes, RobotMode::kIdle},
-      {"release in Move", RobotMode::kMove, release, kYes, RobotMode::kMove},
-      {"release in UserStopped", RobotMode::kUserStopped, release, kYes, RobotMode::kIdle},
-      {"recover in Idle", RobotMode::kIdle, recover, kYes, RobotMode::kIdle},
-      {"recover in Move", RobotMode::kMove, recover, kYes, RobotMode::kMove},
-      {"recover in UserStopped", RobotMode::kUserStopped, recover, kManual,
-       RobotMode::kUserStopped},
-  };
-  for (const Cell& cell : cells) {
-    rebuild();
-    tick(unit, arm);
-    if (cell.from == RobotMode::kMove) {
-      unit.request(torqueControl());
-    } else if (cell.from == RobotMode::kUserStopped) {
-      unit.request(UserStop{true});
-    }
-    ASSERT_EQ(cell.from, unit.state().robot_mode) << cell.what;
-    EXPECT_EQ(cell.status, cell.request(unit)) << cell.what;
-    EXPECT_EQ(cell.to, unit.state().robot_mode) << cell.what;
-    EXPECT_EQ(cell.to, unit.observe(arm.measure()).robot_mode) << cell.what;
-    const bool moving = cell.to == RobotMode::kMove;
-    EXPECT_EQ(moving ? MotionGeneratorMode::kNone : MotionGeneratorMode::kIdle,
-              unit.state().motion_generator_mode)
-        << cell.what;
-    EXPECT_EQ(moving ? ControllerMode::kExternalController : ControllerMode::kOther,
-              unit.state().controller_mode)
-        << cell.what;
-    EXPECT_EQ(cell.to == RobotMode::kUserStopped, unit.status().brakes_closed) << cell.what;
-  }
-}
 
 TEST_F(ArmTest, NothingStartsBeforeTheFirstMeasurement) {
   EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(torqueControl()));
@@ -127,34 +66,6 @@ TEST_F(ArmTest, FinishedCommandEndsTheMotionInItsTick) {
   tick(unit, arm, &command);
   EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
   EXPECT_EQ((std::array<double, 7>{}), tick(unit, arm, &command).tau_J_d);
-}
-
-TEST_F(ArmTest, UserStopLocksTheArmAndReleaseHoldsIt) {
-  startTorqueControl();
-  const franka_core::RobotCommand push = torques({{20, 0, 0, 0, 0, 0, 0}});
-  run(100, &push);
-  const double speed = arm.dq()[0];
-  ASSERT_GT(speed, 0.3);
-  unit.request(UserStop{true});
-  EXPECT_FALSE(unit.status().brakes_closed) << "the motors stop it first";
-  EXPECT_TRUE(unit.status().settling);
-  // At 15 rad/s^2; then the arm catches up with its desired motion.
-  run(static_cast<int>(speed / 15e-3) + 60, &push);
-  EXPECT_TRUE(unit.status().brakes_closed);
-  EXPECT_FALSE(unit.status().settling);
-  EXPECT_EQ((std::array<double, 7>{}), arm.torques());
-  const std::array<double, 7> stopped = arm.q();
-  arm.push = {{0, 0, -50, 0, 0, 0}};
-  run(1000, &push);
-  EXPECT_EQ(stopped, arm.q());
-  EXPECT_EQ((std::array<double, 7>{}), unit.state().tau_J_d);
-  EXPECT_NEAR(50, unit.state().O_F_ext_hat_K[2], 0.25) << "the brakes' torque shows on the sensors";
-  arm.push.fill(0.0);
-  run(10);
-  unit.request(UserStop{false});
-  run(1000, &push);  // commands have no effect outside Move
-  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
-  expectNear(stopped, arm.q(), 1e-5);
 }
 
 TEST_F(ArmTest, StopReleasedEarlyIsCompleted) {
@@ -200,29 +111,43 @@ TEST_F(ArmTest, BrakesCloseAtOnceAtRestAndNoLaterThanATenthOfASecondOtherwise) {
 }
 
 TEST_F(ArmTest, SettersFollowTheRulesOfTheInterface) {
-  const auto all = [](ControlUnit& u) {
+  const auto in_each_motion = [](ControlUnit& u) {
     const ControlUnitParameters& p = u.configuration();
-    return std::array<std::optional<Status>, 4>{
-        u.request(codec::SetNEToEERequest{p.NE_T_EE}), u.request(codec::SetEEToKRequest{p.EE_T_K}),
-        u.request(loadRequest(p.load)), u.request(collisionRequest(p.acceleration, p.nominal))};
+    return std::vector<std::optional<Status>>{
+        u.request(codec::SetNEToEERequest{p.NE_T_EE}),
+        u.request(codec::SetEEToKRequest{p.EE_T_K}),
+        u.request(loadRequest(p.load)),
+        u.request(collisionRequest(p.acceleration, p.nominal)),
+        u.request(codec::SetJointImpedanceRequest{p.joint_stiffness}),
+        u.request(codec::SetCartesianImpedanceRequest{p.cartesian_stiffness}),
+        u.request(codec::SetGuidingModeRequest{{}, true})};
   };
+  const auto at_rest_only = [](ControlUnit& u) {
+    return std::vector<std::optional<Status>>{
+        u.request(codec::SetFiltersRequest{100, 100, 100, 100, 100}),
+        u.request(SetVirtualWall{0, {{}, franka_core::kIdentityTransform, false}}),
+        u.request(SetProtocolVersion{5})};
+  };
+  const auto expect = [&](Status first, Status second) {
+    for (const std::optional<Status> status : in_each_motion(unit)) {
+      EXPECT_EQ(first, status);
+    }
+    for (const std::optional<Status> status : at_rest_only(unit)) {
+      EXPECT_EQ(second, status);
+    }
+  };
+  constexpr auto kRefused = Status::kCommandNotPossibleRejected;
   for (const InterfaceRules rules : {InterfaceRules::kFci, InterfaceRules::kRosControl,
                                      InterfaceRules::kRosControlWithReflexes}) {
     const bool in_motion = rules != InterfaceRules::kFci;
     parameters.rules = rules;
     rebuild();
     tick(unit, arm);
-    for (const std::optional<Status> status : all(unit)) {
-      EXPECT_EQ(Status::kSuccess, status);
-    }
+    expect(Status::kSuccess, Status::kSuccess);
     unit.request(torqueControl());
-    for (const std::optional<Status> status : all(unit)) {
-      EXPECT_EQ(in_motion ? Status::kSuccess : Status::kCommandNotPossibleRejected, status);
-    }
+    expect(in_motion ? Status::kSuccess : kRefused, kRefused);
     unit.request(UserStop{true});
-    for (const std::optional<Status> status : all(unit)) {
-      EXPECT_EQ(Status::kSuccess, status);
-    }
+    expect(Status::kSuccess, Status::kSuccess);
   }
 }
 
@@ -282,20 +207,11 @@ TEST_F(ArmTest, ExcessiveLoadsAreRefusedWithValueLimitAndUnit) {
       {0.1024, {{0, 0, 0.1}}, ball(0), ""},
       {0, {{0, 0, 0}}, ball(0), ""},
       {10, {{0, 0, 1}}, ball(10), ""},
-      {-0.1, {{0, 0, 0}}, ball(0), "The mass is -0.1 kg"},
       {10.01, {{0, 0, 0}}, ball(0), "The mass is 10.01 kg; it must lie between 0 and 10 kg"},
-      {1e300, {{0, 0, 0}}, ball(0), "The mass is 1e+300 kg"},
       {1, {{0, 0, 1.01}}, ball(0), "is 1.01 m from the flange; it must be within 1 m"},
-      {1, {{0.8, 0.8, 0}}, ball(0), " m from the flange"},
-      {1, {{100, 0, 0}}, ball(0), "is 100 m from the flange"},  // entered in millimeters
       {1, {{0, 0, 0}}, ball(10.01), "an entry of 10.01 kg m^2; none may be beyond 10 kg m^2"},
-      {1, {{0, 0, 0}}, ball(1e12), "an entry of 1e+12 kg m^2"},
       {1, {{0, 0, 0}}, {{1, 0.5, 0, -0.5, 1, 0, 0, 0, 1}}, "symmetric"},
-      {1, {{0, 0, 0}}, {{-1, 0, 0, 0, 1, 0, 0, 0, 1}}, "negative principal moments"},
       {1, {{0, 0, 0}}, {{1, 2, 0, 2, 1, 0, 0, 0, 1}}, "negative principal moments"},
-      {INFINITY, {{0, 0, 0}}, ball(0), "finite numbers"},
-      {kNan, {{0, 0, 0}}, ball(0), "finite numbers"},
-      {1, {{0, kNan, 0}}, ball(0), "finite numbers"},
       {1, {{0, 0, 0}}, ball(kNan), "finite numbers"},
   };
   for (const Case& test : cases) {
@@ -325,21 +241,6 @@ TEST_F(ArmTest, GravityCompensationStaysWithinTheMotors) {
     }
   }
   EXPECT_NEAR(1.0, largest, 1e-6) << "the load exceeds what the motors can hold";
-}
-
-TEST_F(ArmTest, FramesFarFromTheArmAreRefused) {
-  std::array<double, 16> frame = franka_core::kIdentityTransform;
-  frame[12] = 10.0;
-  EXPECT_EQ(Status::kSuccess, unit.request(codec::SetNEToEERequest{frame}));
-  EXPECT_EQ(Status::kSuccess, unit.request(codec::SetEEToKRequest{frame}));
-  for (const double far : {10.1, -1e3, 1e11, 1e308}) {
-    frame[12] = far;
-    EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(codec::SetNEToEERequest{frame}))
-        << far;
-    EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(codec::SetEEToKRequest{frame})) << far;
-  }
-  EXPECT_EQ(10.0, unit.state().NE_T_EE[12]) << "a refused frame changes nothing";
-  EXPECT_EQ(10.0, unit.state().EE_T_K[12]);
 }
 
 TEST_F(ArmTest, RestartClearsTheStateAndHoldsTheNewPose) {

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Motions: start, run, every kind of end, and external events meanwhile.
+// Motions: start, run, ends and external events meanwhile. What ends which motion, and with which
+// answer: properties/invariants.cpp.
 #include <algorithm>
 #include <iterator>
 #include <tuple>
@@ -12,43 +13,15 @@ namespace franka_sim::test {
 
 namespace {
 
-constexpr std::array<RobotMode, 7> kModes{RobotMode::kOther,
-                                          RobotMode::kIdle,
-                                          RobotMode::kMove,
-                                          RobotMode::kGuiding,
-                                          RobotMode::kReflex,
-                                          RobotMode::kUserStopped,
-                                          RobotMode::kAutomaticErrorRecovery};
-
-/// A machine in a given mode, reached by the shortest path.
-ModeMachine machineIn(RobotMode mode) {
-  ModeMachine machine;
-  switch (mode) {
-    case RobotMode::kOther:
-      machine.handle(ModeEvent::kBrakesClosed);
-      break;
-    case RobotMode::kMove:
-      machine.handle(ModeEvent::kMotionStarted);
-      break;
-    case RobotMode::kGuiding:
-      machine.handle(ModeEvent::kGuidingStarted);
-      break;
-    case RobotMode::kReflex:
-      machine.handle(ModeEvent::kError);
-      break;
-    case RobotMode::kUserStopped:
-      machine.handle(ModeEvent::kUserStopPressed);
-      break;
-    case RobotMode::kAutomaticErrorRecovery:
-      machine.handle(ModeEvent::kError);
-      machine.handle(ModeEvent::kRecoveryStarted);
-      break;
-    default:
-      break;
-  }
-  EXPECT_EQ(mode, machine.mode());
-  return machine;
-}
+/// Each mode with the events of the shortest path to it.
+const std::pair<RobotMode, std::vector<ModeEvent>> kModes[] = {
+    {RobotMode::kOther, {ModeEvent::kBrakesClosed}},
+    {RobotMode::kIdle, {}},
+    {RobotMode::kMove, {ModeEvent::kMotionStarted}},
+    {RobotMode::kGuiding, {ModeEvent::kGuidingStarted}},
+    {RobotMode::kReflex, {ModeEvent::kError}},
+    {RobotMode::kUserStopped, {ModeEvent::kUserStopPressed}},
+    {RobotMode::kAutomaticErrorRecovery, {ModeEvent::kError, ModeEvent::kRecoveryStarted}}};
 
 TEST(ModeTable, EveryEventInEveryMode) {
   // Rows: modes in the order of kModes. Columns: events in the order of ModeEvent. '.': no change;
@@ -65,12 +38,17 @@ TEST(ModeTable, EveryEventInEveryMode) {
   const std::string letters = "OIMGRUA";
   for (std::size_t row = 0; row < 7; row++) {
     for (int event = 0; event < kModeEventCount; event++) {
-      ModeMachine machine = machineIn(kModes[row]);
+      const auto& [mode, path] = kModes[row];
+      ModeMachine machine;
+      for (const ModeEvent step : path) {
+        machine.handle(step);
+      }
+      ASSERT_EQ(mode, machine.mode());
       const char expected = table[row][event];
       EXPECT_EQ(expected != '.', machine.handle(static_cast<ModeEvent>(event)))
           << row << " " << event;
       const RobotMode after =
-          expected == '.' ? kModes[row] : static_cast<RobotMode>(letters.find(expected));
+          expected == '.' ? mode : static_cast<RobotMode>(letters.find(expected));
       EXPECT_EQ(after, machine.mode()) << row << " " << event;
       EXPECT_EQ(after == RobotMode::kOther || after == RobotMode::kUserStopped,
                 machine.closesBrakes());
@@ -115,7 +93,19 @@ class UnitMotion : public FciTest {
     ASSERT_EQ(RobotMode::kReflex, unit.state().robot_mode);
   }
 
-  std::array<double, 7> begin{};
+  void putElsewhere() {
+    arm.put(kElsewhere);
+    unit.restart();
+  }
+  void expectToStayElsewhere() {
+    run(500);
+    EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
+    EXPECT_EQ(std::vector<int>{}, raised());
+    expectNear(kElsewhere, arm.q(), 1e-6);
+  }
+
+  static constexpr Joints kElsewhere{{0.5, 0.1, -0.5, -2, 0.3, 1.8, 0.2}};
+  Joints begin{};
 };
 
 TEST_F(UnitMotion, RunsToItsEndUnderEachController) {
@@ -161,14 +151,6 @@ TEST_F(UnitMotion, FollowsAndReportsACartesianPose) {
   EXPECT_NEAR(start[14] + 0.1, unit.state().O_T_EE_c[14], 1e-9);
   EXPECT_NEAR(start[14] + 0.1, unit.state().O_T_EE[14], 1e-3);
   EXPECT_EQ(unit.state().elbow_c, unit.state().elbow_d);
-}
-
-TEST_F(UnitMotion, TorquesAndGeneratorRunTogether) {
-  startSwing(ControllerMode::kExternalController);
-  drive(900, [&](int i, const RobotState& state) { return followed(swing(i), state); });
-  EXPECT_EQ(RobotMode::kMove, unit.state().robot_mode);
-  EXPECT_NEAR(unit.state().q_d[0], unit.state().q[0], 0.03);
-  EXPECT_GT(unit.state().q[0], 0.2);
 }
 
 TEST_F(UnitMotion, AccelerationThresholdsApplyToInternalControllersOnly) {
@@ -337,66 +319,6 @@ TEST_F(UnitMotion, RecoveryFailsIfTheArmDoesNotComeToRest) {
   EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode);
 }
 
-TEST_F(UnitMotion, UserStopEndsMotionAndRecovery) {
-  startSwing();
-  drive(300, [&](int i, const RobotState&) { return swing(i); });
-  EXPECT_EQ(Status::kCommandNotPossibleRejected,
-            unit.request(codec::AutomaticErrorRecoveryRequest{}));
-  unit.request(UserStop{true});
-  EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
-  EXPECT_EQ(Status::kEmergencyAborted, unit.takeAnswer(PendingAnswer::kMotion));
-  EXPECT_EQ(
-      Status::kCommandNotPossibleRejected,
-      unit.request(moveRequest(MotionGeneratorMode::kNone, ControllerMode::kExternalController)));
-  run(200);
-  EXPECT_TRUE(unit.status().brakes_closed);
-  unit.request(UserStop{false});
-  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
-  run(100);
-  EXPECT_TRUE(raised().empty());
-
-  reflex();
-  ASSERT_FALSE(unit.request(codec::AutomaticErrorRecoveryRequest{}));
-  unit.request(UserStop{true});
-  EXPECT_EQ(Status::kEmergencyAborted, unit.takeAnswer(PendingAnswer::kRecovery));
-  unit.request(UserStop{false});
-  EXPECT_EQ(RobotMode::kReflex, unit.state().robot_mode) << "the error has not been cleared";
-}
-
-TEST_F(UnitMotion, BrakesGuidingAndFciEndAMotion) {
-  const std::tuple<void (*)(ControlUnit&), void (*)(ControlUnit&), RobotMode> cases[] = {
-      {[](ControlUnit& u) { u.request(Brakes{true}); },
-       [](ControlUnit& u) { u.request(Brakes{false}); }, RobotMode::kOther},
-      {[](ControlUnit& u) { u.request(Guiding{true}); },
-       [](ControlUnit& u) { u.request(Guiding{false}); }, RobotMode::kGuiding},
-      {[](ControlUnit& u) { u.request(FciActivation{false}); },
-       [](ControlUnit& u) { u.request(FciActivation{true}); }, RobotMode::kIdle}};
-  for (const auto& [begin_it, end_it, mode] : cases) {
-    standAt(kReady);
-    startSwing();
-    drive(20, [&](int i, const RobotState&) { return swing(i); });
-    begin_it(unit);
-    EXPECT_EQ(mode, unit.state().robot_mode);
-    EXPECT_EQ(Status::kAborted, unit.takeAnswer(PendingAnswer::kMotion));
-    run(50);
-    expectNoMotionStarts();
-    end_it(unit);
-    EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
-    run(50);
-    startSwing();
-  }
-}
-
-TEST_F(UnitMotion, OpeningBrakesKeepsAPressedUserStop) {
-  unit.request(Brakes{true});
-  unit.request(UserStop{true});
-  EXPECT_EQ(RobotMode::kOther, unit.state().robot_mode);
-  EXPECT_EQ(Status::kCommandNotPossibleRejected,
-            unit.request(codec::AutomaticErrorRecoveryRequest{}));
-  unit.request(Brakes{false});
-  EXPECT_EQ(RobotMode::kUserStopped, unit.state().robot_mode);
-}
-
 TEST_F(UnitMotion, GuidingFollowsPushesAlongFreeAxesOnly) {
   ASSERT_EQ(Status::kSuccess, unit.request(codec::SetGuidingModeRequest{
                                   {{false, true, false, false, false, false}}, false}));
@@ -419,39 +341,18 @@ TEST_F(UnitMotion, GuidingFollowsPushesAlongFreeAxesOnly) {
   expectNear(left, arm.q(), 1e-5);
 }
 
-TEST_F(UnitMotion, SettersAreRefusedInMoveAndChecked) {
-  const std::array<double, 7> stiffness = unit.configuration().joint_stiffness;
-  const UnitRequest invalid[] = {
-      codec::SetJointImpedanceRequest{{{-1, 0, 0, 0, 0, 0, 0}}},
-      codec::SetJointImpedanceRequest{{{14251, 0, 0, 0, 0, 0, 0}}},
-      codec::SetCartesianImpedanceRequest{{{3000, 3000, 9.9, 300, 300, 300}}},
-      codec::SetCartesianImpedanceRequest{{{3000, 3000, 10, 300, 301, 300}}},
-      codec::SetFiltersRequest{0.5, 1000, 1000, 1000, 1000},
-      codec::SetFiltersRequest{1000, 1000, 1000, 1000, std::nan("")},
-      SetVirtualWall{8, {}},
-      SetProtocolVersion{2},
-      SetProtocolVersion{11}};
-  for (std::size_t i = 0; i < std::size(invalid); i++) {
-    EXPECT_EQ(Status::kInvalidArgumentRejected, unit.request(invalid[i])) << i;
-  }
-  EXPECT_EQ(stiffness, unit.configuration().joint_stiffness);
-  EXPECT_EQ(5u, unit.configuration().protocol_version);
-  EXPECT_EQ(nullptr, unit.virtualWall(-1));
-  EXPECT_EQ(Status::kSuccess,
-            unit.request(codec::SetJointImpedanceRequest{{{14250, 0, 0, 0, 0, 0, 0}}}));
-  EXPECT_EQ(Status::kSuccess,
-            unit.request(codec::SetCartesianImpedanceRequest{{{10, 3000, 10, 1, 300, 1}}}));
-  startSwing();
-  const UnitRequest refused_in_move[] = {
-      codec::SetJointImpedanceRequest{},
-      codec::SetCartesianImpedanceRequest{{{10, 10, 10, 1, 1, 1}}},
-      codec::SetGuidingModeRequest{{}, true},
-      codec::SetFiltersRequest{},
-      SetVirtualWall{0, {}},
-      SetProtocolVersion{5},
-      codec::SetNEToEERequest{franka_core::kIdentityTransform}};
-  for (std::size_t i = 0; i < std::size(refused_in_move); i++) {
-    EXPECT_EQ(Status::kCommandNotPossibleRejected, unit.request(refused_in_move[i])) << i;
+TEST_F(UnitMotion, ImpedancesAreCheckedAtTheirBounds) {
+  const std::pair<UnitRequest, Status> rows[] = {
+      {codec::SetJointImpedanceRequest{{{14250, 0, 0, 0, 0, 0, 0}}}, Status::kSuccess},
+      {codec::SetCartesianImpedanceRequest{{{10, 3000, 10, 1, 300, 1}}}, Status::kSuccess},
+      {codec::SetJointImpedanceRequest{{{14251, 0, 0, 0, 0, 0, 0}}},
+       Status::kInvalidArgumentRejected},
+      {codec::SetCartesianImpedanceRequest{{{3000, 3000, 9.9, 300, 300, 300}}},
+       Status::kInvalidArgumentRejected},
+      {codec::SetCartesianImpedanceRequest{{{3000, 3000, 10, 300, 301, 300}}},
+       Status::kInvalidArgumentRejected}};
+  for (std::size_t i = 0; i < std::size(rows); i++) {
+    EXPECT_EQ(rows[i].second, unit.request(rows[i].first)) << i;
   }
 }
 
@@ -468,6 +369,63 @@ TEST_F(UnitMotion, FiltersSmoothTheCommands) {
     return command;
   });
   EXPECT_EQ(RobotMode::kMove, unit.state().robot_mode);
+}
+
+TEST_F(UnitMotion, TorqueControlThatReplacesBrakingAnswersTheStop) {
+  startSwing();
+  drive(500, [&](int i, const RobotState&) { return swing(i); });
+  EXPECT_FALSE(unit.request(codec::StopMoveRequest{}));
+  run(5);
+  ASSERT_EQ(Status::kMotionStarted, unit.request(torqueControl()));
+  EXPECT_EQ(Status::kSuccess, unit.takeAnswer(PendingAnswer::kStop));
+}
+
+// No request waits for ever when the arm is teleported.
+TEST_F(UnitMotion, RestartAnswersAStopThatStillBrakes) {
+  startSwing();
+  drive(500, [&](int i, const RobotState&) { return swing(i); });
+  EXPECT_FALSE(unit.request(codec::StopMoveRequest{}));
+  run(5);
+  ASSERT_TRUE(unit.status().settling);
+  ASSERT_FALSE(unit.takeAnswer(PendingAnswer::kStop));
+  putElsewhere();
+  EXPECT_EQ(Status::kSuccess, unit.takeAnswer(PendingAnswer::kStop));
+  EXPECT_EQ(Status::kPreempted, unit.takeAnswer(PendingAnswer::kMotion));
+  EXPECT_FALSE(unit.status().settling);
+  expectToStayElsewhere();
+  // Nothing of it remains for the next motion.
+  startMove(MotionGeneratorMode::kJointPosition);
+  run(21);
+  EXPECT_FALSE(unit.takeAnswer(PendingAnswer::kStop));
+}
+
+TEST_F(UnitMotion, RestartEndsAMotionThatCannotContinueFromTheNewPose) {
+  startSwing();
+  drive(500, [&](int i, const RobotState&) { return swing(i); });
+  putElsewhere();
+  EXPECT_EQ(Status::kAborted, unit.takeAnswer(PendingAnswer::kMotion));
+  expectToStayElsewhere();
+}
+
+TEST_F(UnitMotion, RestartEndsTheAccelerationThresholds) {
+  parameters.acceleration.upper_force.fill(1e3);
+  rebuild();
+  run(1);
+  startSwing();
+  drive(200, [&](int i, const RobotState&) { return swing(i); });
+  ASSERT_EQ(1e3, unit.status().thresholds.upper_force[0]);
+  putElsewhere();
+  run(1);
+  EXPECT_EQ(parameters.nominal.upper_force, unit.status().thresholds.upper_force);
+}
+
+TEST_F(UnitMotion, RestartHoldsGuidedAxesAtTheNewPose) {
+  ASSERT_EQ(Status::kSuccess, unit.request(codec::SetGuidingModeRequest{{}, false}));
+  unit.request(Guiding{true});
+  run(10);
+  putElsewhere();
+  run(500);
+  expectNear(kElsewhere, arm.q(), 1e-3);
 }
 
 }  // namespace

@@ -93,6 +93,23 @@ bool isFinite(const RobotState& state) {
   return sum == 0.0;
 }
 
+/// Whether a motion that ended in this mode may have this answer.
+bool isAnswerIn(RobotMode mode, Status status) {
+  const bool emergency = status == Status::kEmergencyAborted;
+  switch (mode) {
+    case RobotMode::kUserStopped:
+      return emergency;
+    case RobotMode::kReflex:
+      return status == Status::kReflexAborted || status == Status::kPreempted;
+    case RobotMode::kGuiding:
+      return status == Status::kAborted;
+    case RobotMode::kOther:
+      return status == Status::kAborted || emergency;
+    default:
+      return !emergency && status != Status::kReflexAborted;
+  }
+}
+
 /// Whether neither mode, desired motion nor errors differ.
 bool sameMotion(const RobotState& a, const RobotState& b) {
   return a.robot_mode == b.robot_mode && a.motion_generator_mode == b.motion_generator_mode &&
@@ -113,7 +130,9 @@ void Invariants::remember() { before_ = {robot_.state(), robot_.robot().unit().s
 std::string Invariants::run(SteppedRobot& robot, const Step& step) {
   const Observation before = robot.observation();
   const RobotState last = robot.state();
+  const UnitStatus was = robot.robot().unit().status();
   const Answer answer = robot.act(step);
+  actions_++;
   if (answer == Answer::kDone) {
     const bool starts = step.action == Action::kMove ||
                         (step.action == Action::kOperatorMotion && step.variant < 20);
@@ -129,7 +148,7 @@ std::string Invariants::run(SteppedRobot& robot, const Step& step) {
              step.action != Action::kUnlock) {
     locked_.reset();  // operators' requests may close the brakes
   }
-  std::string broken = afterAction(step, answer, before, last);
+  std::string broken = afterAction(step, answer, before, last, was);
   for (unsigned i = 0; i < step.ticks && broken.empty(); i++) {
     robot.tick();
     broken = afterTick();
@@ -138,13 +157,26 @@ std::string Invariants::run(SteppedRobot& robot, const Step& step) {
 }
 
 std::string Invariants::afterAction(const Step& step, Answer answer, const Observation& before,
-                                    const RobotState& last) {
+                                    const RobotState& last, const UnitStatus& was) {
   const Observation now = robot_.observation();
   if (answer == Answer::kIllegalAccepted) {
     return "an illegal value is accepted";
   }
   if (answer == Answer::kRefused && !now.differences(before).empty()) {
     return "a refused request changes: " + now.differences(before);
+  }
+  if (step.action == Action::kMove && answer == Answer::kDone &&
+      (last.robot_mode != RobotMode::kIdle || !was.fci_active || !was.measured)) {
+    return "a motion starts where none may start";
+  }
+  if (step.action == Action::kStopMove && answer == Answer::kDone &&
+      last.robot_mode != RobotMode::kMove) {
+    return "a stop is accepted without a motion";
+  }
+  const bool locked =
+      last.robot_mode == RobotMode::kUserStopped || last.robot_mode == RobotMode::kOther;
+  if (step.action == Action::kRecover && answer == Answer::kDone && locked) {
+    return "a recovery is accepted while the user has to act";
   }
   const unsigned allowed = changedBy(step.action);
   for (std::size_t i = 0; i < kPartNames.size(); i++) {
@@ -207,6 +239,7 @@ std::string Invariants::afterTick() {
   broken = broken.empty() ? brokenAnswerRule() : broken;
   broken = broken.empty() ? brokenBrakeRule() : broken;
   restarted_ = false;
+  actions_ = 0;
   stays_idle_ = state.robot_mode == RobotMode::kIdle;
   remember();
   return broken;
@@ -332,12 +365,21 @@ std::string Invariants::brokenAnswerRule() {
   if (answers[2] && !recovery_runs_) {
     return "a recovery is answered twice";
   }
+  // Of two requests without a tick between them, the second one may change the mode again.
+  const bool ends = actions_ <= 1 && before_.state.robot_mode == RobotMode::kMove;
+  if (ends && answers[0] && !isAnswerIn(robot_.state().robot_mode, *answers[0])) {
+    return "a motion is answered with the status of another end";
+  }
+  if (actions_ <= 1 && answers[2] && robot_.state().robot_mode == RobotMode::kUserStopped &&
+      answers[2] != Status::kEmergencyAborted) {
+    return "a user stop ends a recovery with the status of another end";
+  }
   motion_runs_ = motion_runs_ && !answers[0];
   stop_runs_ = stop_runs_ && !answers[1];
   recovery_runs_ = recovery_runs_ && !answers[2];
   const RobotMode mode = robot_.state().robot_mode;
   const bool settled = mode != RobotMode::kMove && !robot_.robot().unit().status().settling;
-  if (settled && (motion_runs_ || stop_runs_)) {
+  if ((settled && (motion_runs_ || stop_runs_)) || (mode == RobotMode::kMove && stop_runs_)) {
     return "a motion or a stop is not answered";
   }
   if (mode != RobotMode::kAutomaticErrorRecovery && recovery_runs_) {

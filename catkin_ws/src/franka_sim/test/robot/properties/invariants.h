@@ -29,7 +29,7 @@ class Invariants {
   };
 
   std::string afterAction(const Step& step, SteppedRobot::Answer answer, const Observation& before,
-                          const franka_core::RobotState& last);
+                          const franka_core::RobotState& last, const UnitStatus& was);
   std::string afterTick();
   std::string brokenStopRule() const;
   std::string brokenModeRule() const;
@@ -42,6 +42,7 @@ class Invariants {
   const SteppedRobot& robot_;
   Before before_;
   franka_core::ArmLimits limits_;  // the widest ones of the versions so far
+  unsigned actions_{0};            // since the tick before
   bool restarted_{false};          // since the tick before
   bool stays_idle_{false};         // since the tick before
   std::optional<bool> locked_;     // by the last lock or unlock, unless something else acted

@@ -5,8 +5,9 @@
 #include <franka_core/arm_model.h>
 #include <franka_sim/robot/plant.h>
 
+#include <Eigen/Cholesky>
+#include <Eigen/Core>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <limits>
 
@@ -39,15 +40,16 @@ class ModelArm : public ArmPlant {
       tau_J_ = dynamics.gravity;
       return;
     }
-    Joints sum;
+    using Vector = Eigen::Map<const Eigen::Matrix<double, 7, 1>>;
+    Eigen::Matrix<double, 7, 7> M(dynamics.mass.data());
+    M.diagonal().array() += kRotor;
+    const Eigen::Matrix<double, 7, 1> ddq =
+        M.llt().solve(Vector(tau_.data()) + Vector(push_.data()) -
+                      Vector(dynamics.coriolis.data()) - Vector(dynamics.gravity.data()));
     for (std::size_t i = 0; i < 7; i++) {
-      sum[i] = tau_[i] + push_[i] - dynamics.coriolis[i] - dynamics.gravity[i];
-    }
-    const Joints ddq = solve(dynamics.mass, sum);
-    for (std::size_t i = 0; i < 7; i++) {
-      dq_[i] += kTick * ddq[i];
+      dq_[i] += kTick * ddq[static_cast<int>(i)];
       q_[i] += kTick * dq_[i];
-      tau_J_[i] = tau_[i] - kRotor * ddq[i];
+      tau_J_[i] = tau_[i] - kRotor * ddq[static_cast<int>(i)];
     }
   }
 
@@ -63,31 +65,6 @@ class ModelArm : public ArmPlant {
 
  private:
   static constexpr double kRotor = 0.1;
-
-  // (M + B) x = b by Cholesky's factorization.
-  static Joints solve(const std::array<double, 49>& mass, Joints b) noexcept {
-    std::array<std::array<double, 7>, 7> L;
-    for (std::size_t i = 0; i < 7; i++) {
-      for (std::size_t j = 0; j <= i; j++) {
-        double sum = mass[7 * j + i] + (i == j ? kRotor : 0.0);
-        for (std::size_t k = 0; k < j; k++) {
-          sum -= L[i][k] * L[j][k];
-        }
-        L[i][j] = i == j ? std::sqrt(sum) : sum / L[j][j];
-      }
-      for (std::size_t k = 0; k < i; k++) {
-        b[i] -= L[i][k] * b[k];
-      }
-      b[i] /= L[i][i];
-    }
-    for (std::size_t i = 7; i-- > 0;) {
-      for (std::size_t k = i + 1; k < 7; k++) {
-        b[i] -= L[k][i] * b[k];
-      }
-      b[i] /= L[i][i];
-    }
-    return b;
-  }
 
   Joints q_, dq_{}, tau_J_{}, tau_{}, push_{};
   bool braked_{false};

@@ -11,6 +11,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include "panda_arm.h"
 
@@ -25,6 +26,7 @@ using franka_core::RobotMode;
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr std::array<double, 7> kElsewhere{{0.5, 0.1, -0.5, -2, 0.3, 1.8, 0.2}};
 constexpr unsigned kLegal = 10;  // variants of setters below this one are legal
 
 const franka_core::ArmModel& modelOf(const Setting& setting) {
@@ -54,76 +56,51 @@ WholeRobot::Hand handOf(const Setting& setting, FakeHand& hand) {
   return {&hand, handParameters({setting.hand_latency, setting.hand_latency})};
 }
 
+/// Sets one number of a request to a wrong value, for illegal variants.
+template <std::size_t N>
+void spoil(const std::array<std::pair<double*, double>, N>& faults, unsigned variant) {
+  if (variant >= kLegal) {
+    const auto& [number, wrong] = faults[std::min<std::size_t>(variant - kLegal, N - 1)];
+    *number = wrong;
+  }
+}
+
 franka_core::Payload payloadOf(unsigned variant) {
   franka_core::Payload payload;
   payload.mass = 0.1 * (variant % kLegal);
   payload.com = {{0, 0, 0.05}};
   payload.inertia = {{1e-3, 0, 0, 0, 1e-3, 0, 0, 0, 1e-3}};
-  switch (variant) {
-    case 10:
-      payload.mass = kNaN;
-      break;
-    case 11:
-      payload.mass = -1.0;
-      break;
-    case 12:
-      payload.mass = 10.1;
-      break;
-    case 13:
-      payload.com[1] = kNaN;
-      break;
-    case 14:
-      payload.com[0] = 1.1;
-      break;
-    case 15:
-      payload.inertia[4] = kNaN;
-      break;
-    case 16:
-      payload.inertia[1] = 0.1;
-      break;
-    case 17:
-      payload.inertia[0] = -1e-3;
-      break;
-    case 18:
-      payload.inertia[8] = 10.1;
-      break;
-    case 19:
-      payload.inertia[3] = payload.inertia[1] = 0.1;
-      break;
-    default:
-      payload.mass = variant < kLegal ? payload.mass : kInfinity;
-  }
+  auto& inertia = payload.inertia;
+  spoil<13>({{{&payload.mass, kNaN},
+              {&payload.mass, -1.0},
+              {&payload.mass, 10.1},
+              {&payload.com[1], kNaN},
+              {&payload.com[0], 1.1},
+              {&inertia[4], kNaN},
+              {&inertia[1], 0.1},
+              {&inertia[0], -1e-3},
+              {&inertia[8], 10.1},
+              {&payload.com[2], -1e11},
+              {&inertia[4], kInfinity},
+              {&payload.mass, 1e300},
+              {&payload.mass, kInfinity}}},
+            variant);
   return payload;
 }
 
 std::array<double, 16> frameOf(unsigned variant) {
   std::array<double, 16> frame = franka_core::kIdentityTransform;
   frame[14] = 0.01 * (variant % kLegal);
-  switch (variant) {
-    case 10:
-      frame[0] = kNaN;
-      break;
-    case 11:
-      frame.fill(0.0);
-      break;
-    case 12:
-      frame[0] = frame[5] = frame[10] = 1.1;
-      break;
-    case 13:
-      frame[3] = 0.5;
-      break;
-    case 14:
-      frame[12] = 10.1;
-      break;
-    case 15:
-      frame[10] = -1.0;
-      break;
-    case 16:
-      frame[13] = kInfinity;
-      break;
-    default:
-      frame[14] = variant < kLegal ? frame[14] : kNaN;
-  }
+  spoil<9>({{{&frame[0], kNaN},
+             {&frame[5], 0.0},
+             {&frame[10], 1.1},
+             {&frame[3], 0.5},
+             {&frame[12], 10.1},
+             {&frame[10], -1.0},
+             {&frame[13], kInfinity},
+             {&frame[14], -1e11},
+             {&frame[14], kNaN}}},
+           variant);
   return frame;
 }
 
@@ -580,7 +557,7 @@ SteppedRobot::Answer SteppedRobot::configure(const Step& step) {
       break;
     }
     default:
-      arm_.put(state().q);
+      arm_.put(v % 2 == 0 ? state().q : kElsewhere);
       robot_.restart();
   }
   return Answer::kDone;
