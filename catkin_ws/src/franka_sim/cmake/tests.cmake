@@ -47,7 +47,6 @@ sim_test(robot_unit_test
     test/robot/estimator_test.cpp
     test/robot/finger_motion_test.cpp
     test/robot/operator_motion_test.cpp
-    test/robot/rest_sequence_test.cpp
     test/robot/safety_controller_test.cpp
     test/robot/self_collision_test.cpp
     test/robot/supervisor_parts_test.cpp
@@ -71,9 +70,9 @@ sim_test(robot_motion_test
     test/robot/motion/brake_trajectory_test.cpp
     test/robot/motion/elbow_test.cpp
     test/robot/motion/inverse_kinematics_test.cpp
-    test/robot/motion/motion_limits_test.cpp
     test/robot/motion/joint_limits_test.cpp
     test/robot/motion/motion_generator_test.cpp
+    test/robot/motion/motion_limits_test.cpp
     test/robot/motion/motion_start_test.cpp
     test/robot/motion/rate_limited_client_test.cpp
   LIBRARIES franka_sim_robot Franka::Franka)

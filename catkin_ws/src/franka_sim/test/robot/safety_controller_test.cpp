@@ -321,21 +321,6 @@ TEST_P(SafetyTest, OperatorMotionNeedsOpenBrakesWithoutFci) {
   EXPECT_EQ(Refusal::kNone, safety.allowsOperatorMotion());
 }
 
-TEST_P(SafetyTest, StoppedOperatorMotionHasNotArrived) {
-  makeReady();
-  safety.deactivateFci();
-  std::array<double, 7> target = unit.state().q;
-  target[0] += 0.5;
-  ASSERT_EQ(Status::kMotionStarted, motion.start(target, 0.5));
-  tick(100);
-  EXPECT_EQ(RobotMode::kMove, unit.state().robot_mode);
-  EXPECT_GT(unit.state().dq_d[0], 0.0);
-  motion.stop();
-  settle();
-  EXPECT_FALSE(motion.arrived());
-  EXPECT_EQ(RobotMode::kIdle, unit.state().robot_mode);
-}
-
 TEST_P(SafetyTest, PowerOffRefusesEverything) {
   makeReady();
   safety.switchOff();

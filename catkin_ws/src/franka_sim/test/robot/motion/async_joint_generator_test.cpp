@@ -107,14 +107,22 @@ TEST(AsyncJointGenerator, TakesNewTargetsAtAnyTime) {
   }
 }
 
-TEST(AsyncJointGenerator, ReachesTheLastTargetItAcceptsAndRefusesTheNext) {
-  for (const End& end : endsOf(motionLimitsOfProtocol(10))) {
-    Async motion(10, 2.0);
+class EachEnd : public ::testing::TestWithParam<unsigned> {
+ protected:
+  const MotionLimits limits{motionLimitsOfProtocol(GetParam())};
+};
+
+TEST_P(EachEnd, IsReachedAndRefusedBeyond) {
+  for (const End& end : endsOf(limits)) {
     Joints target = kReady;
-    target[end.joint] = end.dead;
-    RobotCommand command = jointPositions(target);
-    EXPECT_EQ(RobotError::kJointPositionLimitsViolation, motion.step(&command).errors) << end.joint;
-    Async allowed(10, 2.0);
+    RobotCommand command;
+    if (end.dead != end.last) {
+      Async refused(GetParam(), 2.0);
+      target[end.joint] = end.dead;
+      command = jointPositions(target);
+      EXPECT_EQ(limits.positionFlag(false), refused.step(&command).errors) << end.joint;
+    }
+    Async allowed(GetParam(), 2.0);
     target[end.joint] = end.last;
     command = jointPositions(target);
     ASSERT_FALSE(allowed.step(&command).errors) << end.joint;
@@ -132,18 +140,18 @@ TEST(AsyncJointGenerator, ReachesTheLastTargetItAcceptsAndRefusesTheNext) {
   }
 }
 
-TEST(AsyncJointGenerator, AnArmBeyondItsReachMayStayOrReturn) {
-  for (const End& end : endsOf(motionLimitsOfProtocol(10))) {
-    MotionGenerator generator(motionLimitsOfProtocol(10));
+TEST_P(EachEnd, AnArmBeyondItsReachMayStayOrReturn) {
+  for (const End& end : endsOf(limits)) {
+    MotionGenerator generator(limits);
     MotionStart start;
     start.q_d = kReady;
     start.q_d[end.joint] = end.dead;
     start.asynchronous = true;
     start.maximum_velocity.fill(1.0);
     ASSERT_EQ(MotionStartResult::kStarted, generator.start(start, model()));
-    // As the client reads it from a state of protocol 10.
+    // As the client reads it from a state.
     Joints target = start.q_d;
-    target[end.joint] = static_cast<double>(static_cast<float>(end.dead));
+    target[end.joint] = limits.echoes_floats ? asFloat(end.dead) : end.dead;
     RobotCommand command = jointPositions(target);
     EXPECT_FALSE(generator.step(&command, model()).errors) << end.joint;
     target[end.joint] = kReady[end.joint];
@@ -155,6 +163,8 @@ TEST(AsyncJointGenerator, AnArmBeyondItsReachMayStayOrReturn) {
     EXPECT_EQ(target, generator.desired().q_d) << end.joint;
   }
 }
+
+INSTANTIATE_TEST_SUITE_P(Robots, EachEnd, ::testing::ValuesIn(kProtocols));
 
 TEST(AsyncJointGenerator, FinishBrakesAndEndsForAnyTarget) {
   for (const double maximum_velocity : {1e-9, 1.5}) {

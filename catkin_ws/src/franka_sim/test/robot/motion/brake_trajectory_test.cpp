@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// How the desired motion brakes.
+// How the desired motion brakes, and yields after a reflex.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -55,6 +55,35 @@ TEST(BrakeTrajectory, ContinuesTheAccelerationOfTheMotion) {
   brake.step();
   EXPECT_NEAR(5, brake.ddq()[0], 1e-9);
   EXPECT_NEAR(-10, brake.ddq()[1], 1e-9);
+}
+
+const franka_core::ArmLimits kLimits = franka_core::kFr3Limits;
+
+TEST(RestSequence, YieldsForTwoHundredTicksAfterAReflex) {
+  RestSequence rest;
+  rest.brake(kReady, {}, {}, kLimits);
+  EXPECT_EQ(RestSequence::Step::kStops, rest.step(true, kReady, {}, kLimits));
+  int yielded = 0;
+  while (rest.step(true, kReady, {}, kLimits) == RestSequence::Step::kYields) {
+    ASSERT_LT(++yielded, 1000);
+  }
+  EXPECT_EQ(200, yielded);
+  EXPECT_TRUE(rest.isFinished());
+}
+
+TEST(RestSequence, BrakesAgainFromTheMeasuredMotionWhenAReflexTakesTooLong) {
+  franka_core::ArmLimits slow = kLimits;
+  slow.ddq.fill(1);
+  Joints met = kReady;
+  met[0] += 0.01;
+  RestSequence rest;
+  rest.brake(kReady, {{0.5, 0, 0, 0, 0, 0, 0}}, {}, slow);  // takes 500 ms
+  for (int i = 0; i < 199; i++) {
+    EXPECT_EQ(RestSequence::Step::kBrakes, rest.step(true, met, {}, slow));
+  }
+  EXPECT_GT(rest.braking().q()[0], met[0]);
+  EXPECT_EQ(RestSequence::Step::kStops, rest.step(true, met, {}, slow));
+  EXPECT_EQ(met, rest.braking().q());
 }
 
 }  // namespace

@@ -15,29 +15,6 @@ using franka_core::RobotError;
 
 namespace {
 
-TEST(MotionStart, RefusesInvalidStarts) {
-  MotionGenerator generator;
-  MotionStart start;
-  start.q_d = kReady;
-  for (const auto mode : {MotionGeneratorMode::kIdle, MotionGeneratorMode::kNone}) {
-    start.mode = mode;
-    EXPECT_EQ(MotionStartResult::kInvalidArgument, generator.start(start, model()));
-  }
-  start.mode = MotionGeneratorMode::kJointVelocity;
-  start.asynchronous = true;
-  start.maximum_velocity.fill(1.0);
-  EXPECT_EQ(MotionStartResult::kInvalidArgument, generator.start(start, model()));
-  start.mode = MotionGeneratorMode::kJointPosition;
-  EXPECT_EQ(MotionStartResult::kStarted, generator.start(start, model()));
-  for (const double bad : {0.0, -1.0, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
-    start.maximum_velocity[3] = bad;
-    EXPECT_EQ(MotionStartResult::kInvalidArgument, generator.start(start, model()));
-  }
-  start.asynchronous = false;
-  start.q_d[1] = NAN;
-  EXPECT_EQ(MotionStartResult::kInvalidArgument, generator.start(start, model()));
-}
-
 TEST(MotionStart, SingularPoseRefusesCartesianMotionsOnly) {
   MotionGenerator generator;
   MotionStart start;  // q_d is zero: the arm stretched up
@@ -78,38 +55,6 @@ TEST(MotionStart, FirstCommandMustEqualTheDesiredPosition) {
     EXPECT_EQ(far ? ErrorSet(RobotError::kCartesianMotionGeneratorStartElbowInvalid) : ErrorSet(),
               twisting.step(withElbow(twist({}), kReady[2] + offset)).errors);
   }
-}
-
-TEST(MotionStart, RoundingToFloatsIsWithinTheTolerances) {
-  Motion joints(10, MotionGeneratorMode::kJointPosition);
-  Joints q = kReady;
-  std::transform(q.begin(), q.end(), q.begin(), asFloat);
-  EXPECT_FALSE(joints.step(jointPositions(q)).errors);
-  Motion cartesian(10, MotionGeneratorMode::kCartesianPosition);
-  Transform start = startPose();
-  std::transform(start.begin(), start.end(), start.begin(), asFloat);
-  for (int i = 0; i < 100; i++) {
-    EXPECT_FALSE(cartesian.step(pose(start)).errors);
-  }
-}
-
-TEST(Frames, NonRigidTransformsAreRefused) {
-  const Transform good = startPose();
-  for (std::size_t i = 0; i < 16; i++) {
-    for (const double bad : {good[i] + 0.1, static_cast<double>(NAN)}) {
-      Motion motion(5, MotionGeneratorMode::kCartesianPosition);
-      Transform broken = good;
-      broken[i] = bad;
-      const bool position = i >= 12 && i < 15 && std::isfinite(bad);
-      EXPECT_EQ(position ? RobotError::kCartesianPositionMotionGeneratorStartPoseInvalid
-                         : RobotError::kCartesianPositionMotionGeneratorInvalidFrameFlag,
-                motion.step(pose(broken)).errors)
-          << i;
-    }
-  }
-  Motion motion(5, MotionGeneratorMode::kCartesianVelocity);
-  EXPECT_EQ(RobotError::kCartesianMotionGeneratorVelocityLimitsViolation,
-            motion.step(twist({{0, 0, 0, NAN, 0, 0}})).errors);
 }
 
 TEST(ResumeTrap, ResumingFromTheOwnLastCommandAfterALossIsRefused) {

@@ -80,15 +80,11 @@ Joints limitVelocities(const Bounds& bounds, const Joints& q, const Joints& desi
 
 Joints limitPositions(const Bounds& bounds, const Joints& desired, const Joints& q, const Joints& v,
                       const Joints& a) {
-  if (bounds.protocol <= 5) {
-    return franka::limitRate(franka::kMaxJointVelocity, franka::kMaxJointAcceleration,
-                             franka::kMaxJointJerk, desired, q, v, a);
-  }
   Joints velocities{};
   for (std::size_t i = 0; i < 7; i++) {
     velocities[i] = (desired[i] - q[i]) / kTick;
   }
-  Joints limited = limitFr3(bounds, q, velocities, v, a);
+  Joints limited = limitVelocities(bounds, q, velocities, v, a);
   for (std::size_t i = 0; i < 7; i++) {
     limited[i] = q[i] + limited[i] * kTick;
   }
