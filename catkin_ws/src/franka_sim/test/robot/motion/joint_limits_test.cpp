@@ -1,7 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The ends of the joints' ranges, and the velocity limits near them. Limits of the derivatives:
-// unit_limits_test.cpp.
+// motion_limits_test.cpp.
 #include <gtest/gtest.h>
 
 #include <algorithm>
