@@ -136,18 +136,6 @@ def test_the_lift_raises_the_arm_within_its_speed_limit(robot, arm):
     robot.when(lambda _: np.abs(np.array(arm[-1].q) - before.q).max() < 1e-3, "The arm to stand again")
 
 
-def test_the_lift_effort_is_the_weight_above_it(robot):
-    lift_to(robot, 0.3)
-    weight = 9.81 * sum(masses())
-    states = robot.when(
-        lambda state: (
-            max(abs(value[1]) for value in state.values()) < 1e-3 and abs(state["lift"][2] - weight) < 0.5
-        ),
-        f"An effort of {weight} N at rest",
-    )
-    assert states[-1]["lift"][2] == pytest.approx(weight, abs=0.5)
-
-
 def test_an_arm_controller_runs_beside_the_lift(robot, arm):
     assert robot.switch(start=["joint_position_example_controller"])
     begin, at = len(arm), arm[-1].q_d[0]

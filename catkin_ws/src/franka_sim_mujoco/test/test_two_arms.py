@@ -10,12 +10,11 @@ import pytest
 import rospy
 from actionlib_msgs.msg import GoalStatus
 from control_msgs.msg import FollowJointTrajectoryAction
-from franka_msgs.msg import ErrorRecoveryAction, ErrorRecoveryGoal, FrankaState
+from franka_msgs.msg import FrankaState
 from franka_sim_mujoco.pick_and_place import Arm, Gripper, PickAndPlace, Scene, wait_until
 from franka_sim_mujoco.srv import DeleteRobot, SpawnRobot
 from geometry_msgs.msg import Point, Pose, Quaternion
 from ros_client import Action, Controllers, call, follow, launched, outcome, trajectory
-from std_srvs.srv import SetBool
 from waiting import wait_for
 
 HERE = Path(__file__).resolve().parent
@@ -75,21 +74,6 @@ def test_each_arm_places_its_stone(arms):
     assert all(placed[side].in_tray for side in SIDES), placed
     for side in SIDES:
         assert sides[side].modes == [MOVE] and sides[side].errors == set()
-
-
-def test_a_stopped_arm_recovers_while_the_other_holds_on(arms):
-    manager, sides = arms
-    left, right = sides["left"], sides["right"]
-    call("/duo/left/franka_control/set_user_stop", SetBool, True)
-    wait_for(lambda: left.state.robot_mode == USER_STOPPED, "The user stop of the left arm")
-    held = right.pose[:3, 3]
-    call("/duo/left/franka_control/set_user_stop", SetBool, False)
-    recovery = Action("/duo/left/franka_control/error_recovery", ErrorRecoveryAction)
-    assert recovery.run(ErrorRecoveryGoal())[0] == GoalStatus.SUCCEEDED
-    wait_for(lambda: left.state.robot_mode == MOVE, "The motion of the left arm")
-    assert f"left/{IMPEDANCE}" in manager.running()
-    assert right.modes == [MOVE]
-    assert np.linalg.norm(right.pose[:3, 3] - held) < 1e-3
 
 
 def test_a_switch_on_one_arm_leaves_the_motion_of_the_other_alone(arms):

@@ -18,7 +18,6 @@ from franka_sim_mujoco.srv import (
     GetWorld,
     PushBody,
     RestoreSnapshot,
-    SetBodyPose,
     SetBodyState,
     SetGravity,
     SetJointStates,
@@ -61,7 +60,7 @@ from std_srvs.srv import Empty, Trigger
 from tf2_msgs.msg import TFMessage
 from trajectory_msgs.msg import JointTrajectory
 from visualization_msgs.msg import Marker, MarkerArray
-from waiting import holds, wait_for
+from waiting import wait_for
 
 HERE = Path(__file__).resolve().parent
 BALL = "<body name='{0}'><freejoint/><geom type='sphere' size='0.05' mass='0.3'/></body>"
@@ -139,23 +138,6 @@ def near(point, x, y, z):
         assert getattr(point, axis) == pytest.approx(value, abs=1e-6)
 
 
-def external_torque_after(ticks):
-    """External torque of joint 2 of panda_1 after a time of the simulation [Nm]."""
-    messages = []
-    topic = "/panda_1/franka_state_controller/franka_states"
-    subscriber = rospy.Subscriber(topic, FrankaState, messages.append)
-    wait_for(subscriber.get_num_connections, topic)
-
-    def end_is_received():
-        # States come at 30 Hz; the last one may still be in transit.
-        end = gazebo("step", Step, ticks).time
-        return holds(lambda: messages and (end - messages[-1].header.stamp).to_sec() < 0.08, 0.5)
-
-    wait_for(end_is_received, topic)
-    subscriber.unregister()
-    return messages[-1].tau_ext_hat_filtered[1]
-
-
 def test_both_arms_stand_in_the_world_of_the_sdf_file():
     world = gazebo("get_world", GetWorld)
     assert sorted(world.robots) == ["panda_1", "panda_2"]
@@ -182,27 +164,18 @@ def test_both_arms_stand_in_the_world_of_the_sdf_file():
     assert abs(base.orientation.z) == pytest.approx(1, abs=1e-9)
 
 
-def test_objects_are_spawned_fall_and_are_removed():
+def test_an_object_is_spawned_thrown_and_removed():
     gazebo("spawn_object", SpawnObject, "ball", BALL.format("ball"), at(2, 2, 3))
-    before = gazebo("get_body_state", GetBodyState, "ball").pose.position.z
-    assert before == pytest.approx(3, abs=5e-8)
-    gazebo("step", Step, 300)
-    ball = gazebo("get_body_state", GetBodyState, "ball")
-    assert ball.pose.position.z == pytest.approx(3 - 0.5 * 9.81 * 0.09, abs=2e-3)
-    assert ball.twist.linear.z == pytest.approx(-9.81 * 0.3, abs=1e-3)
+    assert gazebo("get_body_state", GetBodyState, "ball").pose.position == Point(2, 2, 3)
     thrown = Twist(Vector3(1, 0, 2), Vector3(0, 0, 3))
     gazebo("set_body_state", SetBodyState, "ball", at(2, 2, 1), thrown)
     gazebo("step", Step, 100)
     ball = gazebo("get_body_state", GetBodyState, "ball")
     assert ball.pose.position.x == pytest.approx(2.1, abs=1e-3)
     assert ball.twist.angular.z == pytest.approx(3, abs=1e-3)
-    again = gazebo("spawn_object", SpawnObject, "ball", BALL.format("other"), at(0, 0, 9), fails=True)
-    assert "ball" in again.error
     gazebo("delete_object", DeleteObject, "ball")
     assert "ball" not in gazebo("get_world", GetWorld).bodies
     assert "ball" in gazebo("delete_object", DeleteObject, "ball", fails=True).error
-    # The robots raised no error.
-    assert "cartesian_impedance_example_controller" in running("panda_1")
 
 
 def test_gravity_is_what_was_set():
@@ -211,33 +184,23 @@ def test_gravity_is_what_was_set():
     gazebo("step", Step, 200)
     speed = gazebo("get_body_state", GetBodyState, "moon_ball").twist.linear.z
     assert speed == pytest.approx(-1.62 * 0.2, abs=1e-6)
-    # The compensated but absent gravity pushes the arm up: with more than four fifths of its weight.
-    assert abs(external_torque_after(200)) > 5
-    gazebo("set_gravity", SetGravity, Vector3(0, 0, -9.81))
-    assert abs(external_torque_after(500)) < 1
-    assert "numbers" in gazebo("set_gravity", SetGravity, Vector3(0, math.nan, 0), fails=True).error
-    gazebo("delete_object", DeleteObject, "moon_ball")
+    # Its control unit goes on to compensate the gravity with which it was spawned.
+    gazebo("unpause_physics", Empty)
+    topic = "/panda_1/franka_state_controller/franka_states"
+    wait_for(lambda: abs(latest(topic, FrankaState).tau_ext_hat_filtered[1]) > 5, "Torques that lift the arm")
 
 
 def test_joints_are_read_and_set():
     names = [f"panda_2_joint{i}" for i in range(1, 8)]
     before = gazebo("get_joint_states", GetJointStates, names).state
     assert list(before.name) == names
-    target = list(before.position)
-    target[0] += 0.3
+    target = [before.position[0] + 0.3, *before.position[1:]]
     gazebo("set_joint_states", SetJointStates, names, target, [])
-    after = gazebo("get_joint_states", GetJointStates, names).state
-    assert list(after.position) == target
+    assert list(gazebo("get_joint_states", GetJointStates, names).state.position) == target
     gazebo("step", Step, 50)
     assert "force_example_controller" in running("panda_2")
-    gazebo("set_joint_states", SetJointStates, names, list(before.position), [])
-    wrong = gazebo("set_joint_states", SetJointStates, names[:2], [0.0, 9.0], [], fails=True)
-    assert "panda_2_joint2" in wrong.error
-    # All or none.
-    assert gazebo("get_joint_states", GetJointStates, names).state.position == tuple(before.position)
     assert "positions" in gazebo("set_joint_states", SetJointStates, names, [0.0], [], fails=True).error
-    every = gazebo("get_joint_states", GetJointStates, []).state
-    assert len(every.name) == 18
+    assert len(gazebo("get_joint_states", GetJointStates, []).state.name) == 18
 
 
 def test_a_snapshot_restores_everything():
@@ -249,11 +212,8 @@ def test_a_snapshot_restores_everything():
         assert gazebo("restore_snapshot", RestoreSnapshot, "here").state_hash == first
         assert gazebo("step", Step, 400).state_hash != first
         ends.append(gazebo("get_body_state", GetBodyState, "die").pose.position)
-    for axis in "xyz":
-        assert getattr(ends[0], axis) == pytest.approx(getattr(ends[1], axis), abs=1e-6)
+    near(ends[0], ends[1].x, ends[1].y, ends[1].z)
     assert "nowhere" in gazebo("restore_snapshot", RestoreSnapshot, "nowhere", fails=True).error
-    gazebo("delete_object", DeleteObject, "die")
-    assert "came or went" in gazebo("restore_snapshot", RestoreSnapshot, "here", fails=True).error
 
 
 def test_the_clock_never_goes_back():
@@ -264,10 +224,8 @@ def test_the_clock_never_goes_back():
     assert "cartesian_impedance_example_controller" in running("panda_1")
 
 
-def test_contact_forces_equal_the_weight_of_a_resting_object():
-    gazebo("reset", Trigger)
+def test_contacts_are_published():
     gazebo("step", Step, 800)
-
     contacts = latest("/gazebo/contacts", Contacts)
     weight = 0.0
     for body1, body2, force in zip(contacts.body1s, contacts.body2s, contacts.forces):
@@ -358,39 +316,21 @@ def test_spawn_model_accepts_sdf_and_mjcf_and_refuses_others():
     assert "<html>" in failed.stdout + failed.stderr
 
 
-def test_divergence_pauses_is_reported_and_ends_with_a_reset():
+@pytest.mark.parametrize("runs", [False, True])
+def test_divergence_pauses_is_reported_and_ends_with_a_reset(runs):
     gazebo("spawn_object", SpawnObject, "feather", FEATHER, at(3, 3, 3))
-    for size, push in ((1e12, (1e12, 0, 0)), (-10001, (0, 0, -10001))):
-        order = ("feather", Vector3(*push), NONE, False, Point(), 5)
-        refused = gazebo("push_body", PushBody, *order, fails=True)
-        assert f"is {size:g} N; at most 10000 N" in refused.error
-    twist = Twist(Vector3(1001, 0, 0), NONE)
-    refused = gazebo("set_body_state", SetBodyState, "feather", at(0, 0, 9), twist, fails=True)
-    assert "is 1001 m/s; at most 1000 m/s" in refused.error
-    refused = gazebo("set_body_pose", SetBodyPose, "feather", at(1e11, 0, 0), fails=True)
-    assert "is 1e+11 m; at most 1000 m" in refused.error
-    refused = gazebo("set_gravity", SetGravity, Vector3(0, 0, -981), fails=True)
-    assert "is -981 m/s^2; at most 100 m/s^2" in refused.error
-    refused = gazebo("spawn_object", SpawnObject, "ball", BALL.format("ball"), at(0, 1e9, 0), fails=True)
-    assert "is 1e+09 m; at most 1000 m" in refused.error
-    place = gazebo("get_body_state", GetBodyState, "feather").pose.position
-    assert (place.x, place.y, place.z) == (3, 3, 3), "nothing was half done"
+    if runs:
+        gazebo("unpause_physics", Empty)
     # It is so light that 10 000 N make it diverge.
-    for runs in (False, True):
-        if runs:
-            gazebo("unpause_physics", Empty)
-        gazebo("push_body", PushBody, "feather", Vector3(1e4, 0, 0), NONE, False, Point(), 5)
-        if runs:
-            wait_for(lambda: gazebo("get_world", GetWorld).paused, "the pause of a world that diverged")
-        error = gazebo("step", Step, 5, fails=True).error
-        assert "The physics diverged: the acceleration of body 'feather" in error
-        with pytest.raises(rospy.ServiceException):
-            gazebo("unpause_physics", Empty)
-        error = gazebo("set_body_pose", SetBodyPose, "feather", at(0, 0, 1), fails=True).error
-        assert "until it is reset" in error
-        gazebo("reset", Trigger)
-        assert gazebo("get_world", GetWorld).paused != runs
-    gazebo("delete_object", DeleteObject, "feather")
+    gazebo("push_body", PushBody, "feather", Vector3(1e4, 0, 0), NONE, False, Point(), 5)
+    if runs:
+        wait_for(lambda: gazebo("get_world", GetWorld).paused, "the pause of a world that diverged")
+    error = gazebo("step", Step, 5, fails=True).error
+    assert "The physics diverged: the acceleration of body 'feather" in error
+    with pytest.raises(rospy.ServiceException):
+        gazebo("unpause_physics", Empty)
+    gazebo("reset", Trigger)
+    assert gazebo("get_world", GetWorld).paused != runs
 
 
 def test_an_object_inside_a_robot_is_reported():
@@ -484,22 +424,39 @@ def test_gazebo_wrenches_act_until_they_are_cleared():
         assert word in gazebo("apply_body_wrench", ApplyBodyWrench, *arguments, fails=True).status_message
 
 
-def test_gazebo_properties_are_read_and_changes_are_refused_with_a_reason():
+def test_gazebo_properties_of_links_are_read():
     gazebo("spawn_object", SpawnObject, "ball", BALL.format("ball"), at(2, 2, 3))
     ball = gazebo("get_link_properties", GetLinkProperties, "ball")
     assert ball.gravity_mode
     assert (ball.mass, ball.ixx, ball.izz) == pytest.approx((0.3, 0.4 * 0.3 * 0.05**2, 0.4 * 0.3 * 0.05**2))
-    numbers = (Pose(), True, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0)
-    refused = gazebo("set_link_properties", SetLinkProperties, "ball", *numbers, fails=True)
-    assert "spawn" in refused.status_message
-    joint = "panda_1_joint4"
-    refused = gazebo("set_joint_properties", SetJointProperties, joint, ODEJointProperties(), fails=True)
-    assert "spawn" in refused.status_message
-    refused = gazebo(
-        "apply_joint_effort", ApplyJointEffort, joint, 1.0, rospy.Time(0), rospy.Duration(-1), fails=True
-    )
-    assert "controller" in refused.status_message
-    gazebo("clear_joint_forces", JointRequest, joint)
+
+
+@pytest.mark.parametrize(
+    ("name", "kind", "arguments", "reason"),
+    [
+        (
+            "set_link_properties",
+            SetLinkProperties,
+            ("stone", Pose(), True, 1.0, 1.0, 0.0, 0.0, 1.0, 0.0, 1.0),
+            "spawn",
+        ),
+        ("set_joint_properties", SetJointProperties, ("panda_1_joint4", ODEJointProperties()), "spawn"),
+        (
+            "apply_joint_effort",
+            ApplyJointEffort,
+            ("panda_1_joint4", 1.0, rospy.Time(0), rospy.Duration(-1)),
+            "controller",
+        ),
+        (
+            "set_joint_trajectory",
+            SetJointTrajectory,
+            ("panda_1", JointTrajectory(), Pose(), False, False),
+            "set_model_configuration",
+        ),
+    ],
+)
+def test_gazebo_changes_of_properties_and_arms_are_refused_with_a_reason(name, kind, arguments, reason):
+    assert reason in gazebo(name, kind, *arguments, fails=True).status_message
 
 
 RAIL = """<sdf version='1.6'><model name='any'><static>false</static><link name='base'/>
@@ -511,24 +468,12 @@ RAIL = """<sdf version='1.6'><model name='any'><static>false</static><link name=
 
 def test_gazebo_efforts_act_on_joints_of_objects_until_they_are_cleared():
     gazebo("spawn_object", SpawnObject, "rail", RAIL, at(2, 2, 3))
-    begin, unlimited = rospy.Time(0), rospy.Duration(-1)
-    gazebo("apply_joint_effort", ApplyJointEffort, "rail::slide", 2.0, begin, rospy.Duration(0.1))
-    gazebo("step", Step, 200)
-    joint = gazebo("get_joint_properties", GetJointProperties, "rail::slide")
-    assert joint.rate[0] == pytest.approx(0.1)
-    gazebo("apply_joint_effort", ApplyJointEffort, "rail::slide", -2.0, begin, unlimited)
-    gazebo("step", Step, 200)
+    gazebo("apply_joint_effort", ApplyJointEffort, "rail::slide", 2.0, rospy.Time(0), rospy.Duration(-1))
+    gazebo("step", Step, 100)
     gazebo("clear_joint_forces", JointRequest, "rail::slide")
     gazebo("step", Step, 100)
     joint = gazebo("get_joint_properties", GetJointProperties, "rail::slide")
-    assert joint.rate[0] == pytest.approx(-0.1)
-    for arguments, word in (
-        (("moon", 1.0, begin, unlimited), "'moon'"),
-        (("rail::slide", math.nan, begin, unlimited), "finite"),
-        (("rail::slide", 1.0, rospy.Time(2**31), unlimited), "start_time"),
-    ):
-        assert word in gazebo("apply_joint_effort", ApplyJointEffort, *arguments, fails=True).status_message
-    gazebo("delete_object", DeleteObject, "rail")
+    assert joint.rate[0] == pytest.approx(0.1)
 
 
 LAMP = """<sdf version='1.6'><model name='any'><static>true</static><link name='link'>
@@ -555,20 +500,6 @@ def test_gazebo_lights_are_read_set_and_deleted():
         ("delete_light", DeleteLight, ()),
     ):
         assert f"'{name}'" in gazebo(service, kind, name, *arguments, fails=True).status_message
-
-
-def test_gazebo_moves_no_joints_without_forces():
-    refused = gazebo(
-        "set_joint_trajectory",
-        SetJointTrajectory,
-        "panda_1",
-        JointTrajectory(),
-        Pose(),
-        False,
-        False,
-        fails=True,
-    )
-    assert "set_model_configuration" in refused.status_message
 
 
 def test_gazebo_services_and_topics_set_states():
@@ -649,11 +580,3 @@ def test_gazebo_reports_what_a_spawned_model_has_and_is_not_simulated():
         "spawn_sdf_model", SpawnModel, "lamp", LAMP.replace("</link>", bumper), "", at(0, 0, 3), ""
     )
     assert "bumper" in answer.status_message
-
-
-def test_states_come_from_both_robots():
-    gazebo("unpause_physics", Empty)
-    for arm in ("panda_1", "panda_2"):
-        state = latest(f"/{arm}/franka_state_controller/franka_states", FrankaState)
-        assert state.robot_mode == FrankaState.ROBOT_MODE_MOVE
-        assert state.header.frame_id == ""
