@@ -16,15 +16,7 @@ from pyfranka.franka_sim import FrankaSim, find_program
 from pyfranka.sim import FR3, KINDS, Panda
 from waiting import wait_for
 
-GUIDING, USER_STOPPED, OTHER = 3, 5, 0  # robot_mode
-M_LOAD = 880  # its offset in a state of version 5
 ROBOTS = Path(__file__).resolve().parents[1] / "robots"
-
-WORLD = """<mujoco><worldbody>
-  <light pos="0 0 3"/>
-  <body name="stone" pos="0.6 0.4 0.05"><freejoint/><geom type="box" size="0.03 0.03 0.03" mass="0.1"/></body>
-  <geom type="plane" size="2 2 0.1"/>
-</worldbody></mujoco>"""
 
 
 def run(*arguments):
@@ -63,15 +55,11 @@ def simulated(address, *arguments, kind="panda", **options):
         (["--control-port", "70000"], "0 to 65535"),
         (["--linger", "-1"], "seconds from 0 to 60"),
         (["--pace", "lockstep", "--patience", "0"], "seconds from 0.01 to 86400, or forever"),
-        (["--pace", "lockstep", "--patience", "nan"], "seconds from 0.01 to 86400, or forever"),
         (["--pace", "lockstep", "--patience", "for ever"], "or forever, not for ever."),
-        (["--pace", "lockstep", "--patience", "Forever"], "or forever, not Forever."),
         (["--patience", "forever"], "needs --pace patient or --pace lockstep"),
         (["--pace", "patient", "--wait", "sleep"], "--wait: give auto, spin or block, not sleep."),
-        (["--pace", "lockstep", "--wait="], "--wait: give auto, spin or block, not ."),
         (["--wait", "auto"], "needs --pace patient or --pace lockstep"),
         (["--base", "1,2"], "three numbers"),
-        (["--base", "1,2,3,4,5"], "three numbers"),
         (["--base", "1,2,x"], "three numbers"),
         (["--hand", "claw"], "--hand: claw not in {gripper,vacuum,none}"),
         (["--robot", "panda", "--robot", "fr3"], "--ip 127.0.0.1: two robots have it"),
@@ -85,14 +73,10 @@ def simulated(address, *arguments, kind="panda", **options):
         ),
         (["--nonsense"], "not expected: --nonsense"),
         (["--friction", "on"], "--realism ideal,friction=on"),
-        (["--friction=off"], "--realism ideal,friction=on"),
-        (["--nonsense=3"], "not expected: --nonsense=3"),
         (["--realism", "x"], "--realism: realism 'x': 'x' is not known there."),
         (["--control-port", "1337"], "1337 to 1339 are those of robot, gripper and vacuum gripper"),
         (["--ip=robot.local"], "--ip: robot.local is not an IPv4 address"),
-        (["--ip="], "is not an IPv4 address"),
         (["--viewer=yes"], "--viewer: it takes no value"),
-        (["--no-hand=true"], "--no-hand: it takes no value"),
         (["--base", "1e11,0,0"], "give meters, 1000 at most"),
         (["--ip"], "--ip: 1 required"),
         (["--ready-fd", "2"], "--ready-fd: give a number from 3, not 2."),
@@ -200,23 +184,6 @@ def test_robots_are_served_if_nobody_reads_the_report():
         assert process.wait(60) == 0
 
 
-def test_invalid_control_commands_are_reported():
-    with simulated("127.0.22.4") as (send, _):
-        assert send("dance").startswith("error: There is no command 'dance'")
-        assert send("user_stop") == "error: Words are missing: user_stop on|off."
-        assert send("user_stop maybe") == "error: 'maybe' is neither on nor off."
-        assert send("push") == "error: Words are missing: push BODY FX FY FZ [TX TY TZ] MILLISECONDS."
-        assert send("push nobody 1 0 0 10").startswith("error: ")
-        assert send("push panda_hand nan 0 0 10") == "error: 'nan' is not a finite number."
-        assert send("loss 2") == "error: The probability of a loss is a number from 0 to 1."
-        assert send("loss 0 -1").startswith("error: '-1' is not a seed")
-        assert send("loss 0 18446744073709551615") == "ok"
-        assert send("delay 21") == "error: Commands are delayed by a whole number of ticks from 0 to 20."
-        assert send("load -1 0 0 0").startswith("error: The load was refused")
-        assert "push BODY" in send("help")
-        assert send("load 0.5 0 0 0.1") == "ok"
-
-
 def test_robots_of_one_world_have_their_own_addresses_and_names():
     turned = Panda(base=(0.5, 1, 0, 1.5708))
     with served("panda", turned, FR3(base=(0, -1, 0)), pace="lockstep") as (send, server):
@@ -247,38 +214,6 @@ def test_a_vacuum_gripper_replaces_the_gripper():
                 probe.settimeout(60)
                 assert (probe.connect_ex(("127.0.22.10", port)) == 0) == served
         assert send("part on") == "ok"
-
-
-def test_every_option_also_takes_its_value_after_an_equals_sign():
-    robot = FR3("left", base=(0, 1, 0), hand="none", realism="real", protocol=10)
-    words = [*robot.options(), "--control-port=1340", "--pace=lockstep", "--linger=0"]
-    assert len(words) == 10 and all("=" in word for word in words)
-    with served(robot, pace="lockstep", world="stone.xml", arguments=words[7:]) as (send, _):
-        assert send("where left_link0") == "ok 0 1 0"
-
-
-# Unreasonable values for each line that takes a size: words, and the unit that the error must name.
-TOO_LARGE = [
-    ("place stone 1e11 0 0", " m"),
-    ("place stone 0 0 1 0 0 0 0", "not a unit quaternion"),
-    ("push stone 1e12 0 0 10", " N"),
-    ("load 730 0 0 0", "730 kg"),
-    ("wall 0 1e11 0 0 1 1 1", " m"),
-    ("wall 0 0 0 0 1 1 1e6", " m"),
-    ("wall 0 0 0 0 1 1 1 0 0 0 0", "not an orientation"),
-]
-
-
-def test_unreasonable_values_are_refused_and_change_nothing():
-    with simulated("127.0.22.13", "--world", "stone.xml", "--base=-0.5,0,0", "--pace=lockstep") as (send, _):
-        before = send("state"), send("where stone")
-        for line, part in TOO_LARGE:
-            answer = send(line)
-            assert answer.startswith("error: ") and part in answer, (line, answer)
-        assert (send("state"), send("where stone")) == before
-        for line in ("load 10 0 0 1", "load 0 0 0 0", "place stone 0 0 1", "push stone 0 0 1 1"):
-            assert send(line) == "ok"
-        assert "the world stands still" not in send("state").lower()
 
 
 FEATHER = """<mujoco><worldbody><body name="feather" pos="5 5 5"><freejoint/>
@@ -317,25 +252,19 @@ def test_models_are_found_in_folders_that_ros_packages_export(tmp_path, monkeypa
         assert send("where pebble").startswith("ok 3 0 1")
 
 
-@pytest.mark.parametrize("pace", ["lockstep", "realtime"])
-def test_a_diverging_world_stops_is_reported_and_can_be_reset(pace, tmp_path):
+def test_a_diverging_world_stops_is_reported_and_can_be_reset(tmp_path):
     world = tmp_path / "feather.xml"
     world.write_text(FEATHER)
-    with simulated("127.0.22.14", "--pace", pace, "--world", str(world)) as (send, server):
+    with simulated("127.0.22.14", "--world", str(world)) as (send, server):
         with Client("127.0.22.14", 5) as client:
             client.connect()
             assert send("push feather 1e4 0 0 10") == "ok"
             wait_for(lambda: "The physics diverged" in send("state"), "An error")
-            stopped = send("state")
-            assert stopped.startswith("ok Other"), "brakes are closed: nothing can be commanded"
-            assert "of body 'feather'" in stopped and "until it is reset" in stopped
-            assert send("push feather 1 0 0 10").startswith("error: The physics diverged")
+            assert send("state").startswith("ok Other"), "brakes are closed: nothing can be commanded"
             assert send("place feather 0 0 1").startswith("error: The physics diverged")
-            assert send("where feather").startswith("ok 5 5 "), "it did not start again by itself"
             client.state()
             assert send("reset") == "ok"
             assert send("state").startswith("ok Idle, client of protocol 5, errors none")
-            assert send("place feather 0 1 1") == "ok"
             client.state()
     assert "franka_sim: The physics diverged: the acceleration of body 'feather'" in server.log()
 
@@ -348,42 +277,6 @@ def test_a_robot_that_starts_inside_a_body_is_reported():
         with simulated("127.0.22.15", *example[3:], *base, kind=example[2]) as (_, server):
             pass
         assert ("begins within other bodies" in server.log()) == within
-
-
-@pytest.mark.parametrize(
-    "words, mode",
-    [
-        (("user_stop on", "user_stop off"), USER_STOPPED),
-        (("guiding on", "guiding off"), GUIDING),
-        (("brakes close", "brakes open"), OTHER),
-    ],
-)
-def test_a_switch_is_answered_after_a_state_shows_its_mode(words, mode):
-    with simulated("127.0.22.19") as (send, _), Client("127.0.22.19", 5) as client:
-        client.connect()
-        for on in (True, False) * 10:
-            assert send(words[0 if on else 1]) == "ok"
-            # Whatever waits in the socket now was sent before the answer came.
-            assert client.newest_state().mode == (mode if on else IDLE)
-
-
-def test_loads_pushes_and_places_are_answered_after_they_took_effect(tmp_path):
-    (tmp_path / "world.xml").write_text(WORLD)
-    options = {"world": tmp_path / "world.xml", "arguments": ["--realism=ideal"]}
-    robot = Panda(address="127.0.22.19")
-    with served(robot, **options) as (send, _), Client("127.0.22.19", 5) as client:
-        client.connect()
-        for kilograms in (0.5, 0.0) * 10:
-            assert send(f"load {kilograms:g} 0 0 0") == "ok"
-            assert struct.unpack_from("<d", client.newest_state().data, M_LOAD)[0] == kilograms
-        for place in ("0.5 -0.4 0.05", "0.4 0.5 0.05") * 10:
-            assert send(f"place stone {place}") == "ok"
-            seen = list(map(float, send("where stone").split()[1:4]))
-            assert seen == pytest.approx(list(map(float, place.split())), abs=1e-3)
-        # A force of a millisecond gives the stone of 0.1 kg a velocity in the tick of the answer.
-        assert send("place stone 0.4 0.5 0.05") == "ok"
-        assert send("push stone 100 0 0 1") == "ok"
-        assert float(send("where stone").split()[1]) > 0.4
 
 
 @pytest.mark.parametrize("kind, protocol", [("panda", 5), ("fr3", 10)])

@@ -156,17 +156,6 @@ def test_moves_to_the_pack_pose_without_fci(robot):
         robot.remote.send("move 0 0 0 -1.5 0 1.5 0 2")
 
 
-def test_a_refused_move_lets_no_time_pass(robot):
-    remote = robot.remote
-    remote.send("joints unlock")
-    remote.wait()
-    before = (remote.time, remote.state_hash())
-    for words in ("9 0 0 -1.5 0 1.5 0", "0 0 0 -1.5 0 1.5 0 2", "1 2 3", "0 0 0 -1.5 0 1.5 x"):
-        with pytest.raises(LineRefused):
-            remote.send(f"move {words}")
-        assert (remote.time, remote.state_hash()) == before, words
-
-
 @both
 def test_moves_to_the_printed_end_of_its_reach(robot):
     """Within an FR3's limits, but out of its reach: there the joint's velocity limit is 0."""
@@ -222,41 +211,3 @@ def test_errors_are_acknowledged(robot):
     assert refusal(robot, "joints unlock") == "SelfTestRunning"
     robot.remote.wait()
     make_ready(robot)
-
-
-@both
-def test_a_stop_is_released_by_its_own_line_only(robot):
-    make_ready(robot)
-    source = {"panda": "x4", "fr3": "x33"}[robot.kind]
-    lines = {"user_stop": "user_stop", source: f"input {source}"}
-    for first, second in (lines, reversed(lines)):
-        robot.remote.send(f"{lines[first]} on")
-        robot.remote.send(f"{lines[second]} on")
-        assert robot.remote.report().user_stop == ("user_stop", source)
-        robot.remote.send(f"{lines[first]} off")
-        report = robot.remote.report()
-        assert report.user_stop == (second,)
-        assert report.mode != "Idle"
-        robot.remote.send(f"{lines[second]} off")
-        robot.remote.wait()
-        assert robot.remote.report().user_stop == ()
-        robot.remote.send("joints unlock")  # the stop X3.1 of an FR3 has closed the brakes
-        assert robot.remote.report().mode == "Idle"
-
-
-WRONG = [
-    "input x5 on", "button circle", "operating_mode walk", "guiding_mode user on", "timing brakes -1",
-     "timing lunch 3", "inject jointLimitViolation 8 on", "inject nothing on", "acknowledge nothing",
-     "inject jointLimitViolation 1.5 on", "self_test never", "move 1 2 3", "end_effector 1", "power maybe",
-     "joints open", "navigation sea",
-]  # fmt: skip
-
-
-def test_wrong_lines_are_refused_and_change_nothing(robot):
-    before = report(robot)
-    for line in WRONG:
-        with pytest.raises(LineRefused):
-            robot.remote.send(line)
-        after = report(robot)
-        for part in ("brakes", "inputs", "power"):
-            assert before[part] == after[part], line
