@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 
 /// @file
-/// World files by name, files that packages export, and the file of physical parameters.
+/// World files by name, and files that packages export.
 
-#include <franka_sim/physics/physics_config.h>
 #include <franka_sim/physics/world_properties.h>
 #include <gtest/gtest.h>
 
@@ -85,53 +84,6 @@ TEST(Resources, AreFoundInFoldersThatPackagesExport) {
   franka_sim::World beach(world, resolveUri);
   EXPECT_EQ(bodyPose(beach, "pebble").position[2], 1.0);
   EXPECT_EQ(bodyPose(beach, "stone").position[0], 1.0);
-}
-
-class PhysicsFile : public testing::Test {
- protected:
-  franka_sim::RobotPhysics read(const std::string& text, const std::string& realism = "ideal") {
-    return franka_sim::readRobotPhysics(folder_.write(kFile, text), "panda",
-                                        franka_sim::readRealism(realism, "ideal"));
-  }
-  static constexpr char kFile[] = "physics.yaml";
-  franka_test::TemporaryFolder folder_;
-};
-
-TEST_F(PhysicsFile, TakesTheRobotsSectionAndItsParts) {
-  const std::string text =
-      "panda: {rotor_inertia: [1, 2, 3, 4, 5, 6, 7], joint_stops: {lower: [-1, -1, -1, -1, -1, -1, "
-      "-1], upper: [1, 1, 1, 1, 1, 1, 2]}, motors: {inertia: [.1, .2, .3, .4, .5, .6, .7]}, "
-      "friction: {viscous: [1, 2, 3, 4, 5, 6, 7]}}\n";
-  const franka_sim::RobotPhysics ideal = read(text);
-  EXPECT_EQ(7.0, ideal.joints.rotor_inertia[6]);
-  EXPECT_FALSE(ideal.joints.friction[6].acts());
-  ASSERT_TRUE(ideal.joints.stops);
-  EXPECT_EQ(2.0, ideal.joints.stops->upper[6]);
-  EXPECT_EQ(0.7, read(text, "motors=on").joints.rotor_inertia[6]);
-  EXPECT_EQ(7.0, read(text, "friction=on").joints.friction[6].viscous);
-}
-
-TEST_F(PhysicsFile, ReportsErrorsWithTheirCause) {
-  const auto complaint = [this](const std::string& text, const std::string& realism = "ideal") {
-    return sentence([&] { read(text, realism); });
-  };
-  EXPECT_TRUE(contains(complaint("fr3: {}"), "no section 'panda'"));
-  EXPECT_TRUE(contains(complaint("panda: {rotor_inertia: [1, 2]}"),
-                       "panda/rotor_inertia must be a list of 7"));
-  EXPECT_TRUE(
-      contains(complaint("panda: {rotor_inertia: [1, 2, 3, 4, 5, 6, x]}"), "finite numbers"));
-  EXPECT_TRUE(
-      contains(complaint("panda: {rotor_inertia: [1, 2, 3, 4, 5, 6, .nan]}"), "finite numbers"));
-  EXPECT_TRUE(contains(complaint("panda: {}", "motors=on"), "no section 'motors'"));
-  EXPECT_TRUE(contains(complaint("panda: {friction: {vicous: 1}}", "friction=on"), "'vicous'"));
-  EXPECT_TRUE(contains(complaint("panda: {gripper: {start: -1}}", "gripper=on"), "from 0 to 10"));
-  EXPECT_TRUE(
-      contains(complaint("panda: {bandwidth: {tau_ext_hat_filtered: [0, 1, 1, 1, 1, 1, 1]}}",
-                         "bandwidth=on"),
-               "must be positive"));
-  EXPECT_TRUE(contains(complaint("panda: ["), folder_ / kFile));
-  EXPECT_TRUE(contains(sentence([] { franka_sim::readRobotPhysics("/nowhere.yaml", "panda", {}); }),
-                       "/nowhere.yaml"));
 }
 
 }  // namespace

@@ -115,8 +115,6 @@ TEST_P(RealismTest, JointSevenCoastsToRestAccordingToItsPublishedFriction) {
   const franka_core::Payload payload = handPayload(id());
   const double inertia =
       parameters_->model.mass(state.q, payload)[48] + physics_.joints.rotor_inertia[6];
-  std::printf("%s: below a tenth after %.3f s, below 0.01 rad/s after %.3f s\n", GetParam(),
-              time_to_tenth, time);
   EXPECT_NEAR(coastingTime(physics_.joints.friction[6], inertia, 0.52, tenth), time_to_tenth, 5e-3);
   EXPECT_NEAR(coastingTime(physics_.joints.friction[6], inertia, 0.52, below), time, 5e-3);
   EXPECT_NEAR(0.1, time_to_tenth, 0.03);
@@ -146,7 +144,6 @@ TEST_P(RealismTest, FrictionIsSeenInTheTorqueOfEachJoint) {
       seen[back ? 1 : 0] = unit_->state().tau_ext_hat_filtered[i];
     }
     const double hysteresis = 0.5 * (seen[0] - seen[1]);
-    std::printf("%s joint %d: %.3f Nm\n", GetParam(), i + 1, hysteresis);
     EXPECT_NEAR(expected[i], hysteresis, 0.2 * expected[i]) << "joint " << i + 1;
   }
 }
@@ -169,8 +166,6 @@ TEST_P(RealismTest, PushReadingHasTheDelayAndAccuracyOfARealRobot) {
     EXPECT_LE(ticks, 66) << axis;
     run(500 - ticks);
     const double read = unit_->state().O_F_ext_hat_K[axis] - before;
-    std::printf("%s, %c: 63 %% after %d ms, %.3f N after 0.5 s\n", GetParam(), "xyz"[axis], ticks,
-                read);
     EXPECT_NEAR(-10.0, read, 0.5) << axis;
     EXPECT_NEAR(0.0, before, 0.5) << axis;
   }
@@ -200,8 +195,6 @@ TEST_P(RealismTest, FreeMotionReadsTheForceOfARealRobot) {
       fastest = std::max(fastest, std::abs(dq));
     }
   }
-  std::printf("%s: mean %.2f N, largest %.2f N, fastest joint %.2f rad/s\n", GetParam(),
-              sum / ticks, largest, fastest);
   EXPECT_LT(fastest, 1.0);
   EXPECT_GE(sum / ticks, 2.0);
   EXPECT_LE(sum / ticks, 4.0);
@@ -249,8 +242,6 @@ TEST_P(RealismTest, ReadingsHaveTheNoiseAndTheResolutionOfTheRecordings) {
       const double change = std::abs(tau[i][k] - tau[i][k - 1]);
       step = change > 1e-9 ? std::min(step, change) : step;
     }
-    std::printf("%s joint %d: second difference %.4f, step %.5f Nm, dq %.5f rad/s\n", GetParam(),
-                i + 1, rms(second), step, rms(dq[i]));
     EXPECT_NEAR(recorded.tau_J_second_difference[i], rms(second),
                 0.3 * recorded.tau_J_second_difference[i]);
     EXPECT_NEAR(recorded.tau_J_resolution[i], step, 1e-9);
@@ -300,7 +291,6 @@ TEST_P(RealismTest, TorquesRippleInMotionAsInTheRecording) {
   }
   for (std::size_t i = 0; i < 7; i++) {
     const double rms = bandRms(tau[i], 30.0, 100.0);
-    std::printf("%s joint %zu: %.3f Nm from 30 to 100 Hz\n", GetParam(), i + 1, rms);
     if (recorded[i] > 0.0) {
       EXPECT_NEAR(recorded[i], rms, 0.2 * recorded[i]) << "joint " << i + 1;
     } else {
@@ -345,11 +335,6 @@ TEST_P(RealismTest, ModelErrorReadsAsATorqueAndLetsNoArmDrift) {
       EXPECT_NEAR(there[i], unit_->state().q[i], 1e-4) << "joint " << i + 1 << ", seed " << seed;
       worst = std::max(worst, std::abs(bias[i]));
     }
-    std::printf("%s seed %s: bias", GetParam(), seed);
-    for (const double b : bias) {
-      std::printf(" %.2f", b);
-    }
-    std::printf(" Nm\n");
     EXPECT_GT(worst, 0.05);
     EXPECT_LT(worst, 0.8);
   }
@@ -364,6 +349,9 @@ TEST_P(RealismTest, IdealIsTheRobotWithoutParts) {
   EXPECT_EQ(Array7{}, ideal.sensors.tau_J_noise);
   EXPECT_EQ(Array7{}, ideal.torque_offset);
   EXPECT_EQ(0.0, ideal.gripper.shortest);
+  ASSERT_TRUE(ideal.joints.stops);
+  EXPECT_LT(ideal.joints.stops->lower[6], -2.8973);
+  EXPECT_GT(ideal.joints.stops->upper[6], 2.8973);
   for (int i = 0; i < 7; i++) {
     EXPECT_FALSE(ideal.joints.friction[i].acts());
     EXPECT_FALSE(ideal.link_errors[i].exists());
@@ -434,6 +422,21 @@ TEST_F(OwnRobotFile, ErrorsNameTheFileAndTheEntry) {
   expectSentence([&] { read("torque_offset: ["); }, {path_.c_str(), "cannot be read"});
   std::remove(path_.c_str());
   expectSentence([&] { physicsOf("fr3", "real,file=" + path_); }, {path_.c_str()});
+}
+
+TEST(PhysicsFile, ErrorsNameTheFileAndTheEntry) {
+  const franka_test::TemporaryFolder folder;
+  const auto refuses = [&](const std::string& text, const std::string& realism, const char* part) {
+    const std::string file = folder.write("physics.yaml", text);
+    expectSentence([&] { readRobotPhysics(file, "panda", readRealism(realism, "ideal")); },
+                   {file.c_str(), part});
+  };
+  refuses("fr3: {}", "ideal", "no section 'panda'");
+  refuses("panda: {rotor_inertia: [1, 2, 3, 4, 5, 6, x]}", "ideal", "finite numbers");
+  refuses("panda: {rotor_inertia: [1, 2, 3, 4, 5, 6, .nan]}", "ideal", "finite numbers");
+  refuses("panda: {}", "motors=on", "no section 'motors'");
+  refuses("panda: {bandwidth: {tau_ext_hat_filtered: [0, 1, 1, 1, 1, 1, 1]}}", "bandwidth=on",
+          "must be positive");
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, RealismTest, ::testing::Values("panda", "fr3"));
