@@ -88,12 +88,6 @@ TEST_F(JointDriveTest, YieldsBeyondItsMaximumEffortAndReturns) {
   EXPECT_LT(fastest, 0.2 + 1e-3);
 }
 
-TEST_F(JointDriveTest, SinksUnderALoadAboveItsMaximumEffort) {
-  lift_->follow(0.5, {kWeight - 12});
-  step(100);
-  EXPECT_NEAR(0.5 - 0.5 * 1.0 * 0.01, lift_->measure().position, 1e-3);
-}
-
 TEST_F(JointDriveTest, PressesOnAStopWithItsMaximumEffort) {
   lift_->follow(-0.2, {30, 0.5});
   step(3000);

@@ -69,19 +69,6 @@ TEST_P(ObjectRestTest, AStoneThatRestsIsHeldAndShowsItsContacts) {
   EXPECT_NEAR(kWeight, forceUp("stone"), 1e-6 * kWeight);
 }
 
-TEST_P(ObjectRestTest, WithoutItAStoneGoesOnResting) {
-  ASSERT_TRUE(settles());
-  run(500);
-  const double height = heightOf("stone");
-  implOf(world_).object_rest.use(false);
-  for (int k = 0; k < 500; ++k) {
-    tick(0.0, kHome);
-    ASSERT_LT(speedOf("stone"), 1e-7) << k;
-    ASSERT_NEAR(kWeight, forceUp("stone"), 1e-4 * kWeight) << k;
-  }
-  EXPECT_NEAR(height, heightOf("stone"), 1e-9);
-}
-
 TEST_P(ObjectRestTest, ArmsMoveAsBesideAStoneThatIsNotHeld) {
   const auto swing = [this] {
     for (int k = 0; k < 2000; ++k) {

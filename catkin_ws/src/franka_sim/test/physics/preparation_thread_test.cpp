@@ -36,10 +36,5 @@ TEST(PreparationThreadTest, NothingIsPreparedAfterItWasFinished) {
   }
 }
 
-TEST(PreparationThreadTest, EndsWithARequestThatNobodyFinished) {
-  PreparationThread preparation([] {});
-  preparation.request();
-}
-
 }  // namespace
 }  // namespace franka_sim::physics

@@ -125,14 +125,6 @@ TEST_F(RendererTest, ShowsLightsAsTheyAreSet) {
   EXPECT_EQ(before, renderer_->render(captureScene(other), Camera(), 64, 48).rgb);
 }
 
-TEST_F(RendererTest, ShowsANewRobot) {
-  World empty;
-  const Picture before = renderer_->render(captureScene(empty), Camera(), 200, 150);
-  empty.addRobot(robot("fr3"));
-  const Picture after = renderer_->render(captureScene(empty), Camera(), 200, 150);
-  EXPECT_NE(before.rgb, after.rgb);
-}
-
 TEST_F(RendererTest, LeavesOutNoneOfManyGeoms) {
   std::string geoms;
   for (int i = 0; i < 4500; i++) {

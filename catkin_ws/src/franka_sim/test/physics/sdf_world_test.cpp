@@ -296,20 +296,9 @@ TEST_F(SdfWorldTest, ReadsSelfCollideOfAUrdfAndOfItsLinks) {
 
 /// Fingers of one hand pass through each other, those of two hands do not.
 TEST_F(SdfWorldTest, ArmsOfOneDescriptionCollide) {
-  std::string urdf =
-      "<robot name='two'><link name='world'/><gazebo><self_collide>true"
-      "</self_collide></gazebo>";
-  RobotDescription both = robot("panda", "left");
-  for (const std::string side : {"left", "right"}) {
-    const RobotDescription arm = robot("panda", side);
-    const std::size_t begin = arm.urdf.find("<robot name=\"panda\">") + 20;
-    urdf += arm.urdf.substr(begin, arm.urdf.rfind("</robot>") - begin) + "<joint name='" + side +
-            "_mount' type='fixed'><origin xyz='" +
-            (side == "left" ? "0 0 0" : "0.614 0.02 0.02' rpy='0 0 3.14159265") +
-            "'/><parent link='world'/><child link='" + side + "_link0'/></joint>";
-    both.initial_positions.insert(arm.initial_positions.begin(), arm.initial_positions.end());
-  }
-  both.urdf = urdf + "</robot>";
+  RobotDescription both = twoArms("<origin xyz='0.614 0.02 0.02' rpy='0 0 3.14159265'/>");
+  both.urdf = replaceAll(both.urdf, "<link name='world'/>",
+                         "<link name='world'/><gazebo><self_collide>true</self_collide></gazebo>");
   World world;
   world.addRobot(both);
   world.step();

@@ -75,6 +75,24 @@ inline RobotDescription robot(const std::string& kind, const std::string& arm_id
 
 inline RobotDescription robot(const std::string& kind) { return robot(kind, kind); }
 
+/// Two Pandas `left` and `right` in one description. @param of_right <origin> of the right one's
+/// base
+inline RobotDescription twoArms(const std::string& of_right = "") {
+  RobotDescription both = robot("panda", "left");
+  both.name = "both";
+  both.urdf = "<robot name='both'><link name='world'/>";
+  for (const std::string side : {"left", "right"}) {
+    const RobotDescription arm = robot("panda", side);
+    const std::size_t begin = arm.urdf.find("<robot name=\"panda\">") + 20;
+    both.urdf += arm.urdf.substr(begin, arm.urdf.rfind("</robot>") - begin) + "<joint name='" +
+                 side + "_mount' type='fixed'>" + (side == "left" ? "" : of_right) +
+                 "<parent link='world'/><child link='" + side + "_link0'/></joint>";
+    both.initial_positions.insert(arm.initial_positions.begin(), arm.initial_positions.end());
+  }
+  both.urdf += "</robot>";
+  return both;
+}
+
 /// The hand with closed fingers as payload at the flange.
 inline franka_core::Payload handPayload(const std::string& kind = "panda") {
   return franka_core::endEffectorFromUrdf(urdfOf(kind), kind);

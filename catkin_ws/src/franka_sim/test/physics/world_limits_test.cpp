@@ -269,21 +269,10 @@ TEST(WorldContactCapacity, HoldsARobotOfManyShapes) {
 
 /// Two arms of one description have as much room as two robots.
 TEST(WorldContactCapacity, OfTwoArmsInOneDescriptionIsThatOfTwoRobots) {
-  World apart;
-  RobotDescription both;
-  both.name = "both";
-  both.urdf = "<robot name='both'><link name='world'/>";
-  for (const std::string arm : {"left", "right"}) {
-    apart.addRobot(robot("panda", arm));
-    const std::string& urdf = robot("panda", arm).urdf;
-    const std::size_t begin = urdf.find("<link");
-    both.urdf += urdf.substr(begin, urdf.find("</robot>") - begin) + "<joint name='" + arm +
-                 "_base' type='fixed'><parent link='world'/><child link='" + arm +
-                 "_link0'/></joint>";
-  }
-  both.urdf += "</robot>";
-  World together;
-  together.addRobot(both);
+  World apart, together;
+  apart.addRobot(robot("panda", "left"));
+  apart.addRobot(robot("panda", "right"));
+  together.addRobot(twoArms());
   const mjModel& expected = *implOf(apart).model;
   const mjModel& found = *implOf(together).model;
   EXPECT_GE(found.nconmax, expected.nconmax);

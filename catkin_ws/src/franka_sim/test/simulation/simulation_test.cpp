@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Robots that a program drives in its own process: commands, laws, refusals, resets.
-#include <franka_core/robot_error.h>
 #include <franka_sim/serve/operator_commands.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <franka_sim/simulation/policy_episode.h>
@@ -23,7 +22,6 @@ namespace franka_sim::test {
 namespace {
 
 using franka_core::RobotCommand;
-using franka_core::RobotError;
 using franka_core::RobotMode;
 using franka_core::fci::MoveRequest;
 using Array7 = std::array<double, 7>;
@@ -172,31 +170,6 @@ TEST_P(SimulationTest, CartesianLawReachesItsTargetAndYieldsAsASpring) {
   pushBody(simulation->world(), robot.setup().arm_id + std::string("_hand"), {0, 5, 0}, {}, 4000);
   simulation->step(4000);
   EXPECT_NEAR(5.0 / 1000, robot.state().O_T_EE[13] - before, 1e-3);
-}
-
-TEST_P(SimulationTest, AJumpEndsTheMotionAndTheRobotRecovers) {
-  const auto simulation = simulationOf("ideal");
-  SimulatedRobot& robot = arm(*simulation);
-  RobotCommand command;
-  command.q_c = robot.state().q_d;
-  robot.command(positions(), command);
-  simulation->step(10);
-  EXPECT_TRUE(robot.moving());
-  command.q_c[0] += 0.1;
-  robot.command(positions(), command);
-  simulation->step(10);
-  EXPECT_FALSE(robot.moving());
-  EXPECT_EQ(Status::kReflexAborted, robot.lastResult());
-  EXPECT_EQ(RobotMode::kReflex, robot.state().robot_mode);
-  EXPECT_TRUE(
-      robot.state()
-          .errors[franka_core::indexOf(RobotError::kJointMotionGeneratorVelocityDiscontinuity)]);
-  expectSentence([&] { robot.command(positions(), command); },
-                 {"Reflex", "joint_motion_generator_velocity_discontinuity"});
-  EXPECT_FALSE(robot.moving());
-  robot.recover();
-  simulation->step(2000);
-  EXPECT_EQ(RobotMode::kIdle, robot.state().robot_mode);
 }
 
 TEST_P(SimulationTest, AResetEndsErrorsAndKeepsTheConfiguration) {
