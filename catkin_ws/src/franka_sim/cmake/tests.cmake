@@ -85,7 +85,7 @@ sim_test(realism_test SOURCES test/world/realism_test.cpp
 sim_test(steps_test
   SOURCES test/physics/robot_clearance_test.cpp test/physics/adaptive_steps_test.cpp
     test/physics/object_rest_test.cpp test/physics/equality_solver_test.cpp
-    test/physics/preparation_thread_test.cpp
+    test/physics/preparation_thread_test.cpp test/physics/world_sequences_test.cpp
   LIBRARIES franka_sim_physics ${MUJOCO_LIBRARY})
 
 sim_test(physics_test

@@ -92,15 +92,6 @@ TEST_P(AdaptiveStepsTest, FrictionThatNeedsSmallStepsHasThem) {
   EXPECT_EQ(kSmall, world.substeps());
 }
 
-TEST_P(AdaptiveStepsTest, SmallStepsWhileAnObjectMoves) {
-  run(1000);
-  pushBody(world_, "stone", {0.3, 0, 0.5}, {}, 50);
-  run(30);
-  EXPECT_EQ(kSmall, world_.substeps());
-  run(4000);
-  EXPECT_EQ(1, world_.substeps());
-}
-
 TEST_P(AdaptiveStepsTest, SmallStepsBeginBeforeTheFirstTouch) {
   addWall();
   run(300);
@@ -116,42 +107,6 @@ TEST_P(AdaptiveStepsTest, SmallStepsBeginBeforeTheFirstTouch) {
   }
   EXPECT_TRUE(robotTouches("wall"));
   EXPECT_GE(small, 1) << "ticks of small steps that ended without a touch";
-}
-
-/// What is decided for the next ticks, and which objects are held, is part of a snapshot: wherever
-/// it is taken, the world goes on in the same way, also if half of the next step was computed
-/// before.
-TEST_P(AdaptiveStepsTest, SnapshotsInFreeMotionContinueBitForBit) {
-  addWall();
-  const auto swing = [this](int from, int ticks) {
-    for (int k = from; k < from + ticks; ++k) {
-      auto q_d = kHome;
-      q_d[0] += 0.25 * std::sin(0.004 * k);
-      if (k == 900) {
-        pushBody(world_, "stone", {0.2, 0, 0.5}, {}, 20);
-      }
-      tick(0.0, q_d);
-    }
-    return world_.stateHash();
-  };
-  const auto held = [this] { return implOf(world_).object_rest.held(); };
-  int held_changes = 0;
-  for (int k = 0; k < 3000; k += 60) {
-    const bool before = held();
-    const Snapshot snapshot = world_.snapshot();
-    const std::uint64_t first = swing(k, 60);
-    const std::size_t count = contacts(world_).size();
-    const bool after = held();
-    world_.restore(snapshot);
-    world_.prepareStep();
-    world_.restore(world_.snapshot());
-    ASSERT_EQ(first, swing(k, 60)) << "from tick " << k;
-    ASSERT_EQ(count, contacts(world_).size()) << k;
-    ASSERT_EQ(after, held()) << k;
-    held_changes += before != after ? 1 : 0;
-  }
-  EXPECT_GE(changes_, 2) << "the swing comes near the wall and leaves it";
-  EXPECT_EQ(3, held_changes) << "held, pushed, held again";
 }
 
 INSTANTIATE_TEST_SUITE_P(Robots, AdaptiveStepsTest, ::testing::Values("panda"));
