@@ -1,14 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <controller_manager_msgs/SwitchController.h>
-#include <franka_core/numbers.h>
 #include <franka_example_controllers/python_controller.h>
 #include <gtest/gtest.h>
 #include <ros/ros.h>
 #include <ros_test/eventually.h>
 #include <rosgraph_msgs/Log.h>
 #include <rt_guard/rt_guard.h>
-#include <transform_sweep.h>
 
 #include <chrono>
 #include <cmath>
@@ -293,46 +291,6 @@ TEST_P(PythonControllerTest, RefusesInvalidPosesByTheRobotsRule) {
   for (const auto& [body, fault] : cases) {
     law(body);
     expectFailure("The command cartesian_pose is not a pose: " + std::string(fault));
-  }
-}
-
-/// Python that adds a rounding error to the pose `T`, whose array has its columns one after
-/// another.
-std::string perturbing(const franka_test::PerturbedMatrix& perturbed) {
-  return "T[" + std::to_string(perturbed.entry % 4) + ", " + std::to_string(perturbed.entry / 4) +
-         "] += " + franka_core::numberText(perturbed.error, 17);
-}
-
-TEST_P(PythonControllerTest, TakesTheRoundedPosesThatTheRobotTakes) {
-  command({"cartesian_pose"});
-  const std::vector<franka_test::PerturbedMatrix> all =
-      franka_test::perturbations(arm.state.O_T_EE_d);
-  std::string body = "T = np.array(state.O_T_EE_d)";
-  std::vector<franka_test::PerturbedMatrix> accepted;
-  for (const franka_test::PerturbedMatrix& perturbed : all) {
-    if (perturbed.accepted) {
-      accepted.push_back(perturbed);
-      body +=
-          "\n    if self.n == " + std::to_string(accepted.size()) + ": " + perturbing(perturbed);
-    }
-  }
-  law(body + "\n    return T");
-  PythonController controller;
-  ASSERT_TRUE(initialize(controller)) << world().errors();
-  controller.starting(ros::Time(1.0));
-  for (const franka_test::PerturbedMatrix& perturbed : accepted) {
-    run(controller, 1);
-    EXPECT_EQ(perturbed.matrix, arm.pose) << perturbed;
-  }
-  controller.stopping(ros::Time(2.0));
-  EXPECT_EQ("", world().errors());
-  for (const franka_test::PerturbedMatrix& perturbed : all) {
-    if (!perturbed.accepted) {
-      SCOPED_TRACE(testing::Message() << perturbed);
-      law("T = np.array(state.O_T_EE_d); " + perturbing(perturbed) + "; return T");
-      expectFailure(
-          "The command cartesian_pose is not a pose: its bottom row (entries 4, 8, 12 and ");
-    }
   }
 }
 
