@@ -91,10 +91,10 @@ Vector7 unsaturated(CartesianImpedance& impedance, Arm arm, const Vector7& expec
 
 TEST(CartesianImpedance, FollowsTheFormulasOnRandomStates) {
   Random random;
+  CartesianImpedance impedance;  // each start is also a restart
   for (int n = 0; n < 1000; ++n) {
     const Arm start = random.arm();
     const Compliance compliance{random.number(0, 400), random.number(0, 30), random.number(0, 100)};
-    CartesianImpedance impedance;
     impedance.start(start.O_T_EE, start.q, compliance.nullspace_stiffness);
     impedance.setCompliance(compliance);
 
