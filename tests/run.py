@@ -43,8 +43,8 @@ BUILD = TOP / "catkin_ws" / "build"
 RESULTS = BUILD / "test_results"
 PYTEST_RESULTS = TOP / "out" / "pytest"
 HISTORY = TOP / "out" / "test-history.jsonl"
-# Programs of rostest and pytest at a time. They sleep for half of their time: with three of them two processors
-# were idle for 15 % (measured).
+# Programs of rostest and pytest at a time. They sleep for half of their time: with three of them, two
+# processors were idle for 15 % (measured).
 WORKERS = 2 * (os.cpu_count() or 2)
 STRIDE = 7
 RECENT = 10  # runs of the history, with this one, in two of which a case may not be flaky

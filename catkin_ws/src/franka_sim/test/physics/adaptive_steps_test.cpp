@@ -15,18 +15,6 @@ constexpr int kSmall = World::kSmallSteps;
 
 class AdaptiveStepsTest : public StoneInHandTest {
  protected:
-  void tick(double force = 0.0, const std::array<double, 7>& q_d = kHome) {
-    const int before = world_.substeps();
-    StoneInHandTest::tick(force, q_d);
-    changes_ += world_.substeps() > before ? 1 : 0;
-  }
-
-  void run(int ticks, double force = 0.0) {
-    for (int k = 0; k < ticks; ++k) {
-      tick(force);
-    }
-  }
-
   /// A block that does not move, beside the hand: joint 1 turns the hand into it.
   void addWall() {
     world_.addObject("wall", "<body name='wall'><geom type='box' size='0.1 0.02 0.3'/></body>",
@@ -41,8 +29,6 @@ class AdaptiveStepsTest : public StoneInHandTest {
   }
 
   bool robotTouches(const std::string& body) { return !touches(world_, body).robots.empty(); }
-
-  int changes_{0};
 };
 
 TEST_P(AdaptiveStepsTest, AFreeArmHasOneStepBesideAStoneThatRests) {
@@ -128,7 +114,7 @@ class ScenarioTest : public AdaptiveStepsTest {
     implOf(world_).object_rest.use(substeps == Substeps::kAdaptive);
     addWall();
     Outcome outcome{};
-    changes_ = 0;
+    refinements_ = 0;
     const auto swing = [](int k, double share) {
       auto q_d = kHome;
       q_d[0] -= share * 0.2 * (1.0 - std::cos(0.002 * k));
@@ -160,7 +146,7 @@ class ScenarioTest : public AdaptiveStepsTest {
       tick(0.0, q_d);
     }
     outcome.press = forceOn("wall").norm();
-    outcome.changes = changes_;
+    outcome.changes = refinements_;
     return outcome;
   }
 

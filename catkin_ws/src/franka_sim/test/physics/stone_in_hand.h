@@ -30,17 +30,19 @@ class StoneInHandTest : public ::testing::TestWithParam<const char*> {
   void placeStone() { setBodyPose(world_, "stone", bodyPose(world_, id() + "_hand_tcp")); }
 
   /// One tick. @param force with which each finger closes [N] @param q_d, dq_d that the arm holds
-  void tick(double force, const std::array<double, 7>& q_d,
+  void tick(double force = 0.0, const std::array<double, 7>& q_d = kHome,
             const std::array<double, 7>& dq_d = {}) {
+    const int before = world_.substeps();
     holder_->hold(q_d, dq_d);
     hand_->applyForces({-force, -force});
     world_.step();
+    refinements_ += world_.substeps() > before ? 1 : 0;
   }
 
   /// The same for some ticks in the home pose.
   void run(int ticks, double force = 0.0) {
     for (int k = 0; k < ticks; ++k) {
-      tick(force, kHome);
+      tick(force);
     }
   }
 
@@ -63,6 +65,7 @@ class StoneInHandTest : public ::testing::TestWithParam<const char*> {
     return sum;
   }
 
+  int refinements_{0};  ///< ticks from which on the steps are smaller
   World world_;
   ArmPlant* arm_;
   HandPlant* hand_;

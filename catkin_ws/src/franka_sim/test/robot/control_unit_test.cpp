@@ -14,7 +14,6 @@ namespace franka_sim::test {
 namespace {
 
 using franka_core::ArmFrame;
-using franka_core::RobotMode;
 using franka_core::RobotState;
 
 TEST_F(ArmTest, IdleHoldsItsDesiredPoseWithTheConfiguredStiffness) {

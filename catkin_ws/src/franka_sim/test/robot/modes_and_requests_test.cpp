@@ -20,8 +20,6 @@ namespace franka_sim::test {
 
 namespace {
 
-using franka_core::ControllerMode;
-using franka_core::MotionGeneratorMode;
 using franka_core::RobotMode;
 using franka_core::RobotState;
 
