@@ -51,6 +51,12 @@ class Times:
         wait_for(lambda: self.ticks and self.ticks[-1] >= tick, f"{what} of tick {tick}")
 
 
+def wait_for_first_messages(topics):
+    """Steps until each has one: roscpp answers a subscriber before it adds the connection, and a message in
+    between is not sent to it."""
+    wait_for(lambda: step(1).success and all(times.ticks for times in topics), "a message of each topic")
+
+
 @pytest.fixture(scope="module", params=[30, 1000])
 def rate(request, tmp_path_factory):
     """The rate of joint states of a paused simulation."""
@@ -67,6 +73,7 @@ def test_a_step_ends_with_its_state_published(rate):
         "transforms": Times("/tf", TFMessage, link_1),
         "clock": Times("/clock", Clock, lambda message: message.clock),
     }
+    wait_for_first_messages(seen.values())
     randoms = random.Random(1)
     for ticks in [1, 10, 33, 100] + [randoms.randint(1, 120) for _ in range(12)]:
         answer = step(ticks)
@@ -88,6 +95,7 @@ def test_each_message_that_is_due_is_published(rate):
         (Times("/tf", TFMessage, link_1), rate),
         (Times("/franka_state_controller/franka_states", FrankaState), 30),
     ]
+    wait_for_first_messages([topic for topic, _ in times])
     # Faster than rospy takes them, subscribers lose messages: as fast as possible goes in pieces, after each
     # of which all have arrived, because a subscriber that gets no processor for a second misses 86,000 ticks.
     for factor in (0, 20) if rate < 1000 else (2,):
