@@ -16,6 +16,7 @@ from contextlib import suppress
 from pathlib import Path
 from xmlrpc.server import SimpleXMLRPCServer
 
+import pyfranka.run
 import pytest
 import yaml
 from pyfranka.run import reserve_port
@@ -228,11 +229,19 @@ def test_nobody_but_the_master_gets_the_reserved_port():
 
 def test_nodes_that_roslaunch_leaves_are_ended(tmp_path):
     roslaunch = tmp_path / "roslaunch"
-    roslaunch.write_text("#!/bin/sh\nsetsid sleep 1000 &\nexec sleep 1000\n")
+    roslaunch.write_text("#!/bin/sh\nsetsid --fork sleep 1000\nexec sleep 1000\n")
     roslaunch.chmod(0o755)
     (tmp_path / "rostopic").symlink_to("/bin/false")
     done = run("--launch=a b.launch", "--start-timeout=1", "--", "true", PATH=f"{tmp_path}:/usr/bin:/bin")
     assert done.returncode == 125 and "no message within 1 s" in done.stderr
+
+
+def test_a_node_that_ignores_an_interrupt_is_killed(monkeypatch):
+    monkeypatch.setattr(pyfranka.run, "TO_END", 0.3)
+    with subprocess.Popen(["sh", "-c", "trap '' INT; echo; exec sleep 1000"], stdout=subprocess.PIPE) as node:
+        node.stdout.readline()
+        pyfranka.run.end_marked(f"MARK={os.environ['MARK']}")
+        assert node.wait() == -signal.SIGKILL
 
 
 def test_without_ros_a_launch_is_refused(tmp_path):
