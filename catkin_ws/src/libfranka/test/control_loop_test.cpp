@@ -376,6 +376,13 @@ TEST_F(LoopRealtime, SimulatedRobotsNeedNoRealtimeKernelAndWarnOnce) {
                          "a loopback address"));
 }
 
+TEST_F(LoopRealtime, UnknownRulesAreRefusedBeforeTheMotion) {
+  const Variable variable("FRANKA_REALTIME", "perhaps");
+  SimulatedRobot robot;
+  EXPECT_THROW(robot.move(), franka::RealtimeException);
+  EXPECT_EQ(0, robot.motions());
+}
+
 // The thread gets real-time priority where the kernel has real-time support.
 using LoopRealtimeOnWallClock = LoopRealtime;
 
@@ -410,6 +417,12 @@ TEST(LoopWait, AnyModeGivesTheSameMotion) {
     });
     EXPECT_EQ(100, count) << mode;
   }
+}
+
+TEST(LoopWait, UnknownModesAreRefusedBeforeThereIsARobot) {
+  const Variable variable("FRANKA_WAIT", "sleep");
+  FakeRobot fake(5);
+  EXPECT_THROW(connect(fake), franka::InvalidOperationException);
 }
 
 TEST(LoopLog, MayBeEmpty) {

@@ -241,6 +241,17 @@ TEST_F(Connection, SettersThatWaitDuringADisconnectAreRefused) {
   EXPECT_EQ(0, arm_.robot.count(Command::kSetLoad));
 }
 
+TEST_F(Connection, SettersOfABusyRobotAreRefused) {
+  franka_hw::ServiceContainer services;
+  franka_hw::setupServices(robot_.robot(), robot_.robotMutex(), arm_.robot_nh, services);
+  const std::lock_guard<std::mutex> lock(robot_.robotMutex());
+  franka_msgs::SetLoad load;
+  ASSERT_TRUE(ros::service::call(arm_.robot_nh.resolveName("set_load"), load));
+  EXPECT_FALSE(load.response.success);
+  EXPECT_NE(std::string::npos, load.response.error.find("busy")) << load.response.error;
+  EXPECT_EQ(0, arm_.robot.count(Command::kSetLoad));
+}
+
 TEST_F(Connection, ReadOnlyLoopDoesNotBlockSwitches) {
   franka_hw::ServiceContainer services;
   franka_hw::setupServices(robot_.robot(), robot_.robotMutex(), arm_.robot_nh, services);

@@ -169,6 +169,19 @@ TEST_F(RobotServerTest, AcceptsTargetsOfAnAsynchronousMotionAtAnyTime) {
   EXPECT_FALSE(server_.asynchronous());
 }
 
+TEST_F(RobotServerTest, ACommandThatArrivesAsTheMotionEndsIsNotTaken) {
+  TestClient client(server_.port());
+  connect(client, 5);
+  startMotion(client);
+  server_.publish();
+  franka_core::RobotCommand command;
+  command.message_id = client.state()->message_id;
+  client.command(command);
+  ASSERT_TRUE(server_.receiveCommand());
+  handler_.endMotion(Status::kEmergencyAborted, RobotMode::kUserStopped);
+  EXPECT_EQ(server_.takeCommand(), nullptr);
+}
+
 TEST_F(RobotServerTest, TheNewestTargetOfAnAsynchronousMotionCounts) {
   constexpr int kSent = 100;
   TestClient client(server_.port());

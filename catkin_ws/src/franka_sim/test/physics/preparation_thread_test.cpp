@@ -36,5 +36,10 @@ TEST(PreparationThreadTest, NothingIsPreparedAfterItWasFinished) {
   }
 }
 
+TEST(PreparationThreadTest, EndsWithARequestThatNobodyFinished) {
+  PreparationThread preparation([] {});
+  preparation.request();
+}
+
 }  // namespace
 }  // namespace franka_sim::physics

@@ -4,16 +4,26 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "motion_fixture.h"
 #include "robot/motion/motion_generator.h"
+#include "robot/transforms.h"
 
 namespace franka_sim::test {
 
 using franka_core::RobotError;
 
 namespace {
+
+TEST(Elbow, HasAPositiveSignFromTheFlipOfJoint4On) {
+  const double flip = franka_core::kElbowFlip;
+  for (const auto& [q4, sign] : {std::pair{flip - 1e-9, -1.0}, {flip, 1.0}, {flip + 1e-9, 1.0}}) {
+    EXPECT_EQ((std::array<double, 2>{0.3, sign}), elbowOf({{0, 0, 0.3, q4, 0, 0, 0}})) << q4;
+  }
+}
 
 TEST(Elbow, MovesTheArmWithoutMovingTheHand) {
   Motion motion(5, MotionGeneratorMode::kCartesianPosition);
