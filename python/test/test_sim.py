@@ -372,11 +372,13 @@ def test_several_robots_share_a_world_and_have_names():
 def test_the_hand_grasps_while_the_simulation_steps(arm, sim):
     opening = arm.gripper.move(0.08)
     assert not opening.done
+    with pytest.raises(RuntimeError, match="The move still runs"):
+        bool(opening)
     sim.step(1500)
-    assert opening.succeeded and arm.gripper.width == pytest.approx(0.08, abs=1e-3)
+    assert opening and opening.succeeded and arm.gripper.width == pytest.approx(0.08, abs=1e-3)
     nothing = arm.gripper.grasp(0.03, 0.1, 20.0)
     sim.step(2000)
-    assert nothing.outcome == GripperOutcome.Failed and not arm.gripper.is_grasped
+    assert nothing.outcome == GripperOutcome.Failed and not nothing and not arm.gripper.is_grasped
     with pytest.raises(RequestRefused, match="The hand has refused the motion: width must be 0 to 0.08 m"):
         arm.gripper.move(1.0)
     homing = arm.gripper.homing()

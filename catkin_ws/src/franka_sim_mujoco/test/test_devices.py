@@ -53,6 +53,16 @@ class Joints:
 
         return wait_for(look, what, WAIT)
 
+    def when_at_rest(self, joint):
+        """Waits for 30 states in one place: a joint that brakes swings back, with a velocity of 0 between."""
+        begin = len(self.seen)
+
+        def rests():
+            places = [state[joint][0] for state in self.seen[begin:][-30:]]
+            return len(places) == 30 and np.ptp(places) < 1e-4
+
+        wait_for(rests, f"The {joint} to rest", WAIT)
+
     def switch(self, start=(), stop=()):
         self.controllers.load(*(name for name in start if name not in self.controllers.states()))
         return self.controllers.switches(start, stop)
@@ -157,8 +167,7 @@ def test_velocities(robot):
     robot.command("head_velocity", 5.0)
     robot.when(lambda state: abs(state["head"][1] - 1.0) < 1e-3, "The limit of 1 rad/s")
     assert robot.switch(stop=["head_velocity"])
-    at = robot.when(lambda state: abs(state["head"][1]) < 1e-5, "Rest without a controller")
-    robot.when(lambda state: abs(state["head"][0] - at[-1]["head"][0]) < 1e-4, "Standing there")
+    robot.when_at_rest("head")
     assert robot.switch(start=["head_velocity"])
 
 
