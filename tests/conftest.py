@@ -5,9 +5,11 @@
 import fcntl
 import os
 import re
+import secrets
 import subprocess
 import sys
 import time
+from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
@@ -88,3 +90,17 @@ def site() -> Path:
     """The documentation site's pages, built without a warning."""
     make_once("docs", [sys.executable, TOP / "docs" / "site" / "build_site.py"], 900)
     return TOP / "out" / "docs" / "html"
+
+
+@pytest.fixture
+def leaves_no_process(monkeypatch):
+    """No process that the test has started remains: all inherit a variable."""
+    mark = f"MARK={secrets.token_hex(8)}"
+    monkeypatch.setenv(*mark.split("="))
+    yield
+    left = []
+    for folder in Path("/proc").glob("[0-9]*"):
+        with suppress(OSError):
+            if os.fsencode(mark) in (folder / "environ").read_bytes().split(b"\0"):
+                left.append((folder / "comm").read_text())
+    assert left == []
