@@ -351,7 +351,7 @@ void FrankaHWSim::doSwitch(const std::list<hardware_interface::ControllerInfo>& 
   const ControlMode starts = claimedMode(start_list, arm_id_);
   const ControlMode stops = claimedMode(stop_list, arm_id_);
   switch_concerns_arm_ = starts != ControlMode::None || stops != ControlMode::None;
-  if (switch_concerns_arm_ && arm_->control(starts, stops)) {
+  if (arm_->control(starts, stops)) {
     position_limits_.reset();
   }
 }

@@ -220,6 +220,9 @@ bool SimArm::refuses(ControlMode starts, ControlMode stops) const noexcept {
 }
 
 bool SimArm::control(ControlMode starts, ControlMode stops) noexcept {
+  if (starts == ControlMode::None && stops == ControlMode::None) {
+    return false;  // a switch of controllers of something else
+  }
   // Checked before anything is stopped: a motion that ends here could not start again.
   refused_ = refuses(starts, stops);
   if (refused_) {

@@ -118,6 +118,29 @@ TEST_P(SimArmPeriod, MotionReachesItsGoalWithoutExternalTorqueAndRests) {
   }
 }
 
+TEST(SimArm, SwitchOfOtherControllersLeavesItsMotionAlone) {
+  constexpr auto kNone = franka_hw::ControlMode::None;
+  PositionControlledArm reference(1), arm(1);
+  for (PositionControlledArm* each : {&reference, &arm}) {
+    each->tick([] {});
+    each->arm.control(franka_hw::ControlMode::JointPosition, kNone);
+  }
+  const std::array<double, 7> start = arm.arm.state().q_d;
+  for (int i = 0; i < 1000; ++i) {
+    if (i % 100 == 50) {
+      EXPECT_FALSE(arm.arm.control(kNone, kNone));
+    }
+    for (PositionControlledArm* each : {&reference, &arm}) {
+      each->tick([&] {
+        each->arm.commands().position = start;
+        each->arm.commands().position[0] += 0.1 * (1.0 - std::cos(3e-3 * i));
+      });
+    }
+    ASSERT_EQ(reference.plant.q(), arm.plant.q()) << "tick " << i;
+    ASSERT_EQ(franka::RobotMode::kMove, arm.arm.state().robot_mode) << "tick " << i;
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Milliseconds, SimArmPeriod,
                          ::testing::Values(1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 12, 20));
 

@@ -75,8 +75,9 @@ class SimArm {
   /// No controllers are connected while the user stop is pressed, after an error or without
   /// connection, see needsRecovery(). Controllers that remain are connected again in any case, also
   /// if the new ones cannot start.
-  /// @param starts, stops claims of the controllers
-  /// @returns false if the start is refused and nothing is stopped: nothing has changed
+  /// @param starts, stops claims of the controllers; none if they command something else
+  /// @returns false if nothing has changed: without claims, and if the start is refused and nothing
+  /// is stopped
   bool control(franka_hw::ControlMode starts, franka_hw::ControlMode stops) noexcept;
   Switch switchResult() const noexcept {
     return refused_ ? Switch::kRefused : waits_ ? Switch::kOngoing : Switch::kDone;
