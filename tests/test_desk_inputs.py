@@ -15,6 +15,7 @@ from desk_robot import OPEN
 from desk_server import LIMITS, basic, unverified
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
+from operator_table import operator_table
 from pyfranka.desk import checks
 from pyfranka.desk.errors import DeskError
 from pyfranka.desk.page_lines import MAX_PUSH_TIME, line_of
@@ -201,14 +202,14 @@ def test_number_is_a_finite_number_or_a_bad_request(value, limit):
 @given(st.one_of(st.sampled_from(["push", "move", "inject", "fci"]), VALUES), st.lists(WORDS) | VALUES)
 def test_line_of_the_page_can_be_sent_or_is_a_bad_request(action, words):
     with contextlib.suppress(DeskError):
-        line_of(action, words)[1].encode()
+        line_of(operator_table(), action, words)[1].encode()
 
 
 @OFTEN
 @given(WORDS)
 def test_push_of_the_page_ends_within_its_longest_time(time):
     with contextlib.suppress(DeskError):
-        line = line_of("push", ["fr3_hand", "1", "1", "1", time])[1]
+        line = line_of(operator_table(), "push", ["fr3_hand", "1", "1", "1", time])[1]
         assert int(line.split()[-1]) <= MAX_PUSH_TIME
 
 

@@ -22,7 +22,7 @@ def test_commands_of_a_page_could_run(page):
         ("roslaunch franka_gazebo panda.launch speed:=3", "takes no speed:=3"),
         ("rosservice call /franka_control/set_weight '{}'", "no /franka_control/set_weight"),
         ("rosservice cal /franka_control/set_load '{}'", "no command cal"),
-        ("echo 'dance' | nc -q 1 127.0.0.1 1340", "no line dance"),
+        ("echo 'dance' | nc -q 1 127.0.0.1 1340", "no line 'dance'"),
     ],
 )
 def test_a_command_that_could_not_run_is_found(line, what):

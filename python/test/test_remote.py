@@ -9,7 +9,6 @@ import socket
 import threading
 import time
 from contextlib import ExitStack, contextmanager, suppress
-from pathlib import Path
 from types import SimpleNamespace
 
 import numpy
@@ -17,13 +16,12 @@ import page_output
 import pyfranka
 import pyfranka.sim
 import pytest
+from operator_table import markdown, table_of_page
 from pyfranka.remote import LineRefused, Remote
 from pyfranka.sim import FR3, Panda
 from scipy.spatial.transform import Rotation
 from waiting import wait_for
 
-TOP = Path(__file__).resolve().parents[2]
-PAGE = TOP / "docs" / "franka_sim.md"
 READY = [0, -0.7854, 0, -2.3562, 0, 1.5708, 0.7854]
 # Methods without a line of their own.
 HELPERS = {"address", "port", "send", "close", "remove_wall"}
@@ -91,8 +89,11 @@ def test_each_line_of_the_program_is_a_method_and_each_method_a_line(server):
     words = {name: name.removeprefix("set_") for name in methods - HELPERS}
     line_of = {name: word if word in lines else word.partition("_")[0] for name, word in words.items()}
     assert {OTHER_LINES.get(name, line) for name, line in line_of.items()} == lines
-    table = PAGE.read_text().partition("| line | meaning |")[2].partition("\n\n")[0]
-    assert names(re.findall(r"^\| `([^`]+)`", table, re.MULTILINE)) == lines
+
+
+def test_the_documentation_has_the_table_of_the_robot():
+    """Else: python3 tests/support/operator_table.py"""
+    assert table_of_page() == markdown()
 
 
 def test_the_example_of_the_documentation_works(franka_panda, capsys):

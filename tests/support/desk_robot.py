@@ -11,6 +11,8 @@ import copy
 import json
 import threading
 
+from operator_table import operator_table
+
 OPEN, CLOSED = [False] * 7, [True] * 7
 IDENTITY = [1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]
 REPORT = {
@@ -138,6 +140,8 @@ class ScriptedRobot:
         if line == "report":
             self.reports += 1
             return "ok " + json.dumps(self.report) if self.raw_report is None else self.raw_report
+        if line == "help json":
+            return "ok " + operator_table()
         self.lines.append(line)
         word, *words = line.split()
         answer = self.answers.get(line, self.answers.get(word))

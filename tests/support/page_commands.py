@@ -4,6 +4,7 @@
 launch files and their arguments, nodes, options, topics, services, and lines for simulated robots.
 """
 
+import json
 import re
 import shlex
 import subprocess
@@ -16,6 +17,7 @@ from docsite.nodes import nodes_of
 from docsite.packages import packages
 from docsite.paths import SITE, TOP
 from markdown_it import MarkdownIt
+from operator_table import operator_table
 
 Words = list[str]
 
@@ -188,16 +190,21 @@ def positional(words: Words, with_value: set[str]) -> Words:
 
 
 @cache
-def control_lines() -> set[str]:
-    """First words of the lines of franka_sim's control port."""
-    sources = [file.read_text() for file in (TOP / "catkin_ws/src/franka_sim/src").rglob("*.cpp")]
-    return {"help"} | {word for text in sources for word in re.findall(r'\.add\(\s*"(\w+)', text)}
+def operator_lines() -> list[dict]:
+    """The rows of the table of operator commands, of robots with both kinds of hands."""
+    return [row for hand in ("gripper", "vacuum") for row in json.loads(operator_table(hand))]
 
 
 def check_line(words: Words) -> str:
     """Of `echo 'LINE' | nc`."""
-    word = words[1].split()[0]
-    return "" if word in control_lines() else f"no line {word} of the control port"
+    line = words[1].split()
+    for row in operator_lines():
+        name, arguments = row["name"].split(), row["arguments"]
+        least = sum(each["count"] for each in arguments if not each["optional"])
+        counts = {least, sum(each["count"] for each in arguments)}
+        if line[: len(name)] == name and len(line) - len(name) in counts:
+            return ""
+    return "" if line[0] == "help" else f"no line '{words[1]}' of the control port"
 
 
 CHECKS = {

@@ -117,6 +117,7 @@ sim_test(fci_test
     test/fci/host_rules_test.cpp
     test/fci/host_test.cpp
     test/fci/json_test.cpp
+    test/fci/command_table_test.cpp
     test/fci/line_server_test.cpp
     test/fci/lock_step_turn_test.cpp
     test/fci/own_client_test.cpp

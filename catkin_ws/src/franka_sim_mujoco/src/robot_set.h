@@ -4,7 +4,7 @@
 
 #include <franka_sim/physics/world.h>
 #include <franka_sim/serve/host.h>
-#include <franka_sim/serve/operator_commands.h>
+#include <franka_sim/serve/scene_text.h>
 
 #include <cstddef>
 #include <functional>

@@ -83,20 +83,19 @@ ServedRobot::ServedRobot(const RobotPlan& plan, const RobotHandle& robot,
     robot_.whole().start(franka_sim::SafetyRules::kDesk);
     robot_.serve(true);  // closes its ports before a client can connect
   }
+  franka_sim::addOperatorCommands(
+      commands_, {robot_, plan.arms.front().arm_id, access.host, *robot.world, access.scene,
+                  access.reset, access.quit});
   if (plan.control_port != 0) {
-    openControlInterface(plan, *robot.world, access);
+    openControlInterface(plan);
   }
   offerSwitches();
   offerLink();
   offerStates();
 }
 
-void ServedRobot::openControlInterface(const RobotPlan& plan, franka_sim::World& world,
-                                       const OperatorAccess& access) {
-  lines_ = std::make_unique<franka_sim::fci::LineServer>(plan.fci_ip, plan.control_port);
-  franka_sim::addOperatorCommands(
-      *lines_, {robot_, plan.arms.front().arm_id, access.host, world, access.reset, access.quit});
-  franka_sim::addSceneCommands(*lines_, world, access.scene);
+void ServedRobot::openControlInterface(const RobotPlan& plan) {
+  lines_ = std::make_unique<franka_sim::fci::LineServer>(plan.fci_ip, plan.control_port, commands_);
   if (plan.has_desk) {
     lines_->serveOwnUserOnly();
   }
@@ -127,20 +126,21 @@ void ServedRobot::offer(
   });
 }
 
-void ServedRobot::offerSwitch(const std::string& name,
-                              void (*set)(franka_sim::WholeRobot& robot, bool on)) {
-  offer<std_srvs::SetBool>(name, [this, set](auto& request, auto& /*response*/) {
-    set(robot_.whole(), request.data != 0);
+// A line whose effect does not take time. @throws std::exception with a sentence
+void ServedRobot::execute(const std::string& line) const { commands_.execute(line).value(); }
+
+void ServedRobot::offerSwitch(const std::string& name, const std::string& line_on,
+                              const std::string& line_off) {
+  offer<std_srvs::SetBool>(name, [this, line_on, line_off](auto& request, auto& /*response*/) {
+    execute(request.data != 0 ? line_on : line_off);
   });
 }
 
 void ServedRobot::offerSwitches() {
-  offerSwitch("set_user_stop", franka_sim::setUserStop);
-  offerSwitch("set_guiding", franka_sim::setGuiding);
-  offer<std_srvs::SetBool>("set_fci", [this](auto& request, auto& /*response*/) {
-    franka_sim::setFci(robot_, request.data != 0);
-  });
-  offerSwitch("set_brakes", franka_sim::setBrakes);
+  offerSwitch("set_user_stop", "user_stop on", "user_stop off");
+  offerSwitch("set_guiding", "guiding on", "guiding off");
+  offerSwitch("set_fci", "fci on", "fci off");
+  offerSwitch("set_brakes", "brakes close", "brakes open");
 }
 
 void ServedRobot::offerLink() {

@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim/serve/command_table.h>
 #include <franka_sim/serve/host.h>
 #include <franka_sim/serve/line_server.h>
-#include <franka_sim/serve/operator_commands.h>
+#include <franka_sim/serve/scene_text.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 
@@ -50,15 +51,17 @@ class ServedRobot {
   template <typename Service>
   void offer(const std::string& name,
              std::function<void(typename Service::Request&, typename Service::Response&)> handler);
-  void offerSwitch(const std::string& name, void (*set)(franka_sim::WholeRobot& robot, bool on));
-  void openControlInterface(const RobotPlan& plan, franka_sim::World& world,
-                            const OperatorAccess& access);
+  void offerSwitch(const std::string& name, const std::string& line_on,
+                   const std::string& line_off);
+  void execute(const std::string& line) const;
+  void openControlInterface(const RobotPlan& plan);
   void offerSwitches();
   void offerLink();
   void offerStates();
 
   BetweenTicks between_ticks_;
   franka_sim::fci::SimRobot robot_;
+  franka_sim::fci::CommandTable commands_;              ///< of the operator
   std::unique_ptr<franka_sim::fci::LineServer> lines_;  ///< null without a control interface
   ServiceHandlers services_;  ///< last: it ends before the objects it uses
 };

@@ -185,13 +185,14 @@ class PageApi:
     # ---- commands of the page ----------------------------------------------------------------------------
 
     async def command(self, request: web.Request) -> web.Response:
-        """Sends a line to a robot: one of page_lines.LINES; or `reboot`, which is not a line."""
+        """Sends a line to a robot, if its table permits that; or `reboot`, which is not a line."""
         body, desk = await self._checked(request)
         if body.get("action") == "reboot":
             _check_control(request, desk)
             desk.power.reboot()
             return web.json_response({"value": ""})
-        line, text = line_of(body.get("action"), body.get("words", []))
+        desk.robot.current_report()  # or: it is lost
+        line, text = line_of(desk.robot.commands, body.get("action"), body.get("words", []))
         if line.control:
             _check_control(request, desk)
         try:

@@ -30,7 +30,8 @@ class DeskRobot:
     """One robot's control interface. Everything runs in one event loop.
 
     report: the newest report, or None before the first one and while the robot is lost; text: the same in
-    JSON; problem: why there is none. number: of the newest report, counted from one. start() begins to fetch
+    JSON; problem: why there is none. number: of the newest report, counted from one. commands: the robot's
+    table of commands in JSON (its line `help json`); empty before the first report. start() begins to fetch
     reports; requests of Desk's clients are answered from the newest one, so that they never reach the robot
     (decision 55).
     """
@@ -38,7 +39,7 @@ class DeskRobot:
     def __init__(self, address: str, port: int = PORT, period: float = PERIOD):
         self.address, self.port, self.period = address, port, period
         self.report: Report | None = None
-        self.text = ""
+        self.text = self.commands = ""
         self.problem = f"The robot at {self.place} has not answered yet."
         self.number = 0
         self._requested = self._published = 0
@@ -127,11 +128,17 @@ class DeskRobot:
         while True:
             try:
                 async with Connection(self.address, self.port) as connection:
+                    self.commands = await connection.exchange("help json", REPORT_LIMIT)
                     while True:
                         await self._request_report(connection)
                         await asyncio.sleep(self.period)
             except RobotGone as error:
                 self._lose(str(error))
+            except Refused as refused:
+                self._lose(
+                    f"The robot at {self.place} has no table of commands: {refused.sentence} Use franka_sim "
+                    "and franka_desk of the same version."
+                )
             await asyncio.sleep(PAUSE)
 
     # An answer may overtake an older one on another connection: the older one is dropped.

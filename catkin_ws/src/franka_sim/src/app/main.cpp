@@ -7,6 +7,7 @@
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/realism.h>
 #include <franka_sim/serve/host.h>
+#include <franka_sim/serve/line_server.h>
 #include <franka_sim/serve/operator_commands.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <franka_sim/simulation/robot_setup.h>
@@ -372,15 +373,15 @@ void serve(Options& options) {
   Shutdown shutdown(end_requested, ended, std::chrono::duration<double>(options.linger), robots);
   host.add(shutdown);
   SceneText scene(world, [&options] { return sceneRobots(options.arms); });
+  std::deque<fci::CommandTable> commands;
   std::deque<fci::LineServer> lines;
   for (const auto& arm : arms) {
     host.add(arm->robot);
     if (arm->options.control_port != 0) {
-      lines.emplace_back(arm->options.ip, arm->options.control_port);
-      addOperatorCommands(lines.back(),
-                          {arm->robot, arm->options.arm_id, host, world,
+      addOperatorCommands(commands.emplace_back(),
+                          {arm->robot, arm->options.arm_id, host, world, scene,
                            [&] { resetWorld(world, robots, host); }, [&ended] { ended = true; }});
-      addSceneCommands(lines.back(), world, scene);
+      lines.emplace_back(arm->options.ip, arm->options.control_port, commands.back());
       if (options.desk.served) {
         lines.back().serveOwnUserOnly();
       }

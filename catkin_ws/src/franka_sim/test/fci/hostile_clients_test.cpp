@@ -143,7 +143,8 @@ class HostileClients : public ::testing::Test {
     host_.add(attacked_);
     host_.add(other_);
     host_.add(lines_);
-    lines_.add("echo WORD", [](const LineServer::Words& words) { return words.at(0); });
+    commands_.add(line("echo", text("WORD")), "", kNotOnPage,
+                  [](const std::string& word) { return word; });
     const ClientSlot::Report report = [this](const std::string& what) { reports_.push_back(what); };
     attacked_.arm.onRefusal(report);
     attacked_.hand.onRefusal(report);
@@ -243,7 +244,8 @@ class HostileClients : public ::testing::Test {
   }
 
   BareRobot attacked_, other_;
-  LineServer lines_{"127.0.0.1", 0};
+  CommandTable commands_;
+  LineServer lines_{"127.0.0.1", 0, commands_};
   Host host_{[] {}, Pace{}};
   TestClient good_{other_.arm.port()};
   std::vector<std::string> reports_;
@@ -364,14 +366,6 @@ TEST_F(HostileClients, TimeOutWithinARequest) {
   ASSERT_EQ(refusals.size(), 1U);
   EXPECT_NE(refusals[0].find("127.0.0.1"), std::string::npos) << refusals[0];
   EXPECT_NE(refusals[0].find("too slow"), std::string::npos) << refusals[0];
-}
-
-TEST(Seeds, AreUnsigned64BitNumbers) {
-  EXPECT_EQ(toSeed("0"), 0U);
-  EXPECT_EQ(toSeed("18446744073709551615"), 18446744073709551615U);
-  for (const char* word : {"-1", "18446744073709551616", "1e3", "0.5", "", "nan", "7x", "+7"}) {
-    EXPECT_THROW(toSeed(word), std::invalid_argument) << word;
-  }
 }
 
 }  // namespace

@@ -54,11 +54,8 @@ class Operator {
 class LineServerTest : public ::testing::Test {
  protected:
   LineServerTest() {
-    server.add("count",
-               [this](const LineServer::Words& /*words*/) { return std::to_string(++count); });
-    server.add(
-        "wait", [](const LineServer::Words& /*words*/) { return "done"; },
-        [this] { return ready; });
+    table.add(line("count"), "", kNotOnPage, [this] { return std::to_string(++count); });
+    table.add(line("wait"), "", kNotOnPage, [] { return "done"; }).ready = [this] { return ready; };
   }
   /// Serves pending lines, then publishes states.
   void tick() {
@@ -68,7 +65,8 @@ class LineServerTest : public ::testing::Test {
 
   int count{0};
   bool ready{false};
-  LineServer server{kAddress, 0, std::chrono::seconds(5)};
+  CommandTable table;
+  LineServer server{kAddress, 0, table, std::chrono::seconds(5)};
 };
 
 TEST_F(LineServerTest, AnswersAfterStatesWereSent) {
@@ -85,10 +83,9 @@ TEST_F(LineServerTest, AnswersAfterStatesWereSent) {
 
 TEST_F(LineServerTest, AnswersOnceTheEffectHasComeAbout) {
   bool effect = false;
-  server.add("act", [&effect](const LineServer::Words& words) {
-    return Reply([&effect, word = words.at(0)] {
-      return effect ? std::optional<std::string>(word) : std::nullopt;
-    });
+  table.add(line("act", text("WORD")), "", kNotOnPage, [&effect](const std::string& word) {
+    return Reply(
+        [&effect, word] { return effect ? std::optional<std::string>(word) : std::nullopt; });
   });
   Operator user(server);
   user.type("act now\ncount\n");
@@ -104,16 +101,14 @@ TEST_F(LineServerTest, AnswersOnceTheEffectHasComeAbout) {
   effect = false;
   user.type("act\n");
   tick();
-  EXPECT_EQ("error: Words are missing: act.\n", user.sees()) << "a refused line has no effect";
+  EXPECT_EQ("error: This line is written: act WORD.\n", user.sees()) << "and has no effect";
 }
 
 TEST_F(LineServerTest, AnswersWhateverACommandThrows) {
-  server.add("robot", [](const LineServer::Words& /*words*/) -> Reply {
-    throw std::out_of_range("There is no such robot.");
-  });
-  server.add("fall", [](const LineServer::Words& /*words*/) -> Reply { throw 7; });
+  table.add(line("robot"), "", kNotOnPage, [] { throw std::out_of_range("There is no robot."); });
+  table.add(line("fall"), "", kNotOnPage, [] { throw 7; });
   bool failed = false;
-  server.add("grasp", [&failed](const LineServer::Words& /*words*/) {
+  table.add(line("grasp"), "", kNotOnPage, [&failed] {
     return Reply([&failed]() -> std::optional<std::string> {
       return failed ? throw std::runtime_error("Nothing was grasped.") : std::nullopt;
     });
@@ -126,7 +121,7 @@ TEST_F(LineServerTest, AnswersWhateverACommandThrows) {
   tick();
   EXPECT_EQ("error: Nothing was grasped.\n", user.sees());
   tick();
-  EXPECT_EQ("error: There is no such robot.\n", user.sees());
+  EXPECT_EQ("error: There is no robot.\n", user.sees());
   tick();
   EXPECT_EQ("error: The command failed with an unknown error.\n", user.sees());
   tick();
@@ -135,11 +130,11 @@ TEST_F(LineServerTest, AnswersWhateverACommandThrows) {
 
 TEST(LineServer, GivesNoAnswerWhenItEndsBeforeTheEffect) {
   for (const bool effect : {true, false}) {
+    CommandTable table;
+    table.add(line("act"), "", kNotOnPage,
+              [effect] { return Reply::when([effect] { return effect; }); });
     std::optional<LineServer> server;
-    server.emplace(kAddress, 0);
-    server->add("act", [effect](const LineServer::Words& /*words*/) {
-      return Reply::when([effect] { return effect; });
-    });
+    server.emplace(kAddress, 0, table);
     Operator user(*server);
     user.type("act\n");
     server->serve();
@@ -150,9 +145,9 @@ TEST(LineServer, GivesNoAnswerWhenItEndsBeforeTheEffect) {
 
 TEST_F(LineServerTest, ExecutesTheLinesOfSeveralClientsInOrderOfArrival) {
   std::string words;
-  server.add("say WORD", [&words](const LineServer::Words& arguments) {
-    words += arguments.at(0);
-    return arguments.at(0);
+  table.add(line("say", text("WORD")), "", kNotOnPage, [&words](const std::string& word) {
+    words += word;
+    return word;
   });
   Operator first(server);
   Operator second(server);
@@ -185,9 +180,8 @@ TEST_F(LineServerTest, ALineThatIsNotReadyDelaysNoOtherClient) {
 
 TEST_F(LineServerTest, EachClientGetsTheAnswerOfItsOwnLine) {
   int now = 0;
-  server.add("until TIME", [&now](const LineServer::Words& words) {
-    return Reply::when([&now, end = toNumber(words.at(0))] { return now >= end; });
-  });
+  table.add(line("until", number("TIME", "s")), "", kNotOnPage,
+            [&now](double end) { return Reply::when([&now, end] { return now >= end; }); });
   Operator first(server);
   Operator second(server);
   first.type("until 1\n");
@@ -204,9 +198,8 @@ TEST_F(LineServerTest, EachClientGetsTheAnswerOfItsOwnLine) {
 }
 
 TEST_F(LineServerTest, BeginsNoFurtherLineInATickAfterLongOnes) {
-  server.add("toil", [](const LineServer::Words& /*words*/) {
+  table.add(line("toil"), "", kNotOnPage, [] {
     std::this_thread::sleep_for(std::chrono::microseconds(300));  // the fault itself
-    return "";
   });
   Operator first(server);
   Operator second(server);
@@ -251,8 +244,7 @@ TEST_F(FullLineServerTest, RefusesAnotherClientWithASentence) {
 }
 
 TEST_F(FullLineServerTest, ClientThatLeavesBeforeTheEffectFreesASlot) {
-  server.add("never",
-             [](const LineServer::Words& /*words*/) { return Reply::when([] { return false; }); });
+  table.add(line("never"), "", kNotOnPage, [] { return Reply::when([] { return false; }); });
   users[5]->type("never\n");
   tick();
   users[5]->leave();
@@ -263,8 +255,9 @@ TEST_F(FullLineServerTest, ClientThatLeavesBeforeTheEffectFreesASlot) {
 }
 
 TEST(LineServer, HasNoTimeLimitUntilItIsFull) {
-  LineServer server(kAddress, 0, std::chrono::seconds(0));
-  server.add("count", [](const LineServer::Words& /*words*/) { return "1"; });
+  CommandTable table;
+  table.add(line("count"), "", kNotOnPage, [] { return "1"; });
+  LineServer server(kAddress, 0, table, std::chrono::seconds(0));
   const auto tick = [&server] {
     server.serve();
     server.published();

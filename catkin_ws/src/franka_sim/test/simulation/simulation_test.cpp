@@ -1,7 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Robots that a program drives in its own process: commands, laws, refusals, resets.
-#include <franka_sim/serve/operator_commands.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <franka_sim/simulation/policy_episode.h>
 #include <franka_sim/simulation/simulation.h>
@@ -17,6 +16,7 @@
 #include "../robot/arm_fixture.h"
 #include "../robot/fake_hand.h"
 #include "fci/robot_server.h"
+#include "serve/operator_switches.h"
 
 namespace franka_sim::test {
 namespace {

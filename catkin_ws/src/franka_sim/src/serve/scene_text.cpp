@@ -1,8 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_core/numbers.h>
 #include <franka_sim/physics/world_properties.h>
-#include <franka_sim/serve/operator_commands.h>
+#include <franka_sim/serve/scene_text.h>
 #include <sched.h>
 
 #include <algorithm>
@@ -14,7 +13,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "serve/robot_report.h"
+#include "serve/json_writer.h"
 
 namespace franka_sim {
 
@@ -41,7 +40,6 @@ std::string toBase64(std::string_view bytes) {
 
 using fci::JsonWriter;
 using fci::Reply;
-using Words = fci::LineServer::Words;
 
 constexpr std::size_t kMeshPart = 11700;  // [bytes]: 15600 characters of an answer's 16000
 
@@ -78,24 +76,6 @@ void append(const std::vector<Number>& numbers, std::string* bytes) {
 void leavePriority() {
   const sched_param ordinary{};
   sched_setscheduler(0, SCHED_OTHER, &ordinary);
-}
-
-std::size_t toOffset(const std::string& word) {
-  constexpr std::int64_t kMaxOffset = 1000000000000;
-  const auto offset = franka_core::wholeNumber(fci::toNumber(word), 0, kMaxOffset);
-  if (!offset) {
-    throw std::invalid_argument("'" + word + "' is not a number of bytes.");
-  }
-  return static_cast<std::size_t>(*offset);
-}
-
-std::string describe(const std::vector<Pose>& poses) {
-  JsonWriter json;
-  json.beginArray();
-  for (const Pose& pose : poses) {
-    json.value(numbersOf(pose));
-  }
-  return json.endArray().text();
 }
 
 }  // namespace
@@ -188,12 +168,13 @@ Reply SceneText::mesh(const std::string& name, std::size_t offset) {
   });
 }
 
-void addSceneCommands(fci::LineServer& lines, const World& world, SceneText& scene) {
-  lines.add("scene", [&scene](const Words&) { return scene.describe(); });
-  lines.add("mesh NAME OFFSET", [&scene](const Words& words) {
-    return scene.mesh(words.at(0), toOffset(words.at(1)));
-  });
-  lines.add("poses", [&world](const Words&) { return describe(framePoses(world)); });
+std::string SceneText::poses() const {
+  JsonWriter json;
+  json.beginArray();
+  for (const Pose& pose : framePoses(world_)) {
+    json.value(numbersOf(pose));
+  }
+  return json.endArray().text();
 }
 
 }  // namespace franka_sim
