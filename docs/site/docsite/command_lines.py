@@ -158,7 +158,9 @@ def all_help(found: list[Program]) -> dict[tuple[Program, str], str]:
         answers = pool.map(lambda call: help_of(*call[0].command, *call[1].split()), new)
         kept.update(zip((keys[call] for call in new), answers))
     KEPT.parent.mkdir(parents=True, exist_ok=True)
-    KEPT.write_text(json.dumps({key: kept[key] for key in keys.values()}))
+    new_file = KEPT.with_suffix(f".{os.getpid()}")  # another process may read the old one
+    new_file.write_text(json.dumps({key: kept[key] for key in keys.values()}))
+    new_file.replace(KEPT)
     return {call: kept[key] for call, key in keys.items()}
 
 

@@ -6,6 +6,7 @@ Public headers are those in a package's include folder, without folders named in
 franka_sim and franka_sim_mujoco only those that other programs use are public.
 """
 
+import fcntl
 import hashlib
 import re
 import shutil
@@ -83,7 +84,17 @@ def public_headers() -> tuple[Header, ...]:
 
 
 def run_doxygen() -> None:
-    """Writes the headers' descriptions as XML, unless they exist already for these headers."""
+    """Writes the headers' descriptions as XML, unless they exist already for these headers.
+
+    Several processes may call it at a time.
+    """
+    OUT.mkdir(parents=True, exist_ok=True)
+    with open(OUT / "doxygen.lock", "w", encoding="utf-8") as lock:
+        fcntl.flock(lock, fcntl.LOCK_EX)
+        _run_doxygen()
+
+
+def _run_doxygen() -> None:
     folder = OUT / "doxygen"
     # Headers that are not public are read too: their base classes have comments.
     found = [*WORKSPACE.glob("**/include/**/*.h"), *WORKSPACE.glob("**/include/**/*.hpp")]
