@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""The style checks: our own rules, ruff, mypy, import-linter, clang-format, shellcheck, codespell,
-clang-tidy, and noexcept functions that call what throws (nothrow.py).
+"""The style checks: our own rules, arrows between parts (package_arrows.py), ruff, mypy, import-linter,
+clang-format, shellcheck, codespell, clang-tidy, and noexcept functions that call what throws (nothrow.py).
 
 Called by `./franka test --style`, by continuous integration and by the hooks of pre-commit. Each finding is
 a line `file:line: what`. Exit status 1 if a check has findings or its tool is missing.
@@ -22,6 +22,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import nothrow
+import package_arrows
 import wall_clock
 
 TOP = Path(__file__).resolve().parent.parent
@@ -230,6 +231,13 @@ def check_text(files: list[Path], long: bool) -> bool:
     return not findings
 
 
+def check_arrows(files: list[Path], long: bool) -> bool:
+    """Which part includes or imports which."""
+    findings = package_arrows.findings()
+    print("\n".join(findings), end="\n" if findings else "")
+    return not findings
+
+
 # ---- checks by tools -------------------------------------------------------------------------------------
 
 
@@ -422,6 +430,7 @@ def check_nothrow(files: list[Path], long: bool) -> bool:
 
 CHECKS: dict[str, Callable[[list[Path], bool], bool]] = {
     "text": check_text,
+    "arrows": check_arrows,
     "ruff": check_ruff,
     "mypy": check_mypy,
     "imports": check_imports,
