@@ -8,25 +8,28 @@ citation is on one line.
 
 import re
 import subprocess
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 TOP = Path(__file__).resolve().parent.parent
 LIBFRANKA = TOP / "catkin_ws" / "src" / "libfranka"
-PAGES = {path.stem: path.read_text(encoding="utf-8") for path in sorted((TOP / "docs/design").glob("*.md"))}
+DESIGN = TOP / "docs" / "design"
+PAGES = {path.stem: path.read_text(encoding="utf-8") for path in sorted(DESIGN.glob("**/*.md"))}
+DECISIONS = {path.name: PAGES[path.stem] for path in sorted(DESIGN.glob("decisions/*.md"))}
 CITING_TESTS = {**PAGES, "fidelity": (TOP / "docs/fidelity.md").read_text(encoding="utf-8")}
 
 CITATION = re.compile(r"\((decision|protocol(?= \d+\.)|fault)s? (\d+(?:\.\d+)?(?:, \d+(?:\.\d+)?)*)\)")
 HEADINGS = {
-    "decision": ("decisions", r"^## Decision (\d+): \S"),
-    "protocol": ("protocol", r"^#{2,3} (\d+(?:\.\d+)?) \S"),
-    "fault": ("faults", r"^## (\d+) \S"),
+    "decision": ("\n".join(DECISIONS.values()), r"^# Decision (\d+): \S"),
+    "protocol": (PAGES["protocol"], r"^#{2,3} (\d+(?:\.\d+)?) \S"),
+    "fault": (PAGES["faults"], r"^## (\d+) \S"),
 }
 # Documents outside the repository, and ours without their folder.
 OUTSIDE = re.compile(
     r"\b(?:fci|franka_ros|ros_control|mujoco|debian|users_ask|style)\.md\b|\bmanual\.txt\b"
-    r"|(?<![\w/(\[])(?:decisions|protocol|faults|fidelity|desk)\.md\b"
+    r"|(?<![\w/(\[-])(?:decisions|protocol|faults|fidelity|desk)\.md\b"
 )
 NAMED_FILE = re.compile(r"`([\w.-]+/[\w./-]*\w|\w+\.(?:cpp|h|py|sh|yaml|md|xacro))`")
 NAMED_TEST = re.compile(r"`([A-Z]\w*\.[A-Z]\w*|test_\w+)`")
@@ -50,7 +53,7 @@ TEXTS = {name: text_of(name) for name in tracked() if name != "tests/test_citati
 
 
 def test_cited_numbers_are_headings():
-    known = {kind: set(re.findall(pattern, PAGES[page], re.M)) for kind, (page, pattern) in HEADINGS.items()}
+    known = {kind: set(re.findall(pattern, text, re.M)) for kind, (text, pattern) in HEADINGS.items()}
     found = [(name, *match) for name, text in TEXTS.items() for match in CITATION.findall(text)]
     assert {kind for _, kind, _ in found} == set(known)
     assert not [
@@ -59,6 +62,21 @@ def test_cited_numbers_are_headings():
         for number in numbers.split(", ")
         if number not in known[kind]
     ]
+
+
+def rows_of_decisions() -> list[str]:
+    """The row of each decision in the page that lists them."""
+    rows = []
+    for name, text in DECISIONS.items():
+        head = re.match(r"# Decision (\d+): (.+)\n\nDate: ([\d-]+)\. Status: (.+)\.\n\n", text)
+        assert head and int(head[1]) == int(name.partition("-")[0]), name
+        status = re.sub(r"\]\((?=\d)", "](decisions/", head[4])
+        rows.append(f"| [{head[1]}](decisions/{name}) {head[2]} | {head[3]} | {status} |")
+    return rows
+
+
+def test_the_page_of_decisions_has_the_date_and_status_of_each():
+    assert re.findall(r"^\| \[.*$", PAGES["decisions"], re.M) == rows_of_decisions()
 
 
 def test_no_file_cites_documents_outside():
@@ -86,13 +104,18 @@ def test_named_files_exist(page):
     assert not [name for name in NAMED_FILE.findall(PAGES[page]) if not is_tracked(name)]
 
 
-@pytest.mark.parametrize("page", CITING_TESTS)
-def test_named_tests_exist(page):
+@cache
+def cases() -> frozenset[str]:
+    """The names of all tests and of all files."""
     sources = "\n".join(text for name, text in TEXTS.items() if re.search(r"test[^/]*/.*\.(cpp|h|py)$", name))
     declared = re.findall(r"\b(?:TEST|TEST_F|TEST_P|RC_GTEST_PROP)\(\s*(\w+),\s*(\w+)", sources)
-    cases = {f"{suite}.{case}" for suite, case in declared}
-    cases |= set(re.findall(r"\bdef (test_\w+)", sources)) | {Path(name).stem for name in TEXTS}
-    assert set(NAMED_TEST.findall(CITING_TESTS[page])) <= cases
+    found = {f"{suite}.{case}" for suite, case in declared} | {Path(name).stem for name in TEXTS}
+    return frozenset(found | set(re.findall(r"\bdef (test_\w+)", sources)))
+
+
+@pytest.mark.parametrize("page", CITING_TESTS)
+def test_named_tests_exist(page):
+    assert set(NAMED_TEST.findall(CITING_TESTS[page])) <= cases()
 
 
 def rows(section: str) -> list[list[str]]:

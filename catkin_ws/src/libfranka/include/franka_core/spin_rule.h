@@ -39,7 +39,7 @@ bool hasTwoProcessors() noexcept;
 /// - a quarter of the time is lost: it was spent in waits without an answer, or the thread was
 ///   ready to run and did not.
 /// The pause is 32 times as long as the trial that led to it, so on a busy machine trials take 3 %
-/// of the time. Measurements: docs/design/decisions.md.
+/// of the time. Measurements: (decision 53).
 ///
 /// Called by one thread at a time. Real-time safe. The only system calls are those of `poll` and of
 /// the clock.
