@@ -200,7 +200,7 @@ def names_of_environment() -> Iterator[str]:
 def call_of(name: str, value: object) -> Iterator[str]:
     """The ways in which a function is called: one in Python, and in C++ one for each overload."""
     try:
-        yield re.sub(r" at 0x\w+", "", str(inspect.signature(value)))  # type: ignore[arg-type]
+        yield re.sub(r" at 0x\w+", "", str(inspect.signature(value)))
     except (TypeError, ValueError):
         for each in signatures(name.rpartition(".")[2], inspect.getdoc(value) or ""):
             yield f"({each})"
@@ -209,7 +209,7 @@ def call_of(name: str, value: object) -> Iterator[str]:
 def names_of_class(path: str, cls: type) -> Iterator[str]:
     """Public methods, properties and fields, also inherited ones, and how it is constructed."""
     yield f"python-class {path}"
-    yield from (f"python-call {path}{call}" for call in call_of("__init__", cls.__init__))  # type: ignore[misc]
+    yield from (f"python-call {path}{call}" for call in call_of("__init__", cls.__init__))
     if dataclasses.is_dataclass(cls):
         yield from (f"python-field {path}.{each.name}" for each in dataclasses.fields(cls))
     for name, value in inspect.getmembers(cls):

@@ -27,6 +27,7 @@ from tutorial import (
 SHORT = {"shell", "ci", "containers", "packages", "sim_to_real", "examples_python"}
 # Pages with commands or programs that are not typed here, and what runs them.
 ELSEWHERE = {
+    "CONTRIBUTING.md": "tests/test_entry.py and test_style.py run these commands, on small examples",
     "docs/index.md": "README.md has the same block",
     "docs/python.md": "python/test/test_sim.py, test_sweep.py and test_pytest_plugin.py run its programs",
     "docs/gym.md": "python/test/test_gym.py runs its program",
