@@ -29,6 +29,7 @@ SOURCES = Path("catkin_ws") / "src"
 NUMBERS = {"bookworm": "12", "trixie": "13"}  # of the Debian releases
 SOURCE = "franka-ros"
 META = "franka_ros"  # the ROS package that depends on all others
+OWN = "franka_sim"  # not in the place of an original: its version is that of the project
 SETUP = "ros-franka-setup"
 DEVELOPMENT = "ros-franka-dev"
 SWEEPS = "ros-franka-sweep"
@@ -96,9 +97,8 @@ class Versions:
     """
 
     def __init__(self, packages: list[RosPackage], release: str):
-        (meta,) = [package for package in packages if package.name == META]
-        self.project = f"{meta.version}~deb{NUMBERS[release]}"
-        self.own = meta.version
+        (self.own,) = [package.version for package in packages if package.name == OWN]
+        self.project = f"{self.own}~deb{NUMBERS[release]}"
 
     def of(self, package: RosPackage) -> str:
         if package.version == self.own:
@@ -306,7 +306,7 @@ def control(packages: list[RosPackage], release: str) -> str:
             {
                 "Depends": [
                     "${misc:Depends}",
-                    f"{meta.deb} (= {versions.project})",
+                    f"{meta.deb} (= {versions.of(meta)})",
                     "build-essential",
                     *builds,
                 ]
@@ -333,7 +333,7 @@ def changelog(packages: list[RosPackage], release: str, seconds: float) -> str:
     (meta,) = [package for package in packages if package.name == META]
     return (
         f"{SOURCE} ({versions.project}) {release}; urgency=medium\n\n"
-        f"  * Release {meta.version} of the project; its CHANGELOG.md has what is new.\n\n"
+        f"  * Release {versions.own} of the project; its CHANGELOG.md has what is new.\n\n"
         f" -- {meta.maintainer}  {formatdate(seconds)}\n"
     )
 

@@ -94,7 +94,7 @@ def test_each_ros_package_is_one_deb(debian, control):
 def test_versions_are_those_of_the_package_xml_files(debian, control):
     (release,) = [name for name in RELEASES if f" {name};" in (debian / "changelog").read_text()]
     number = make_source.NUMBERS[release]
-    own = ros_packages()["franka_ros"].findtext("version")
+    own = ros_packages()["franka_sim"].findtext("version")
     versions = dict(line.split() for line in (debian / "versions").read_text().splitlines())
     assert set(versions) == set(control)
     for name, root in ros_packages().items():

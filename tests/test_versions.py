@@ -12,9 +12,19 @@ TOP = Path(__file__).resolve().parent.parent
 SOURCE = TOP / "catkin_ws" / "src"
 
 # Packages that replace an original have the version of the original whose interface they have:
-# CMake and package.xml of other packages may ask for it (find_package(Franka 0.9), version_gte).
+# CMake and package.xml of other packages may require it by find_package(Franka 0.9) or version_gte.
 ORIGINALS = {
     "libfranka": "0.9.2",
+    # franka_ros
+    "franka_control": "0.10.2",
+    "franka_description": "0.10.2",
+    "franka_example_controllers": "0.10.2",
+    "franka_gazebo": "0.10.2",
+    "franka_gripper": "0.10.2",
+    "franka_hw": "0.10.2",
+    "franka_msgs": "0.10.2",
+    "franka_ros": "0.10.2",
+    "franka_visualization": "0.10.2",
     "xacro": "2.1.1",
     "control_msgs": "1.5.2",
     "control_toolbox": "1.19.0",
@@ -49,7 +59,7 @@ def versions() -> dict[str, str]:
     return {root.findtext("name"): root.findtext("version") for root in roots}
 
 
-RELEASE = versions()["franka_ros"]
+RELEASE = versions()["franka_sim"]
 
 
 @pytest.mark.parametrize("package, version", sorted(versions().items()))
