@@ -51,7 +51,7 @@ CONSTANTS = [
     # Control
     ("null space # Nm/rad", f"{ROBOT}/laws/control_laws.cpp", "kNullspace = #;", 1),
     ("fades at # Nm/s", f"{ROBOT}/laws/control_laws.cpp", "kStep = # * kTick;", 1),
-    ("then, for # s", f"{ROBOT}/motion/motion_generator.cpp", "kYieldTicks = #;", 1e-3),
+    ("then, for # s", f"{ROBOT}/motion/rest_sequence.cpp", "kYieldTicks = #;", 1e-3),
     ("# N/m, ", f"{ROBOT}/laws/control_laws.cpp", "kGuidingTranslation = #;", 1),
     ("locked elbow with # Nm/rad", f"{ROBOT}/laws/control_laws.cpp", "kGuidingNullspace = #;", 1),
     ("up to # s", f"{ROBOT}/safety/safety_monitor.h", "kPatience = #;", 1e-3),

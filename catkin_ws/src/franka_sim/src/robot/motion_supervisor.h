@@ -13,7 +13,9 @@
 #include "robot/estimator/state_estimator.h"
 #include "robot/laws/control_laws.h"
 #include "robot/mode_machine.h"
+#include "robot/motion/command_filter.h"
 #include "robot/motion/motion_generator.h"
+#include "robot/motion/rest_sequence.h"
 #include "robot/safety/safety_monitor.h"
 
 namespace franka_sim {

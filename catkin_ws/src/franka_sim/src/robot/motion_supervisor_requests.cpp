@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "robot/motion/cartesian_motion.h"
+#include "robot/motion/inverse_kinematics.h"
 #include "robot/motion_supervisor.h"
 #include "robot/transforms.h"
 

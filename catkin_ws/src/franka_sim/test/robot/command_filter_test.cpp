@@ -1,11 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Low-pass filters of commands.
+#include "robot/motion/command_filter.h"
+
+#include <franka_core/arm_model.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
-
-#include "robot/motion/motion_generator.h"
 
 namespace franka_sim::test {
 

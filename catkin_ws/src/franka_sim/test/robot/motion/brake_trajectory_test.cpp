@@ -1,13 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // How the desired motion brakes, and yields after a reflex.
+#include "robot/motion/brake_trajectory.h"
+
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "motion_fixture.h"
-#include "robot/motion/motion_generator.h"
+#include "robot/motion/rest_sequence.h"
 
 namespace franka_sim::test {
 

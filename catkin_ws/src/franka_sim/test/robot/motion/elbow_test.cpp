@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "motion_fixture.h"
+#include "robot/motion/joint_motion.h"
 #include "robot/motion/motion_generator.h"
 #include "robot/transforms.h"
 

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Inverse kinematics against the forward kinematics of ArmModel, and its behavior near
 // singularities.
+#include "robot/motion/inverse_kinematics.h"
+
 #include <gtest/gtest.h>
 
 #include <Eigen/SVD>
@@ -10,7 +12,6 @@
 #include <random>
 
 #include "motion_fixture.h"
-#include "robot/motion/cartesian_motion.h"
 
 namespace franka_sim::test {
 
