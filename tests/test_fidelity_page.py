@@ -31,7 +31,7 @@ CONSTANTS = [
     ("q + tau_J/#, dq + dtau_J/#", f"{ROBOT}/estimator/state_estimator.cpp", "kJointElasticity = #;", 1),
     ("without gravity; # in Idle", f"{ROBOT}/motion_supervisor.cpp", "state_->tau_J_d.fill(#);", 1),
     ("singular value is below #", f"{ROBOT}/estimator/state_estimator.cpp", "kMinSingularValue = #;", 1),
-    ("the last # commands", f"{ROBOT}/safety/safety_monitor.h", "kSlots = #;", 1),
+    ("the last # commands", f"{ROBOT}/safety/command_window.h", "kSlots = #;", 1),
     (
         "shows #, #, #, #, #, # and # Nm",
         "franka_sim/src/physics/physics_config.cpp",
@@ -54,11 +54,11 @@ CONSTANTS = [
     ("then, for # s", f"{ROBOT}/motion/rest_sequence.cpp", "kYieldTicks = #;", 1e-3),
     ("# N/m, ", f"{ROBOT}/laws/control_laws.cpp", "kGuidingTranslation = #;", 1),
     ("locked elbow with # Nm/rad", f"{ROBOT}/laws/control_laws.cpp", "kGuidingNullspace = #;", 1),
-    ("up to # s", f"{ROBOT}/safety/safety_monitor.h", "kPatience = #;", 1e-3),
-    ("# lost in a row", f"{ROBOT}/safety/safety_monitor.h", "kLostInARow = #;", 1),
+    ("up to # s", f"{ROBOT}/safety/loss_monitor.h", "kPatience = #;", 1e-3),
+    ("# lost in a row", f"{ROBOT}/safety/loss_monitor.h", "kLostInARow = #;", 1),
     # Errors
     ("# rad beyond the limits", f"{ROBOT}/limits.cpp", "kPositionMargin = #;", 1),
-    ("more than # Nm for", f"{ROBOT}/safety/safety_monitor.cpp", "kTolerance = #;", 1),
+    ("more than # Nm for", f"{ROBOT}/safety/force_watch.cpp", "kTorqueTolerance = #;", 1),
     ("above # W", f"{HEADERS}/limits.h", "kPowerLimit = #;", 1),
     ("# times the motors'", f"{ROBOT}/limits.cpp", "kTorqueMargin = #;", 1),
     ("# times the joints' jerk", f"{ROBOT}/motion/joint_motion.cpp", "kSolvedJerkFactor = #;", 1),

@@ -16,7 +16,10 @@
 #include "robot/motion/command_filter.h"
 #include "robot/motion/motion_generator.h"
 #include "robot/motion/rest_sequence.h"
+#include "robot/safety/loss_monitor.h"
 #include "robot/safety/safety_monitor.h"
+#include "robot/safety/threshold_phase.h"
+#include "robot/safety/virtual_walls.h"
 
 namespace franka_sim {
 

@@ -5,7 +5,7 @@
 
 #include <vector>
 
-#include "robot/safety/safety_monitor.h"
+#include "robot/safety/command_window.h"
 
 namespace franka_sim {
 namespace {

@@ -7,6 +7,7 @@
 #include "fci_fixture.h"
 #include "robot/mode_machine.h"
 #include "robot/motion_supervisor.h"
+#include "robot/safety/virtual_walls.h"
 
 namespace franka_sim::test {
 

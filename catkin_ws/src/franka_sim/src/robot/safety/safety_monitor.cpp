@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/safety/safety_monitor.h"
 
-#include <franka_core/transform.h>
-#include <franka_sim/robot/limits.h>
-
-#include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -14,95 +10,9 @@
 
 namespace franka_sim {
 
-using franka_core::RobotError;
-
-namespace {
-
-// Chosen here (see ForceWatch): no rule is published.
-constexpr double kTolerance = 10.0;  // [Nm]
-constexpr int kPatience = 100;       // [ticks]
-
-}  // namespace
-
-ErrorSet ForceWatch::update(const std::array<double, 7>& tau_ext,
-                            const std::array<double, 7>& achieved,
-                            const std::array<double, 7>& desired,
-                            const std::array<double, 7>& range) noexcept {
-  bool beyond = false;
-  bool misses = false;
-  for (std::size_t i = 0; i < 7; i++) {
-    beyond |= std::abs(tau_ext[i]) > range[i];
-    misses |= std::abs(achieved[i] - desired[i]) > kTolerance;
-  }
-  missed_ = misses ? missed_ + 1 : 0;
-  ErrorSet errors;
-  errors.addIf(beyond, RobotError::kForceControlSafetyViolation);
-  errors.addIf(missed_ >= kPatience, RobotError::kForceControllerDesiredForceToleranceViolation);
-  return errors;
-}
-
-using franka_core::fci::CartesianLimit;
-
-namespace {
-
-constexpr double kDepthJitter = 1e-4;  // [m], chosen here: allowed growth of the depth at rest
-
-}  // namespace
-
-bool VirtualWalls::set(std::int32_t id, const CartesianLimit& wall) noexcept {
-  const bool sensible =
-      std::all_of(wall.object_world_size.begin(), wall.object_world_size.end(),
-                  [](double edge) { return std::isfinite(edge) && edge >= 0.0; }) &&
-      franka_core::isRigidTransform(wall.object_frame);
-  if (get(id) == nullptr || !sensible) {
-    return false;
-  }
-  walls_[static_cast<std::size_t>(id)] = wall;
-  return true;
-}
-
-const CartesianLimit* VirtualWalls::get(std::int32_t id) const noexcept {
-  return id >= 0 && static_cast<std::size_t>(id) < kCount ? &walls_[static_cast<std::size_t>(id)]
-                                                          : nullptr;
-}
-
-// Depth inside; 0 or less outside.
-double VirtualWalls::depth(const CartesianLimit& wall,
-                           const std::array<double, 16>& O_T_EE) noexcept {
-  const Eigen::Map<const Eigen::Matrix4d> frame(wall.object_frame.data());
-  const Eigen::Vector3d away(O_T_EE[12] - frame(0, 3), O_T_EE[13] - frame(1, 3),
-                             O_T_EE[14] - frame(2, 3));
-  const Eigen::Vector3d inside = frame.topLeftCorner<3, 3>().transpose() * away;
-  double depth = 0.5 * wall.object_world_size[0] - std::abs(inside[0]);
-  for (int i = 1; i < 3; i++) {
-    depth = std::min(
-        depth, 0.5 * wall.object_world_size[static_cast<std::size_t>(i)] - std::abs(inside[i]));
-  }
-  return depth;
-}
-
-void VirtualWalls::begin(const std::array<double, 16>& O_T_EE) noexcept {
-  for (std::size_t i = 0; i < kCount; i++) {
-    allowed_[i] = walls_[i].active ? std::max(0.0, depth(walls_[i], O_T_EE) + kDepthJitter) : 0.0;
-  }
-}
-
-bool VirtualWalls::violated(const std::array<double, 16>& O_T_EE) noexcept {
-  for (std::size_t i = 0; i < kCount; i++) {
-    if (!walls_[i].active) {
-      continue;
-    }
-    const double now = depth(walls_[i], O_T_EE);
-    if (now > allowed_[i]) {
-      return true;
-    }
-    allowed_[i] = std::max(0.0, std::min(allowed_[i], now + kDepthJitter));
-  }
-  return false;
-}
-
 using franka_core::ControllerMode;
 using franka_core::MotionGeneratorMode;
+using franka_core::RobotError;
 
 namespace {
 
@@ -168,40 +78,6 @@ bool SafetyMonitor::movesAgainstProfile(const franka_core::fci::MoveRequest& mot
   const std::array<double, 6>& desired = state_->O_dP_EE_d;
   return cartesian && std::hypot(measured[0] - desired[0], measured[1] - desired[1],
                                  measured[2] - desired[2]) > limits.arm.translation.velocity;
-}
-
-void CommandWindow::record(bool received) noexcept {
-  received_[next_] = received;
-  next_ = (next_ + 1) % kSlots;
-  if (seen_ < kSlots) {
-    seen_++;
-  }
-}
-
-double CommandWindow::rate() const noexcept {
-  return seen_ == 0 ? 0.0 : static_cast<double>(received_.count()) / static_cast<double>(seen_);
-}
-
-void CommandWindow::clear() noexcept {
-  received_.reset();
-  next_ = 0;
-  seen_ = 0;
-}
-
-bool LossMonitor::record(bool received, int patience) noexcept {
-  begun_ = begun_ || received;
-  lost_ = received ? 0 : lost_ + 1;
-  if (!begun_) {
-    return lost_ >= patience;
-  }
-  window_.record(received);
-  return lost_ >= kLostInARow;
-}
-
-void LossMonitor::restart() noexcept {
-  window_.clear();
-  lost_ = 0;
-  begun_ = false;
 }
 
 }  // namespace franka_sim

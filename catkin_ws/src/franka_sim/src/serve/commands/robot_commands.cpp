@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "robot/safety/safety_monitor.h"
+#include "robot/safety/virtual_walls.h"
 #include "serve/commands/command_groups.h"
 #include "serve/operator_switches.h"
 
