@@ -10,6 +10,7 @@
 
 #include "fci_fixture.h"
 #include "robot/configuration.h"
+#include "robot/estimator/estimate.h"
 #include "robot/estimator/state_estimator.h"
 
 namespace franka_sim::test {

@@ -6,7 +6,9 @@
 #include <array>
 
 #include "fci_fixture.h"
-#include "robot/estimator/state_estimator.h"
+#include "robot/estimator/contact_monitor.h"
+#include "robot/estimator/external_wrench.h"
+#include "robot/estimator/link_accelerations.h"
 #include "robot/transforms.h"
 
 namespace franka_sim::test {

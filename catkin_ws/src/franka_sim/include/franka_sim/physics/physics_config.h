@@ -7,6 +7,7 @@
 #include <franka_sim/robot/hands/gripper_unit.h>
 #include <franka_sim/robot/plant.h>
 #include <franka_sim/robot/realism.h>
+#include <franka_sim/robot/sensor_physics.h>
 
 #include <array>
 #include <cmath>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
-#include <franka_sim/robot/realism.h>
+#include <franka_sim/robot/sensor_physics.h>
 
 #include <array>
 #include <cmath>

@@ -8,7 +8,7 @@
 #include <array>
 
 #include "robot/configuration.h"
-#include "robot/estimator/state_estimator.h"
+#include "robot/estimator/estimate.h"
 #include "robot/transforms.h"
 
 namespace franka_sim {
