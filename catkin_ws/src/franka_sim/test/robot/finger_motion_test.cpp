@@ -1,7 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The hand's fingers: their ramp, their force, and when they stand still.
-#include <franka_sim/robot/hands/gripper_unit.h>
+#include <franka_sim/robot/hands/finger_force.h>
+#include <franka_sim/robot/hands/standstill.h>
+#include <franka_sim/robot/hands/ticket_log.h>
+#include <franka_sim/robot/hands/width_ramp.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -2,137 +2,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim/robot/hands/finger_force.h>
+#include <franka_sim/robot/hands/standstill.h>
+#include <franka_sim/robot/hands/ticket_log.h>
+#include <franka_sim/robot/hands/width_ramp.h>
 #include <franka_sim/robot/plant.h>
 
 #include <array>
-#include <cstddef>
-#include <cstdint>
 
 namespace franka_sim {
-
-/// Outcome of a gripper command.
-enum class GripperOutcome {
-  kRunning,
-  kSucceeded,  ///< arrived, or holds an object within the epsilons
-  kFailed,  ///< refused, or ended at another width than commanded (obstacle, no object or another
-            ///< one grasped)
-  kInterrupted,  ///< another command or stop() came first
-};
-
-/// Numbers commands and stores the outcomes of the last ones. At most one runs at a time: opening a
-/// new one interrupts it. Called by one thread. Real-time safe.
-class TicketLog {
- public:
-  using Ticket = std::uint64_t;
-  static constexpr std::size_t kRemembered = 16;
-
-  TicketLog() = default;
-  TicketLog(const TicketLog&) = default;
-  /// Takes over the outcomes of an earlier state of this log. Commands that were given since count
-  /// as interrupted, and their numbers are not given again.
-  TicketLog& operator=(const TicketLog& other) noexcept;
-  ~TicketLog() = default;
-
-  Ticket open() noexcept;
-  /// Ends the running command, if any.
-  void close(GripperOutcome outcome) noexcept;
-  /// Whether a command runs.
-  bool isOpen() const noexcept { return outcome(last_) == GripperOutcome::kRunning; }
-  /// Call after the log of another hand was taken over: commands that this hand was given before
-  /// count as interrupted; the last one of the other hand gets a number that this log has not
-  /// given.
-  void renumber() noexcept;
-  /// kFailed for 0 and for unknown numbers; kInterrupted for those no longer stored.
-  GripperOutcome outcome(Ticket ticket) const noexcept;
-
- private:
-  struct Entry {
-    Ticket ticket{0};
-    GripperOutcome outcome{GripperOutcome::kRunning};
-  };
-
-  Entry& entry(Ticket ticket) noexcept { return entries_[ticket % kRemembered]; }
-
-  Ticket last_{0};    ///< of the command that was given last
-  Ticket issued_{0};  ///< the largest number that was given
-  std::array<Entry, kRemembered> entries_{};
-};
-
-/// Whether a commanded motion has come to rest: enough consecutive samples below a threshold.
-/// Samples count after the first motion or, if nothing can move, after 0.2 s (decision 29): at the
-/// start everything still rests. Called by one thread. Real-time safe.
-class Standstill {
- public:
-  explicit Standstill(int samples) noexcept : samples_(samples) {}
-
-  /// A new motion begins.
-  void restart() noexcept;
-  /// Samples count from now on, with or without motion.
-  void countFromNow() noexcept { counting_ = true; }
-  /// One tick. @param speed, threshold in the same unit @param period [s] @param commanded whether
-  /// a motion can already be the response to the command @returns whether it rests.
-  bool update(double speed, double threshold, double period, bool commanded = true) noexcept;
-
- private:
-  int samples_;
-  int below_{0};
-  double elapsed_{0.0};
-  bool counting_{false};
-};
-
-/// Proportional, integral, derivative gains of one finger [N/m, N/(m s), N s/m].
-struct FingerGains {
-  double p{100.0}, i{0.0}, d{1.0};
-};
-
-/// Force law of one finger that follows a desired position: PID on the position with the derivative
-/// taken of the speeds, plus the drive's own damping about the desired speed.
-/// With the manual's gains (100, 0, 1) alone a finger with its drive's inertia oscillates for half
-/// a second, at a seventh of critical damping; a real hand does not. Called by one thread.
-/// Real-time safe.
-class FingerForce {
- public:
-  /// [N s/m], chosen here: at or above critical for moving finger masses up to 0.16 kg at p = 100
-  /// N/m, and stable at 1 kHz from 0.01 kg on.
-  static constexpr double kDriveDamping = 7.0;
-
-  explicit FingerForce(const FingerGains& gains) noexcept : gains_(gains) {}
-
-  /// @param error q_d - q [m] @param rate_error dq_d - dq [m/s] @param period [s] @returns [N]
-  double update(double error, double rate_error, double period) noexcept;
-  /// Resets the integral.
-  void restart() noexcept { integral_ = 0.0; }
-
-  const FingerGains& gains() const noexcept { return gains_; }
-
- private:
-  FingerGains gains_;
-  double integral_{0.0};  // the integral term itself [N]
-};
-
-/// The desired width of a hand on its way to a target: accelerates and brakes at a constant rate,
-/// so that the fingers neither jerk nor overshoot. Widths [m], speeds of the width [m/s]. Called by
-/// one thread. Real-time safe.
-class WidthRamp {
- public:
-  /// Starts at rest at `width`. @param speed not negative; with zero it never arrives.
-  void start(double width, double target, double speed) noexcept;
-  /// Rests at a width.
-  void hold(double width) noexcept { start(width, width, 0.0); }
-  /// One tick. @param period [s]
-  void step(double period) noexcept;
-
-  double width() const noexcept { return width_; }
-  double target() const noexcept { return target_; }
-  double velocity() const noexcept { return velocity_; }
-  bool arrived() const noexcept { return width_ == target_; }
-
- private:
-  double width_{0.0};
-  double target_{0.0};
-  double speed_{0.0};
-  double velocity_{0.0};
-};
 
 /// Delays of a hand's commands, in addition to the motion of the fingers.
 struct GripperLatency {
@@ -167,7 +45,7 @@ enum class GripperState { kIdle, kHolding, kMoving, kGrasping };
 /// Idle keeps the fingers where the last command left them, by the position gains alone. A grasp
 /// approaches at its speed until the fingers stand still, then presses (the force rises within 0.05
 /// s and centers a loose object) and checks the width once they stand still under full force. A
-/// hold keeps pressing even if the object is lost; `isGrasped` shows the loss. Until a command
+/// hold keeps pressing even if the object is lost; `isGrasped` then returns false. Until a command
 /// begins, which takes the latency, a hand holds what it held before.
 class GripperUnit {
  public:
@@ -196,8 +74,8 @@ class GripperUnit {
   /// As last measured [m].
   double width() const noexcept { return measured_.q[0] + measured_.q[1]; }
   double maxWidth() const noexcept { return parameters_.max_width; }  ///< [m]
-  bool isGrasped()
-      const noexcept;  ///< whether an object is held within the epsilons of the last grasp
+  /// Whether an object is held within the epsilons of the last grasp.
+  bool isGrasped() const noexcept;
   /// Whether a command runs, or waits for its latency.
   bool isBusy() const noexcept { return tickets_.isOpen(); }
   /// Whether the widths are known: from the start on, and after invalidateHoming() again once a

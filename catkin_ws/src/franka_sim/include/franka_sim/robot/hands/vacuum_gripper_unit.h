@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/robot/hands/gripper_unit.h>
+#include <franka_sim/robot/hands/ticket_log.h>
 
 #include <cstdint>
 
