@@ -63,8 +63,8 @@ CONSTANTS = [
     ("# times the motors'", f"{ROBOT}/limits.cpp", "kTorqueMargin = #;", 1),
     ("# times the joints' jerk", f"{ROBOT}/motion/joint_motion.cpp", "kSolvedJerkFactor = #;", 1),
     ("been slower than # rad/s", f"{ROBOT}/motion_supervisor.cpp", "kStandstill = #;", 1),
-    ("for # ms, so that", f"{ROBOT}/motion_supervisor.cpp", "kRestingTicks = #;", 1),
-    ("or after # s in which", f"{ROBOT}/motion_supervisor.cpp", "kClosingTicks = #;", 1e-3),
+    ("for # ms, so that", f"{ROBOT}/safety/joint_brakes.cpp", "kRestingTicks = #;", 1),
+    ("or after # s in which", f"{ROBOT}/safety/joint_brakes.cpp", "kClosingTicks = #;", 1e-3),
     # Commands
     ("# degrees Celsius at rest", f"{HEADERS}/hands/gripper_unit.h", "room_temperature{#};", 1),
     ("time constant of # s", f"{HEADERS}/hands/gripper_unit.h", "temperature_time{#};", 1),

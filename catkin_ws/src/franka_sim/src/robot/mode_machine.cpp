@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot/mode_machine.h"
 
-#include <utility>
-
 namespace franka_sim {
 
 using franka_core::RobotMode;
@@ -62,43 +60,6 @@ bool ModeMachine::handle(ModeEvent event) noexcept {
 
 bool ModeMachine::closesBrakes() const noexcept {
   return mode_ == RobotMode::kUserStopped || mode_ == RobotMode::kOther;
-}
-
-std::optional<Status> PendingAnswers::take(PendingAnswer which) noexcept {
-  switch (which) {
-    case PendingAnswer::kMotion:
-      return std::exchange(motion_, std::nullopt);
-    case PendingAnswer::kStop:
-      return std::exchange(stop_, std::nullopt);
-    case PendingAnswer::kRecovery:
-      return std::exchange(recovery_, std::nullopt);
-  }
-  return std::nullopt;
-}
-
-void PendingAnswers::stopBegins() noexcept {
-  stop_.reset();
-  stopping_ = true;
-}
-
-void PendingAnswers::interruptMotion(Status status) noexcept {
-  if (motion_at_rest_) {
-    motion_ = motion_at_rest_ == Status::kSuccess ? status : motion_at_rest_;
-    motion_at_rest_.reset();
-  }
-}
-
-void PendingAnswers::interruptStop(Status status) noexcept {
-  if (std::exchange(stopping_, false)) {
-    stop_ = status;
-  }
-}
-
-void PendingAnswers::atRest() noexcept {
-  if (motion_at_rest_) {
-    motion_ = std::exchange(motion_at_rest_, std::nullopt);
-  }
-  interruptStop(Status::kSuccess);
 }
 
 }  // namespace franka_sim

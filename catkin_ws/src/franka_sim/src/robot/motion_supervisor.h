@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/fci/commands.h>
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/fixed_pointer.h>
@@ -13,108 +14,15 @@
 #include "robot/estimator/state_estimator.h"
 #include "robot/laws/control_laws.h"
 #include "robot/mode_machine.h"
-#include "robot/motion/command_filter.h"
-#include "robot/motion/motion_generator.h"
+#include "robot/motion/client_motion.h"
+#include "robot/motion/desired_state.h"
 #include "robot/motion/rest_sequence.h"
-#include "robot/safety/loss_monitor.h"
+#include "robot/pending_answers.h"
+#include "robot/safety/joint_brakes.h"
 #include "robot/safety/safety_monitor.h"
 #include "robot/safety/threshold_phase.h"
-#include "robot/safety/virtual_walls.h"
 
 namespace franka_sim {
-
-/// The desired motion in the robot's state: q_d, O_T_EE_d, elbow_d and so on. Called by one thread.
-/// Real-time safe.
-class DesiredState {
- public:
-  /// @param state outlives this.
-  explicit DesiredState(franka_core::RobotState& state) noexcept : state_(&state) {}
-
-  /// Sets the joints [rad, rad/s, rad/s^2]; the next update() computes the other fields.
-  void set(const std::array<double, 7>& q_d, const std::array<double, 7>& dq_d,
-           const std::array<double, 7>& ddq_d) noexcept;
-  /// Sets all fields.
-  void set(const DesiredMotion& desired) noexcept;
-  /// Frames or loads have changed.
-  void invalidate() noexcept { stale_ = true; }
-  /// Computes the other fields again if the joints or frames have changed.
-  void update(const franka_core::ArmModel& model) noexcept;
-
- private:
-  FixedPointer<franka_core::RobotState> state_;
-  bool stale_{true};
-};
-
-/// A motion that a client commands: the Move request, its generator, filters and torques, and the
-/// count of its commands. Called by one thread. Real-time safe.
-class ClientMotion {
- public:
-  /// @param max_torque of the motors [Nm]
-  ClientMotion(const MotionLimits& limits, const std::array<double, 7>& max_torque) noexcept
-      : generator_(limits), torque_(max_torque) {}
-
-  /// Starts the generator, if the request has one. Nothing changes if that is refused.
-  /// @param continued whether it may also start at a singular pose
-  MotionStartResult start(const franka_core::fci::MoveRequest& request, bool continued,
-                          const franka_core::RobotState& state,
-                          const franka_core::ArmModel& model) noexcept;
-  /// Filters begin at the desired motion of the state.
-  void beginFilters(const franka_core::RobotState& state) noexcept { filter_.begin(state); }
-
-  struct Step {
-    ErrorSet errors;
-    bool generated{false};  ///< desired() is new
-    bool finished{false};   ///< by the client
-  };
-  /// One tick. @param command nullptr if none arrived @param reflexes whether lost commands and
-  /// steps of torque are errors; without them, commands with torques that are not finite are lost
-  Step step(const franka_core::RobotCommand* command, bool reflexes,
-            const franka_core::ArmModel& model) noexcept;
-
-  /// The client is lost: from now on, missing commands count.
-  void clientIsLost() noexcept { request_.use_async_motion_generator = false; }
-  /// Torques and counts belong to one motion.
-  void clear() noexcept;
-  /// From the next motion on.
-  void setLimits(const MotionLimits& limits) noexcept { generator_ = MotionGenerator(limits); }
-  CommandFilter& filter() noexcept { return filter_; }
-
-  const franka_core::fci::MoveRequest& request() const noexcept { return request_; }
-  bool hasGenerator() const noexcept;
-  bool hasExternalController() const noexcept;
-  const DesiredMotion& desired() const noexcept { return generator_.desired(); }
-  const std::array<double, 7>& torque() const noexcept { return torque_.value(); }  ///< [Nm]
-  double successRate() const noexcept { return losses_.rate(); }
-  const MotionLimits& limits() const noexcept { return generator_.limits(); }
-
- private:
-  franka_core::fci::MoveRequest request_;
-  MotionGenerator generator_;
-  CommandFilter filter_;
-  TorqueCommand torque_;
-  LossMonitor losses_;
-};
-
-/// The joints' brakes, which close on an arm that has come to rest (a stop of category 1,
-/// IEC 60204-1). Called by one thread. Real-time safe.
-class JointBrakes {
- public:
-  bool closed() const noexcept { return closed_; }
-  void open() noexcept { closed_ = false; }
-  /// Begins to close them: at once if the arm rests.
-  void close(bool rests) noexcept;
-  /// One tick of an arm that is to come to rest. @returns whether it has been resting for a while
-  bool hasComeToRest(bool rests) noexcept;
-  /// One tick of brakes that wait for the arm, which no longer brakes by its motors.
-  void step(bool rests) noexcept;
-  /// Begins to count again. @param closed whether the brakes are closed
-  void restart(bool closed) noexcept;
-
- private:
-  bool closed_{false};
-  int ticks_{0};          // since the end of braking
-  int resting_ticks_{0};  // in a row
-};
 
 /// Controls modes, motions and their commands, stops, reflexes and recovery. Writes the modes,
 /// errors and desired fields of the robot's state.

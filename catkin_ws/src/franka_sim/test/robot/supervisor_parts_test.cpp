@@ -5,8 +5,8 @@
 #include <random>
 
 #include "fci_fixture.h"
-#include "robot/mode_machine.h"
 #include "robot/motion_supervisor.h"
+#include "robot/pending_answers.h"
 #include "robot/safety/virtual_walls.h"
 
 namespace franka_sim::test {
