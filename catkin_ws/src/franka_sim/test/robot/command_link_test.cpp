@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/robot/whole_robot.h>
+#include <franka_sim/robot/command_link.h>
 #include <gtest/gtest.h>
 
 #include <vector>

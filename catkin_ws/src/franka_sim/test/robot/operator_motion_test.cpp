@@ -3,7 +3,7 @@
 //
 // Motions by the operator: they reach what they accept, also at the ends of an FR3's joints, and
 // report an arrival only there.
-#include <franka_sim/robot/whole_robot.h>
+#include <franka_sim/robot/motion/operator_motion.h>
 
 #include <array>
 #include <cmath>

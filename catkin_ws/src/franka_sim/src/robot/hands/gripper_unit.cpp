@@ -12,6 +12,9 @@ namespace franka_sim {
 
 namespace {
 
+// Force laws of the fingers: gains of the original's FrankaGripperSim (decision 29).
+constexpr FingerGains kFingerGains{100.0, 0.0, 1.0};
+
 constexpr double kForceRise = 0.05;  // [s] until a grasp reaches its full force (chosen here)
 /// Allowed lead of the desired width [m]; beyond it, fingers at standstill mean an obstacle (chosen
 /// here: free fingers follow much earlier).
@@ -59,6 +62,13 @@ const GripperParameters& checked(const GripperParameters& parameters) {
 }
 
 }  // namespace
+
+GripperParameters handParameters(const GripperLatency& latency) {
+  GripperParameters parameters;
+  parameters.gains = {kFingerGains, kFingerGains};
+  parameters.latency = latency;
+  return parameters;
+}
 
 GripperUnit::GripperUnit(const GripperParameters& parameters)
     : parameters_(checked(parameters)),

@@ -34,6 +34,9 @@ struct GripperParameters {
   GripperLatency latency;          ///< of homing, move and grasp; stop acts at once
 };
 
+/// Parameters of a Franka hand behind its own interface.
+GripperParameters handParameters(const GripperLatency& latency);
+
 enum class GripperState { kIdle, kHolding, kMoving, kGrasping };
 
 /// The hand's controller: state machine and force law behind both interfaces (FCI and ROS), stepped
