@@ -57,10 +57,10 @@ CONSTANTS = [
     ("up to # s", f"{ROBOT}/safety/loss_monitor.h", "kPatience = #;", 1e-3),
     ("# lost in a row", f"{ROBOT}/safety/loss_monitor.h", "kLostInARow = #;", 1),
     # Errors
-    ("# rad beyond the limits", f"{ROBOT}/limits.cpp", "kPositionMargin = #;", 1),
+    ("# rad beyond the limits", f"{ROBOT}/limits/measured_limits.cpp", "kPositionMargin = #;", 1),
     ("more than # Nm for", f"{ROBOT}/safety/force_watch.cpp", "kTorqueTolerance = #;", 1),
-    ("above # W", f"{HEADERS}/limits.h", "kPowerLimit = #;", 1),
-    ("# times the motors'", f"{ROBOT}/limits.cpp", "kTorqueMargin = #;", 1),
+    ("above # W", f"{ROBOT}/limits/measured_limits.h", "kPowerLimit = #;", 1),
+    ("# times the motors'", f"{ROBOT}/limits/measured_limits.cpp", "kTorqueMargin = #;", 1),
     ("# times the joints' jerk", f"{ROBOT}/motion/joint_motion.cpp", "kSolvedJerkFactor = #;", 1),
     ("been slower than # rad/s", f"{ROBOT}/motion_supervisor.cpp", "kStandstill = #;", 1),
     ("for # ms, so that", f"{ROBOT}/safety/joint_brakes.cpp", "kRestingTicks = #;", 1),

@@ -5,6 +5,7 @@
 /// Commands of controllers on their way to the control unit.
 
 #include <franka/rate_limiting.h>
+#include <franka_core/motion_limits.h>
 #include <franka_sim/robot/plant.h>
 #include <franka_sim_mujoco/command_shaper.h>
 #include <franka_sim_mujoco/sim_arm.h>
@@ -21,8 +22,8 @@
 namespace franka_sim_mujoco {
 namespace {
 
-franka_sim::MotionLimits limitsOf(unsigned protocol) {
-  return franka_sim::motionLimitsOfProtocol(protocol);
+franka_core::MotionLimits limitsOf(unsigned protocol) {
+  return franka_core::motionLimitsOfProtocol(protocol);
 }
 
 TEST(CommandShaper, PassesCommandsWithinTheLimits) {
@@ -147,7 +148,7 @@ TEST(CommandShaper, PassesCommandsUnshapedIfTheStateIsNotFinite) {
 class ShapedMotion : public testing::TestWithParam<unsigned> {};
 
 TEST_P(ShapedMotion, IsNeverRefused) {
-  const franka_sim::MotionLimits limits = limitsOf(GetParam());
+  const franka_core::MotionLimits limits = limitsOf(GetParam());
   for (const double cutoff : {100.0, 1000.0}) {
     ShapingOptions options;
     options.cutoff_frequency = cutoff;
@@ -189,7 +190,7 @@ double limitedAsInTheOriginal(double position, double last, double velocity, dou
 class ShapedSetpoints : public testing::TestWithParam<double> {};
 
 TEST_P(ShapedSetpoints, MoveTheArmAsTheLimiterOfTheOriginal) {
-  const franka_sim::MotionLimits limits = limitsOf(5);
+  const franka_core::MotionLimits limits = limitsOf(5);
   const double cutoff = GetParam();
   ShapingOptions options;
   options.cutoff_frequency = cutoff;
@@ -234,7 +235,7 @@ INSTANTIATE_TEST_SUITE_P(CutoffFrequencies, ShapedSetpoints,
 class ShapedMotionToTheEnds : public testing::TestWithParam<unsigned> {};
 
 TEST_P(ShapedMotionToTheEnds, ComesToRestWithoutRefusal) {
-  const franka_sim::MotionLimits limits = limitsOf(GetParam());
+  const franka_core::MotionLimits limits = limitsOf(GetParam());
   for (const double towards : {-20.0, 20.0}) {
     ShapingOptions options;
     options.cutoff_frequency = 1000.0;
@@ -275,7 +276,7 @@ class ShapedElbow : public testing::TestWithParam<unsigned> {};
 TEST_P(ShapedElbow, ReachesTheAccelerationLimitWithoutExceedingTheJerkLimit) {
   using franka_hw::ControlMode;
   using franka_sim::kTick;
-  const franka_sim::MotionLimits limits = limitsOf(GetParam());
+  const franka_core::MotionLimits limits = limitsOf(GetParam());
   const auto& [velocity, acceleration, jerk] = limits.arm.elbow;
   for (const ControlMode mode : {ControlMode::CartesianPose, ControlMode::CartesianVelocity}) {
     ShapingOptions options;

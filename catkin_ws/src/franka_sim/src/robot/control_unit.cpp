@@ -157,7 +157,9 @@ const ControlUnitParameters& ControlUnit::configuration() const noexcept {
   return parts_->configuration.parameters();
 }
 
-const MotionLimits& ControlUnit::limits() const noexcept { return parts_->supervisor.limits(); }
+const franka_core::MotionLimits& ControlUnit::limits() const noexcept {
+  return parts_->supervisor.limits();
+}
 
 const codec::CartesianLimit* ControlUnit::virtualWall(std::int32_t id) const noexcept {
   return parts_->supervisor.walls().get(id);

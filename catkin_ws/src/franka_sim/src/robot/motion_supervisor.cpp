@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "robot/transforms.h"
+#include "robot/limits/deviation.h"
 
 namespace franka_sim {
 
@@ -30,7 +30,7 @@ MotionSupervisor::MotionSupervisor(const Configuration& configuration, StateEsti
       estimator_(&estimator),
       state_(&state),
       safety_(configuration, estimator, state),
-      motion_(motionLimitsOfProtocol(configuration.parameters().protocol_version),
+      motion_(franka_core::motionLimitsOfProtocol(configuration.parameters().protocol_version),
               configuration.parameters().max_torque),
       desired_(state) {
   writeModes();

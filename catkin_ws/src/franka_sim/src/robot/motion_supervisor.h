@@ -79,7 +79,7 @@ class MotionSupervisor {
   bool acceptsSetters() const noexcept;
   bool brakesClosed() const noexcept { return brakes_.closed(); }
   UnitStatus status() const noexcept;
-  const MotionLimits& limits() const noexcept { return motion_.limits(); }
+  const franka_core::MotionLimits& limits() const noexcept { return motion_.limits(); }
   const VirtualWalls& walls() const noexcept { return safety_.walls(); }
 
  private:

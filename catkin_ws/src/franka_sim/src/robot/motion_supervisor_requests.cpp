@@ -1,14 +1,15 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // The supervisor's requests and its status.
-#include <franka_sim/robot/limits.h>
+#include <franka_core/motion_limits.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "robot/limits/deviation.h"
+#include "robot/limits/measured_limits.h"
 #include "robot/motion/inverse_kinematics.h"
 #include "robot/motion_supervisor.h"
-#include "robot/transforms.h"
 
 namespace franka_sim {
 
@@ -197,7 +198,8 @@ MotionSupervisor::Answer MotionSupervisor::handle(const SetVirtualWall& request)
 }
 
 void MotionSupervisor::limitsChange() noexcept {
-  motion_.setLimits(motionLimitsOfProtocol(configuration_->parameters().protocol_version));
+  motion_.setLimits(
+      franka_core::motionLimitsOfProtocol(configuration_->parameters().protocol_version));
 }
 
 UnitStatus MotionSupervisor::status() const noexcept {

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_core/fci/commands.h>
 #include <franka_core/limits.h>
-#include <franka_core/robot_state.h>
 
 #include <array>
 
@@ -31,13 +29,5 @@ inline double elbowSign(const std::array<double, 7>& q) noexcept {
 inline std::array<double, 2> elbowOf(const std::array<double, 7>& q) noexcept {
   return {{q[2], elbowSign(q)}};
 }
-
-/// Whether three bounds are positive numbers, as Move requires.
-bool isDeviation(const franka_core::fci::Deviation& deviation) noexcept;
-
-/// Whether the measured end effector is farther from the desired one (O_T_EE_d) than allowed, or
-/// the elbow from elbow_d. Real-time safe.
-bool deviates(const franka_core::RobotState& state,
-              const franka_core::fci::Deviation& allowed) noexcept;
 
 }  // namespace franka_sim

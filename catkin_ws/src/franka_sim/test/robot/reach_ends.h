@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/robot/limits.h>
+#include <franka_core/motion_limits.h>
 
 #include <cstddef>
 #include <vector>
@@ -15,7 +15,7 @@ struct End {
   double last, dead;
 };
 
-inline std::vector<End> endsOf(const MotionLimits& limits) {
+inline std::vector<End> endsOf(const franka_core::MotionLimits& limits) {
   std::vector<End> ends;
   for (std::size_t i = 0; i < 7; i++) {
     const franka_core::JointRange reach = limits.reach(i);

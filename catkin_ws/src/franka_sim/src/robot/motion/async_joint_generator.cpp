@@ -32,7 +32,7 @@ void AsyncJointGenerator::start(const std::array<double, 7>& q,
   stopping_ = false;
 }
 
-void AsyncJointGenerator::step(const MotionLimits& limits) noexcept {
+void AsyncJointGenerator::step(const franka_core::MotionLimits& limits) noexcept {
   JointSample next;
   newest_ = (newest_ + 1) % kWindow;
   for (std::size_t i = 0; i < 7; i++) {

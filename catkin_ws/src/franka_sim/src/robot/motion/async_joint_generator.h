@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/robot/limits.h>
+#include <franka_core/motion_limits.h>
 
 #include <array>
 #include <cstddef>
@@ -29,7 +29,7 @@ class AsyncJointGenerator {
   /// Brakes to rest instead of moving to the target.
   void stop() noexcept { stopping_ = true; }
   /// One tick (1 ms) on.
-  void step(const MotionLimits& limits) noexcept;
+  void step(const franka_core::MotionLimits& limits) noexcept;
 
   /// Whether neither the motion nor its mean moves any more.
   bool atRest() const noexcept;

@@ -11,7 +11,7 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "robot/motion/motion_checks.h"
+#include "robot/limits/motion_checks.h"
 
 namespace franka_sim {
 
@@ -68,7 +68,7 @@ ErrorSet CartesianMotion::checkElbow(const ElbowCommand& command, double sign) c
 }
 
 ErrorSet CartesianMotion::takePose(const Transform& pose, const ElbowCommand& elbow, double sign,
-                                   const MotionLimits& limits) noexcept {
+                                   const franka_core::MotionLimits& limits) noexcept {
   has_refused_ = false;
   if (!franka_core::isRigidTransform(pose)) {
     return RobotError::kCartesianPositionMotionGeneratorInvalidFrameFlag;
@@ -94,7 +94,7 @@ ErrorSet CartesianMotion::takePose(const Transform& pose, const ElbowCommand& el
 }
 
 ErrorSet CartesianMotion::takeTwist(const std::array<double, 6>& twist, const ElbowCommand& elbow,
-                                    double sign, const MotionLimits& limits) noexcept {
+                                    double sign, const franka_core::MotionLimits& limits) noexcept {
   has_refused_ = false;
   if (!franka_core::allFinite(twist)) {
     return RobotError::kCartesianMotionGeneratorVelocityLimitsViolation;
@@ -115,7 +115,7 @@ ErrorSet CartesianMotion::takeTwist(const std::array<double, 6>& twist, const El
   return take(step, errors);
 }
 
-ErrorSet CartesianMotion::extrapolate(const MotionLimits& limits) noexcept {
+ErrorSet CartesianMotion::extrapolate(const franka_core::MotionLimits& limits) noexcept {
   has_refused_ = false;
   if (!started_) {
     return {};
@@ -136,7 +136,7 @@ ErrorSet CartesianMotion::take(const CartesianSample& step, const ErrorSet& erro
   return errors;
 }
 
-ErrorSet CartesianMotion::checkStop(const MotionLimits& limits) const noexcept {
+ErrorSet CartesianMotion::checkStop(const franka_core::MotionLimits& limits) const noexcept {
   return checkStep(stepByTwist(last_, {}, last_.elbow.q3), last_, limits);
 }
 

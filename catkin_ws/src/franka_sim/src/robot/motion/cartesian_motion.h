@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/motion_limits.h>
 #include <franka_core/motion_steps.h>
-#include <franka_sim/robot/limits.h>
 
 #include <array>
 
+#include "robot/limits/error_set.h"
 #include "robot/transforms.h"
 
 namespace franka_sim {
@@ -33,15 +34,15 @@ class CartesianMotion {
   /// motion starts, and sets the history to rest there.
   /// @param sign the elbow's present sign, which a commanded elbow must have.
   ErrorSet takePose(const Transform& pose, const ElbowCommand& elbow, double sign,
-                    const MotionLimits& limits) noexcept;
+                    const franka_core::MotionLimits& limits) noexcept;
   /// Takes the next commanded twist in O [m/s, rad/s], from rest on; the pose follows by
   /// integration.
   ErrorSet takeTwist(const std::array<double, 6>& twist, const ElbowCommand& elbow, double sign,
-                     const MotionLimits& limits) noexcept;
+                     const franka_core::MotionLimits& limits) noexcept;
   /// A step without a command: accelerations are held. Before the first step nothing changes.
-  ErrorSet extrapolate(const MotionLimits& limits) noexcept;
+  ErrorSet extrapolate(const franka_core::MotionLimits& limits) noexcept;
   /// Whether end effector and elbow could stand still in the next tick.
-  ErrorSet checkStop(const MotionLimits& limits) const noexcept;
+  ErrorSet checkStop(const franka_core::MotionLimits& limits) const noexcept;
 
   const CartesianSample& last() const noexcept { return last_; }
   /// The last step if it violated a limit; nullptr if it was taken, or was not a motion at all.

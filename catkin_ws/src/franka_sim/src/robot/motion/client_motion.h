@@ -3,12 +3,13 @@
 #pragma once
 
 #include <franka_core/fci/commands.h>
+#include <franka_core/motion_limits.h>
 #include <franka_core/robot_state.h>
-#include <franka_sim/robot/limits.h>
 
 #include <array>
 
 #include "robot/laws/control_laws.h"
+#include "robot/limits/error_set.h"
 #include "robot/motion/command_filter.h"
 #include "robot/motion/motion_generator.h"
 #include "robot/safety/loss_monitor.h"
@@ -20,7 +21,8 @@ namespace franka_sim {
 class ClientMotion {
  public:
   /// @param max_torque of the motors [Nm]
-  ClientMotion(const MotionLimits& limits, const std::array<double, 7>& max_torque) noexcept
+  ClientMotion(const franka_core::MotionLimits& limits,
+               const std::array<double, 7>& max_torque) noexcept
       : generator_(limits), torque_(max_torque) {}
 
   /// Starts the generator, if the request has one. Nothing changes if that is refused.
@@ -46,7 +48,9 @@ class ClientMotion {
   /// Torques and counts belong to one motion.
   void clear() noexcept;
   /// From the next motion on.
-  void setLimits(const MotionLimits& limits) noexcept { generator_ = MotionGenerator(limits); }
+  void setLimits(const franka_core::MotionLimits& limits) noexcept {
+    generator_ = MotionGenerator(limits);
+  }
   CommandFilter& filter() noexcept { return filter_; }
 
   const franka_core::fci::MoveRequest& request() const noexcept { return request_; }
@@ -55,7 +59,7 @@ class ClientMotion {
   const DesiredMotion& desired() const noexcept { return generator_.desired(); }
   const std::array<double, 7>& torque() const noexcept { return torque_.value(); }  ///< [Nm]
   double successRate() const noexcept { return losses_.rate(); }
-  const MotionLimits& limits() const noexcept { return generator_.limits(); }
+  const franka_core::MotionLimits& limits() const noexcept { return generator_.limits(); }
 
  private:
   franka_core::fci::MoveRequest request_;

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include "robot/motion/motion_checks.h"
+#include "robot/limits/motion_checks.h"
 
 namespace franka_sim {
 
@@ -22,13 +22,13 @@ constexpr double kStartTolerance = 1e-3;  // [rad] (decision 13)
 // would disable the flag.
 constexpr double kSolvedJerkFactor = 3.5;
 
-JointFlags commanded(const MotionLimits& limits) noexcept {
+JointFlags commanded(const franka_core::MotionLimits& limits) noexcept {
   return {limits.positionFlag(false), RobotError::kJointMotionGeneratorVelocityLimitsViolation,
           RobotError::kJointMotionGeneratorVelocityDiscontinuity,
           RobotError::kJointMotionGeneratorAccelerationDiscontinuity, 1.0};
 }
 
-JointFlags solved(const MotionLimits& limits) noexcept {
+JointFlags solved(const franka_core::MotionLimits& limits) noexcept {
   return {limits.positionFlag(true),
           RobotError::kCartesianMotionGeneratorJointVelocityLimitsViolation,
           RobotError::kCartesianMotionGeneratorJointVelocityDiscontinuity,
@@ -39,7 +39,7 @@ using Step = JointSample (*)(const JointSample&, const std::array<double, 7>&);
 
 // Fails only if both histories fail; the exact one determines the flags.
 ErrorSet checkWithEcho(Step make, const std::array<double, 7>& command, const JointSample& last,
-                       const MotionLimits& limits) noexcept {
+                       const franka_core::MotionLimits& limits) noexcept {
   const JointFlags flags = commanded(limits);
   const ErrorSet errors = checkStep(make(last, command), last, flags, limits);
   if (!errors || !limits.echoes_floats) {
@@ -58,7 +58,7 @@ void JointMotion::start(const std::array<double, 7>& q) noexcept {
 }
 
 ErrorSet JointMotion::takePositions(const std::array<double, 7>& q_c,
-                                    const MotionLimits& limits) noexcept {
+                                    const franka_core::MotionLimits& limits) noexcept {
   if (!franka_core::allFinite(q_c)) {
     return RobotError::kJointMotionGeneratorVelocityLimitsViolation;  // no velocity leads there
   }
@@ -82,7 +82,7 @@ ErrorSet JointMotion::takePositions(const std::array<double, 7>& q_c,
 }
 
 ErrorSet JointMotion::takeVelocities(const std::array<double, 7>& dq_c,
-                                     const MotionLimits& limits) noexcept {
+                                     const franka_core::MotionLimits& limits) noexcept {
   if (!franka_core::allFinite(dq_c)) {
     return RobotError::kJointMotionGeneratorVelocityLimitsViolation;
   }
@@ -95,7 +95,7 @@ ErrorSet JointMotion::takeVelocities(const std::array<double, 7>& dq_c,
 }
 
 ErrorSet JointMotion::takeSolved(const std::array<double, 7>& q, bool first,
-                                 const MotionLimits& limits) noexcept {
+                                 const franka_core::MotionLimits& limits) noexcept {
   JointSample step = stepToPositions(last_, q);
   if (first) {
     step = JointSample{};
@@ -110,11 +110,11 @@ ErrorSet JointMotion::takeSolved(const std::array<double, 7>& q, bool first,
 }
 
 ErrorSet JointMotion::checkJump(const std::array<double, 7>& q,
-                                const MotionLimits& limits) const noexcept {
+                                const franka_core::MotionLimits& limits) const noexcept {
   return checkJerk(stepToPositions(last_, q), last_, solved(limits), limits);
 }
 
-ErrorSet JointMotion::extrapolate(const MotionLimits& limits) noexcept {
+ErrorSet JointMotion::extrapolate(const franka_core::MotionLimits& limits) noexcept {
   if (!started_) {
     return {};
   }
@@ -126,7 +126,7 @@ ErrorSet JointMotion::extrapolate(const MotionLimits& limits) noexcept {
   return errors;
 }
 
-ErrorSet JointMotion::checkStop(const MotionLimits& limits) const noexcept {
+ErrorSet JointMotion::checkStop(const franka_core::MotionLimits& limits) const noexcept {
   return checkStep(stepByVelocities(last_, {}), last_, commanded(limits), limits);
 }
 

@@ -2,10 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_core/motion_limits.h>
 #include <franka_core/motion_steps.h>
-#include <franka_sim/robot/limits.h>
 
 #include <array>
+
+#include "robot/limits/error_set.h"
 
 namespace franka_sim {
 
@@ -23,20 +25,23 @@ class JointMotion {
 
   /// Takes the next commanded positions [rad]. The first must be where the motion starts, and sets
   /// the history to rest there.
-  ErrorSet takePositions(const std::array<double, 7>& q_c, const MotionLimits& limits) noexcept;
+  ErrorSet takePositions(const std::array<double, 7>& q_c,
+                         const franka_core::MotionLimits& limits) noexcept;
   /// Takes the next commanded velocities [rad/s], from rest on; positions follow by integration.
-  ErrorSet takeVelocities(const std::array<double, 7>& dq_c, const MotionLimits& limits) noexcept;
+  ErrorSet takeVelocities(const std::array<double, 7>& dq_c,
+                          const franka_core::MotionLimits& limits) noexcept;
   /// Takes the next positions [rad] from inverse kinematics; checked with the flags 27 to 30.
   /// @param first sets the history to rest there.
   ErrorSet takeSolved(const std::array<double, 7>& q, bool first,
-                      const MotionLimits& limits) noexcept;
+                      const franka_core::MotionLimits& limits) noexcept;
   /// For a Cartesian command that is already refused: checks only the joint jerk of its joint
   /// positions [rad], as real robots do (decision 47). Nothing changes.
-  ErrorSet checkJump(const std::array<double, 7>& q, const MotionLimits& limits) const noexcept;
+  ErrorSet checkJump(const std::array<double, 7>& q,
+                     const franka_core::MotionLimits& limits) const noexcept;
   /// A step without a command: the acceleration is held. Before the first step nothing changes.
-  ErrorSet extrapolate(const MotionLimits& limits) noexcept;
+  ErrorSet extrapolate(const franka_core::MotionLimits& limits) noexcept;
   /// Whether the joints could stand still in the next tick, as after a finished motion.
-  ErrorSet checkStop(const MotionLimits& limits) const noexcept;
+  ErrorSet checkStop(const franka_core::MotionLimits& limits) const noexcept;
   /// Takes over a motion that needs no check.
   void follow(const JointSample& sample) noexcept { last_ = sample; }
 

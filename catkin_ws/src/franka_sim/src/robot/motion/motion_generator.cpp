@@ -60,7 +60,8 @@ bool isPossible(const MotionStart& start) noexcept {
 
 }  // namespace
 
-MotionGenerator::MotionGenerator(const MotionLimits& limits) noexcept : limits_(limits) {}
+MotionGenerator::MotionGenerator(const franka_core::MotionLimits& limits) noexcept
+    : limits_(limits) {}
 
 bool MotionGenerator::isCartesian() const noexcept { return isCartesianMode(start_.mode); }
 

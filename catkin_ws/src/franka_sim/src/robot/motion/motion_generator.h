@@ -3,11 +3,12 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
+#include <franka_core/motion_limits.h>
 #include <franka_core/robot_state.h>
-#include <franka_sim/robot/limits.h>
 
 #include <array>
 
+#include "robot/limits/error_set.h"
 #include "robot/motion/async_joint_generator.h"
 #include "robot/motion/cartesian_motion.h"
 #include "robot/motion/inverse_kinematics.h"
@@ -63,7 +64,8 @@ struct MotionStep {
 /// Called by one thread. No function throws. Real-time safe.
 class MotionGenerator {
  public:
-  explicit MotionGenerator(const MotionLimits& limits = motionLimitsOfProtocol(5)) noexcept;
+  explicit MotionGenerator(
+      const franka_core::MotionLimits& limits = franka_core::motionLimitsOfProtocol(5)) noexcept;
 
   /// Starts a motion; desired() is then at rest at q_d. If refused, nothing changes.
   MotionStartResult start(const MotionStart& start, const franka_core::ArmModel& model) noexcept;
@@ -73,7 +75,7 @@ class MotionGenerator {
                   const franka_core::ArmModel& model) noexcept;
 
   const DesiredMotion& desired() const noexcept { return desired_; }
-  const MotionLimits& limits() const noexcept { return limits_; }
+  const franka_core::MotionLimits& limits() const noexcept { return limits_; }
 
  private:
   bool isCartesian() const noexcept;
@@ -87,7 +89,7 @@ class MotionGenerator {
   void publishCartesian(const InverseKinematics::Solution& solution) noexcept;
   void publishAcceleration() noexcept;
 
-  MotionLimits limits_;
+  franka_core::MotionLimits limits_;
   MotionStart start_;
   JointMotion joints_;         // of joint commands, or after inverse kinematics
   CartesianMotion cartesian_;  // of Cartesian commands

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/robot/limits.h>
-
 #include <array>
+
+#include "robot/limits/error_set.h"
 
 namespace franka_sim {
 

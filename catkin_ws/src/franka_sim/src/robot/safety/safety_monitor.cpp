@@ -6,7 +6,8 @@
 #include <cmath>
 #include <cstddef>
 
-#include "robot/transforms.h"
+#include "robot/limits/deviation.h"
+#include "robot/limits/measured_limits.h"
 
 namespace franka_sim {
 
@@ -28,7 +29,7 @@ void SafetyMonitor::motionBegins() noexcept {
   walls_.begin(state_->O_T_EE);
 }
 
-void SafetyMonitor::check(const MotionLimits& limits,
+void SafetyMonitor::check(const franka_core::MotionLimits& limits,
                           const CollisionThresholds& thresholds) noexcept {
   const Estimate& estimate = estimator_->estimate();
   raise(measuredViolations(limits.arm, *state_, estimate.O_dP_EE));
@@ -43,7 +44,7 @@ void SafetyMonitor::check(const MotionLimits& limits,
 }
 
 void SafetyMonitor::checkMotion(const franka_core::fci::MoveRequest& motion,
-                                const MotionLimits& limits,
+                                const franka_core::MotionLimits& limits,
                                 const std::array<double, 7>& motor_torques) noexcept {
   const ControlUnitParameters& parameters = configuration_->parameters();
   const bool outside = motion.controller_mode == ControllerMode::kExternalController;
@@ -71,7 +72,7 @@ void SafetyMonitor::checkMotion(const franka_core::fci::MoveRequest& motion,
 // Chosen here, because no rule is published: the measured velocity differs from the desired one by
 // more than the limit of speed.
 bool SafetyMonitor::movesAgainstProfile(const franka_core::fci::MoveRequest& motion,
-                                        const MotionLimits& limits) const noexcept {
+                                        const franka_core::MotionLimits& limits) const noexcept {
   const bool cartesian = motion.motion_generator_mode == MotionGeneratorMode::kCartesianPosition ||
                          motion.motion_generator_mode == MotionGeneratorMode::kCartesianVelocity;
   const std::array<double, 6>& measured = estimator_->estimate().O_dP_EE;

@@ -3,14 +3,15 @@
 #pragma once
 
 #include <franka_core/fci/commands.h>
+#include <franka_core/motion_limits.h>
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/fixed_pointer.h>
-#include <franka_sim/robot/limits.h>
 
 #include <array>
 
 #include "robot/configuration.h"
 #include "robot/estimator/state_estimator.h"
+#include "robot/limits/error_set.h"
 #include "robot/safety/collisions.h"
 #include "robot/safety/force_watch.h"
 #include "robot/safety/virtual_walls.h"
@@ -35,9 +36,11 @@ class SafetyMonitor {
   void lawChanges() noexcept { force_watch_.restart(); }
 
   /// The checks in every mode: measured limits and collisions.
-  void check(const MotionLimits& limits, const CollisionThresholds& thresholds) noexcept;
+  void check(const franka_core::MotionLimits& limits,
+             const CollisionThresholds& thresholds) noexcept;
   /// The checks in a motion. @param motor_torques of the tick that led to this state [Nm]
-  void checkMotion(const franka_core::fci::MoveRequest& motion, const MotionLimits& limits,
+  void checkMotion(const franka_core::fci::MoveRequest& motion,
+                   const franka_core::MotionLimits& limits,
                    const std::array<double, 7>& motor_torques) noexcept;
 
   /// Raises the errors' flags in the state.
@@ -51,7 +54,7 @@ class SafetyMonitor {
 
  private:
   bool movesAgainstProfile(const franka_core::fci::MoveRequest& motion,
-                           const MotionLimits& limits) const noexcept;
+                           const franka_core::MotionLimits& limits) const noexcept;
 
   FixedPointer<const Configuration> configuration_;
   FixedPointer<const StateEstimator> estimator_;

@@ -22,7 +22,7 @@ namespace {
 /// An asynchronous motion and a check of its limits.
 struct Async {
   explicit Async(unsigned protocol, double maximum_velocity = 1.0)
-      : generator(motionLimitsOfProtocol(protocol)) {
+      : generator(franka_core::motionLimitsOfProtocol(protocol)) {
     MotionStart start;
     start.q_d = kReady;
     start.asynchronous = true;
@@ -111,7 +111,7 @@ TEST(AsyncJointGenerator, TakesNewTargetsAtAnyTime) {
 
 class EachEnd : public ::testing::TestWithParam<unsigned> {
  protected:
-  const MotionLimits limits{motionLimitsOfProtocol(GetParam())};
+  const franka_core::MotionLimits limits{franka_core::motionLimitsOfProtocol(GetParam())};
 };
 
 TEST_P(EachEnd, IsReachedAndRefusedBeyond) {

@@ -60,7 +60,7 @@ TEST(SolvedJoints, HaveThreeAndAHalfTimesTheJerkLimit) {
         std::pair{14.0,
                   ErrorSet(RobotError::kCartesianMotionGeneratorJointAccelerationDiscontinuity)}}) {
     // From -a to +a in one tick: 25 000 and 28 000 rad/s^3, of 3.5 * 7500.
-    const MotionLimits limits = motionLimitsOfProtocol(5);
+    const franka_core::MotionLimits limits = franka_core::motionLimitsOfProtocol(5);
     JointMotion motion;
     motion.start(kReady);
     Joints q = kReady;

@@ -22,7 +22,7 @@ TEST(JointLimits, PositionsEndAtTheRangeWithTheFlagOfTheSystem) {
         std::pair{8U, RobotError::kJointMotionGeneratorPositionLimitsViolation},
         std::pair{9U, RobotError::kJointPositionLimitsViolation},
         std::pair{10U, RobotError::kJointPositionLimitsViolation}}) {
-    const MotionLimits limits = motionLimitsOfProtocol(protocol);
+    const franka_core::MotionLimits limits = franka_core::motionLimitsOfProtocol(protocol);
     for (std::size_t joint = 0; joint < 7; joint++) {
       SCOPED_TRACE(::testing::Message() << "protocol " << protocol << ", joint " << joint + 1);
       for (const double end : {limits.arm.q_min[joint], limits.arm.q_max[joint]}) {
@@ -60,7 +60,7 @@ TEST(JointLimits, BeyondTheRangeOnlyMotionBackIsAllowed) {
 
 TEST(JointLimits, SpeedLimitOfAnFr3ShrinksTowardsTheEnds) {
   for (unsigned protocol : {8U, 10U}) {
-    const MotionLimits limits = motionLimitsOfProtocol(protocol);
+    const franka_core::MotionLimits limits = franka_core::motionLimitsOfProtocol(protocol);
     for (std::size_t joint = 0; joint < 7; joint++) {
       SCOPED_TRACE(::testing::Message() << "protocol " << protocol << ", joint " << joint + 1);
       // Closed form, 0.3 rad before the end (protocol 5.5).

@@ -65,7 +65,7 @@ inline Transform forward(const Joints& q) {
   return model().pose(franka_core::ArmFrame::kEndEffector, q, kHandF_T_NE);
 }
 
-/// A value rounded to 32 bit float. Volatile: see src/robot/motion/motion_checks.h.
+/// A value rounded to 32 bit float. Volatile: see src/robot/limits/motion_checks.h.
 inline double asFloat(double value) {
   const volatile float narrow = static_cast<float>(value);
   return narrow;
@@ -109,7 +109,7 @@ inline RobotCommand finished(RobotCommand command) {
 /// A motion generator with its arm.
 struct Motion {
   Motion(unsigned protocol, MotionGeneratorMode mode, const Joints& q = kReady)
-      : generator(motionLimitsOfProtocol(protocol)) {
+      : generator(franka_core::motionLimitsOfProtocol(protocol)) {
     start.mode = mode;
     start.q_d = q;
     start.F_T_EE = kHandF_T_NE;
@@ -119,7 +119,7 @@ struct Motion {
   MotionStep step(const RobotCommand& command) { return generator.step(&command, model()); }
   MotionStep lose() { return generator.step(nullptr, model()); }
   const DesiredMotion& desired() const { return generator.desired(); }
-  const MotionLimits& limits() const { return generator.limits(); }
+  const franka_core::MotionLimits& limits() const { return generator.limits(); }
 
   MotionStart start;
   MotionGenerator generator;

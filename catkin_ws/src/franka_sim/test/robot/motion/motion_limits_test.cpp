@@ -105,7 +105,8 @@ class LimitTest : public ::testing::TestWithParam<std::tuple<unsigned, std::size
     return coordinate > 6 ? moveEndEffector(profile, sends) : moveJoint(profile, sends);
   }
 
-  const MotionLimits limits{motionLimitsOfProtocol(std::get<0>(GetParam()))};
+  const franka_core::MotionLimits limits{
+      franka_core::motionLimitsOfProtocol(std::get<0>(GetParam()))};
   const std::size_t coordinate{std::get<1>(GetParam())};
 
  private:

@@ -25,7 +25,7 @@ constexpr int kTicks = 20000;
 /// has no margin for lost packets (protocol 5.6).
 struct Bounds {
   explicit Bounds(unsigned protocol)
-      : protocol(protocol), limits(motionLimitsOfProtocol(protocol)) {}
+      : protocol(protocol), limits(franka_core::motionLimitsOfProtocol(protocol)) {}
 
   franka_core::DerivativeLimits shrunk(const franka_core::DerivativeLimits& full) const {
     const double packets = protocol <= 5 ? franka::kTolNumberPacketsLost : 0.0;
@@ -35,7 +35,7 @@ struct Bounds {
   }
 
   unsigned protocol;
-  MotionLimits limits;
+  franka_core::MotionLimits limits;
 };
 
 /// Reads states as sent over the network.
@@ -107,7 +107,7 @@ class Random {
 };
 
 /// The middle half of a joint's range, where the limiter, which ignores positions, can stop.
-Joints middle(const MotionLimits& limits, Random& random) {
+Joints middle(const franka_core::MotionLimits& limits, Random& random) {
   Joints q{};
   for (std::size_t i = 0; i < 7; i++) {
     const double span = limits.arm.q_max[i] - limits.arm.q_min[i];
@@ -117,7 +117,7 @@ Joints middle(const MotionLimits& limits, Random& random) {
 }
 
 /// Faster than allowed, towards the middle.
-Joints wildVelocities(const MotionLimits& limits, const Joints& q, Random& random) {
+Joints wildVelocities(const franka_core::MotionLimits& limits, const Joints& q, Random& random) {
   Joints dq{};
   for (std::size_t i = 0; i < 7; i++) {
     const double center = 0.5 * (limits.arm.q_max[i] + limits.arm.q_min[i]);

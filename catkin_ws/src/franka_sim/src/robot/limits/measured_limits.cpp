@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/robot/limits.h>
+#include "robot/limits/measured_limits.h"
 
 #include <algorithm>
 #include <cmath>

@@ -2,11 +2,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/robot/limits.h>
+#include <franka_core/motion_limits.h>
 
 #include <array>
 #include <cstddef>
 
+#include "robot/limits/error_set.h"
 #include "robot/motion/cartesian_motion.h"
 #include "robot/motion/joint_motion.h"
 
@@ -37,11 +38,11 @@ struct JointFlags {
 /// Every rule, position to jerk, that a step violates.
 /// @param last the sample before it.
 ErrorSet checkStep(const JointSample& step, const JointSample& last, const JointFlags& flags,
-                   const MotionLimits& limits) noexcept;
+                   const franka_core::MotionLimits& limits) noexcept;
 
 /// The same for the rule of the jerk alone.
 ErrorSet checkJerk(const JointSample& step, const JointSample& last, const JointFlags& flags,
-                   const MotionLimits& limits) noexcept;
+                   const franka_core::MotionLimits& limits) noexcept;
 
 /// A history as a client reads it from states of 32 bit floats.
 JointSample asEchoed(const JointSample& sample) noexcept;
@@ -49,7 +50,7 @@ JointSample asEchoed(const JointSample& sample) noexcept;
 /// Every rule, position to jerk, that a step violates; all those of the elbow have one flag.
 /// @param last the sample before it.
 ErrorSet checkStep(const CartesianSample& step, const CartesianSample& last,
-                   const MotionLimits& limits) noexcept;
+                   const franka_core::MotionLimits& limits) noexcept;
 
 /// A history as a client reads it from states of 32 bit floats.
 CartesianSample asEchoed(const CartesianSample& sample) noexcept;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "robot/motion/motion_checks.h"
+#include "robot/limits/motion_checks.h"
 
 #include <franka_sim/robot/plant.h>
 
@@ -27,14 +27,14 @@ struct Directed {
   double far_limit;  // away from the joint's end
 };
 
-Directed upwards(const JointSample& step, const JointSample& last, const MotionLimits& limits,
-                 std::size_t i) noexcept {
+Directed upwards(const JointSample& step, const JointSample& last,
+                 const franka_core::MotionLimits& limits, std::size_t i) noexcept {
   return {step.dq[i], step.ddq[i], last.dq[i], limits.highestVelocity(i, last.q[i]),
           limits.arm.dq[i]};
 }
 
-Directed downwards(const JointSample& step, const JointSample& last, const MotionLimits& limits,
-                   std::size_t i) noexcept {
+Directed downwards(const JointSample& step, const JointSample& last,
+                   const franka_core::MotionLimits& limits, std::size_t i) noexcept {
   return {-step.dq[i], -step.ddq[i], -last.dq[i], -limits.lowestVelocity(i, last.q[i]),
           limits.arm.dq[i]};
 }
@@ -56,12 +56,12 @@ bool mustBrake(const Directed& joint, double ddq_max, double dddq_max) noexcept 
 }
 
 Directed againstChange(double change, const JointSample& step, const JointSample& last,
-                       const MotionLimits& limits, std::size_t i) noexcept {
+                       const franka_core::MotionLimits& limits, std::size_t i) noexcept {
   return change < 0.0 ? upwards(step, last, limits, i) : downwards(step, last, limits, i);
 }
 
 bool positionsFail(const JointSample& step, const JointSample& last,
-                   const MotionLimits& limits) noexcept {
+                   const franka_core::MotionLimits& limits) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
     // Beyond a limit, motion back is allowed.
     const double highest = std::max(limits.arm.q_max[i], last.q[i]);
@@ -74,7 +74,7 @@ bool positionsFail(const JointSample& step, const JointSample& last,
 }
 
 bool velocitiesFail(const JointSample& step, const JointSample& last,
-                    const MotionLimits& limits) noexcept {
+                    const franka_core::MotionLimits& limits) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
     for (const Directed& joint :
          {upwards(step, last, limits, i), downwards(step, last, limits, i)}) {
@@ -87,7 +87,7 @@ bool velocitiesFail(const JointSample& step, const JointSample& last,
 }
 
 bool accelerationsFail(const JointSample& step, const JointSample& last,
-                       const MotionLimits& limits) noexcept {
+                       const franka_core::MotionLimits& limits) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
     const Directed joint = againstChange(step.ddq[i], step, last, limits, i);
     const bool shrinks = joint.limit < joint.far_limit;
@@ -100,7 +100,7 @@ bool accelerationsFail(const JointSample& step, const JointSample& last,
 }
 
 bool jerksFail(const JointSample& step, const JointSample& last, double factor,
-               const MotionLimits& limits) noexcept {
+               const franka_core::MotionLimits& limits) noexcept {
   for (std::size_t i = 0; i < 7; i++) {
     if (!(std::abs(step.dddq[i]) <= limits.arm.dddq[i] * factor) &&
         !mustBrake(againstChange(step.dddq[i], step, last, limits, i), limits.arm.ddq[i],
@@ -114,7 +114,7 @@ bool jerksFail(const JointSample& step, const JointSample& last, double factor,
 }  // namespace
 
 ErrorSet checkStep(const JointSample& step, const JointSample& last, const JointFlags& flags,
-                   const MotionLimits& limits) noexcept {
+                   const franka_core::MotionLimits& limits) noexcept {
   ErrorSet errors = checkJerk(step, last, flags, limits);
   errors.addIf(positionsFail(step, last, limits), flags.position);
   errors.addIf(velocitiesFail(step, last, limits), flags.velocity);
@@ -123,7 +123,7 @@ ErrorSet checkStep(const JointSample& step, const JointSample& last, const Joint
 }
 
 ErrorSet checkJerk(const JointSample& step, const JointSample& last, const JointFlags& flags,
-                   const MotionLimits& limits) noexcept {
+                   const franka_core::MotionLimits& limits) noexcept {
   ErrorSet errors;
   errors.addIf(jerksFail(step, last, flags.jerk_factor, limits), flags.jerk);
   return errors;
@@ -191,13 +191,14 @@ bool isShortened(const CartesianSample& step, const CartesianSample& last, std::
 }
 
 bool positionFails(const ElbowSample& step, const ElbowSample& last,
-                   const MotionLimits& limits) noexcept {
+                   const franka_core::MotionLimits& limits) noexcept {
   return !(step.q3 <= std::max(limits.arm.q_max[2], last.q3) &&
            step.q3 >= std::min(limits.arm.q_min[2], last.q3));
 }
 
 template <typename Bound>
-bool anyFails(const Derivative& values, const MotionLimits& limits, Bound bound) noexcept {
+bool anyFails(const Derivative& values, const franka_core::MotionLimits& limits,
+              Bound bound) noexcept {
   return !(part(values, 0).norm() <= bound(limits.arm.translation)) ||
          !(part(values, 3).norm() <= bound(limits.arm.rotation));
 }
@@ -218,13 +219,13 @@ bool elbowBrakes(const ElbowSample& step, const ElbowSample& last,
 }
 
 bool elbowJerks(const ElbowSample& step, const ElbowSample& last,
-                const MotionLimits& limits) noexcept {
+                const franka_core::MotionLimits& limits) noexcept {
   return !(std::abs(step.dddq3) <= limits.arm.elbow.jerk) &&
          !elbowBrakes(step, last, limits.arm.elbow);
 }
 
 bool elbowFails(const ElbowSample& step, const ElbowSample& last,
-                const MotionLimits& limits) noexcept {
+                const franka_core::MotionLimits& limits) noexcept {
   const franka_core::DerivativeLimits elbow = limits.elbow();
   return positionFails(step, last, limits) || !(std::abs(step.dq3) <= elbow.velocity) ||
          !(std::abs(step.ddq3) <= elbow.acceleration) || elbowJerks(step, last, limits);
@@ -233,7 +234,7 @@ bool elbowFails(const ElbowSample& step, const ElbowSample& last,
 }  // namespace
 
 ErrorSet checkStep(const CartesianSample& step, const CartesianSample& last,
-                   const MotionLimits& limits) noexcept {
+                   const franka_core::MotionLimits& limits) noexcept {
   using Bounds = franka_core::DerivativeLimits;
   ErrorSet errors;
   errors.addIf(elbowFails(step.elbow, last.elbow, limits),
