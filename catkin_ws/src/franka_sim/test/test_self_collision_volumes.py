@@ -30,7 +30,7 @@ def packages(monkeypatch):
 
 def table():
     """(link, from, to, radius) as written in the source."""
-    text = (PACKAGE / "src/robot/safety/collisions.cpp").read_text(encoding="utf-8")
+    text = (PACKAGE / "src/robot/safety/capsules.cpp").read_text(encoding="utf-8")
     text = text[text.index("kCapsules{{") : text.index("}};")]
     text = text.replace("kHandLink", "8").replace("kHalfRoot", repr(math.sqrt(0.5)))
     number = r"[-0-9.* ]+"

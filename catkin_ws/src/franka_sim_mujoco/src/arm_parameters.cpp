@@ -8,6 +8,7 @@
 #include <franka_hw/robot_mismatch.h>
 #include <franka_sim/physics/world_properties.h>
 #include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/robot/protocol_range.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <ros/console.h>
 #include <ros/package.h>

@@ -3,8 +3,8 @@
 #pragma once
 
 #include <franka_core/robot_state.h>
-#include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/robot/unit_request.h>
 
 #include <array>
 

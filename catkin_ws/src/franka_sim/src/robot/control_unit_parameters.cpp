@@ -168,42 +168,4 @@ void checkParameters(const ControlUnitParameters& parameters) {
           thresholds);
 }
 
-namespace {
-
-std::string against(const Collision& collision, const char* quantity, const char* unit) {
-  const std::string value = franka_core::numberText(collision.value, 4);
-  const std::string threshold = franka_core::numberText(collision.threshold, 4);
-  return std::string("external ") + quantity + " " + value + " " + unit + ", upper threshold " +
-         threshold + " " + unit;
-}
-
-}  // namespace
-
-template <std::size_t N>
-std::array<double, N> above(const std::array<double, N>& values,
-                            const std::array<double, N>& thresholds) noexcept {
-  std::array<double, N> flags{};
-  for (std::size_t i = 0; i < N; i++) {
-    flags[i] = std::abs(values[i]) > thresholds[i] ? 1.0 : 0.0;
-  }
-  return flags;
-}
-
-template std::array<double, 6> above(const std::array<double, 6>&,
-                                     const std::array<double, 6>&) noexcept;
-template std::array<double, 7> above(const std::array<double, 7>&,
-                                     const std::array<double, 7>&) noexcept;
-
-std::string describeJointCollision(const Collision& collision) {
-  return "joint " + std::to_string(collision.index + 1) + ": " + against(collision, "torque", "Nm");
-}
-
-std::string describeCartesianCollision(const Collision& collision, InterfaceRules rules) {
-  static constexpr const char* kAxes[] = {"x", "y", "z"};
-  const std::string axis =
-      std::string(kAxes[collision.index % 3]) + (checksWrenchInBase(rules) ? " of O" : " of K");
-  return collision.index < 3 ? "along " + axis + ": " + against(collision, "force", "N")
-                             : "about " + axis + ": " + against(collision, "torque", "Nm");
-}
-
 }  // namespace franka_sim

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/robot/control_unit.h>
+#include <franka_sim/robot/unit_request.h>
 
 #include <optional>
 

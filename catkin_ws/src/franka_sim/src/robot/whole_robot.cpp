@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/fci/state_codec.h>
 #include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/robot/protocol_range.h>
 #include <franka_sim/robot/whole_robot.h>
 
 #include <cstddef>

@@ -4,6 +4,9 @@
 #include <franka_core/numbers.h>
 #include <franka_core/robot_error.h>
 #include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/robot/protocol_range.h>
+#include <franka_sim/robot/safety/collision.h>
+#include <franka_sim/robot/safety/link_pair.h>
 #include <franka_sim/serve/sim_robot.h>
 
 #include <array>

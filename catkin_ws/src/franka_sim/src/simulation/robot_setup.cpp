@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <dlfcn.h>
 #include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/robot/protocol_range.h>
 #include <franka_sim/robot/realism.h>
 #include <franka_sim/simulation/missing_file.h>
 #include <franka_sim/simulation/robot_setup.h>

@@ -3,7 +3,7 @@
 // Each error of the robot, raised through the whole control unit (decision 45): alone, or together
 // with the others whose rules the same command violates (decision 47).
 #include "fci_fixture.h"
-#include "robot/safety/collisions.h"
+#include "robot/safety/self_collision.h"
 
 namespace franka_sim::test {
 

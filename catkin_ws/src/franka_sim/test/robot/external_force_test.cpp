@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The unit's external torques and wrenches, against known forces.
 #include <franka_sim/robot/control_unit.h>
+#include <franka_sim/robot/safety/collision.h>
 
 #include <Eigen/Core>
 #include <Eigen/SVD>
@@ -9,7 +10,6 @@
 #include <cmath>
 
 #include "arm_fixture.h"
-#include "robot/safety/collisions.h"
 
 namespace franka_sim::test {
 

@@ -1,12 +1,13 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Distances of the arm's links from each other.
+#include "robot/safety/self_collision.h"
+
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include "fci_fixture.h"
-#include "robot/safety/collisions.h"
 
 namespace franka_sim::test {
 

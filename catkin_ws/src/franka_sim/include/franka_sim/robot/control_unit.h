@@ -2,132 +2,23 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_core/fci/commands.h>
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/robot/plant.h>
+#include <franka_sim/robot/unit_request.h>
+#include <franka_sim/robot/unit_status.h>
 
 #include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
-#include <variant>
-
-/// @file
-/// The requests of a control unit: those of the FCI, and those of the operator or the server. Their
-/// answers: ControlUnit::request.
 
 namespace franka_core {
 struct MotionLimits;
 }
 
 namespace franka_sim {
-
-using Status = franka_core::fci::Status;  ///< of the answer to a request
-
-/// The external activation device: pressed stops any motion and closes the brakes; released leads
-/// to Idle, or to Reflex if there were errors.
-struct UserStop {
-  bool pressed;  ///< otherwise released
-};
-/// The user starts or ends guiding of the arm with its guiding buttons.
-struct Guiding {
-  bool active;  ///< otherwise not
-};
-/// Closed brakes: mode Other.
-struct Brakes {
-  bool closed;  ///< otherwise open
-};
-/// Inactive: no motion can be requested, and a running one is aborted.
-struct FciActivation {
-  bool active;  ///< otherwise not
-};
-/// A motion that the operator commands by Desk: a Move that needs no FCI.
-struct OperatorMove {
-  franka_core::fci::MoveRequest move;  ///< its request
-};
-/// A motion that goes on after a stop, with another controller: a Cartesian one also at a singular
-/// pose.
-struct ContinuedMove {
-  franka_core::fci::MoveRequest move;  ///< its request
-};
-/// The end effector as it is set in Desk. Refused in Move, and if no arm can hold it.
-struct SetEndEffector {
-  franka_core::Payload payload;   ///< m_ee, F_x_Cee, I_ee
-  std::array<double, 16> F_T_NE;  ///< 4x4, column-major
-};
-/// Sets one of the virtual walls.
-struct SetVirtualWall {
-  std::int32_t id;                        ///< number of the wall, 0 to 7
-  franka_core::fci::CartesianLimit wall;  ///< its box
-};
-/// The version, 3 to 10, whose limits apply from the next motion on.
-struct SetProtocolVersion {
-  unsigned version;  ///< of the protocol
-};
-/// The running motion gets no more commands. A motion of the asynchronous generator, in which a
-/// client may be silent for any time, then ends as others do: after 20 lost commands in a row.
-struct ClientLost {};
-
-/// Any request of a control unit.
-using UnitRequest = std::variant<
-    franka_core::fci::MoveRequest, franka_core::fci::StopMoveRequest,
-    franka_core::fci::AutomaticErrorRecoveryRequest, franka_core::fci::SetCollisionBehaviorRequest,
-    franka_core::fci::SetJointImpedanceRequest, franka_core::fci::SetCartesianImpedanceRequest,
-    franka_core::fci::SetGuidingModeRequest, franka_core::fci::SetEEToKRequest,
-    franka_core::fci::SetNEToEERequest, franka_core::fci::SetLoadRequest,
-    franka_core::fci::SetFiltersRequest, UserStop, Guiding, Brakes, FciActivation, OperatorMove,
-    ContinuedMove, SetEndEffector, SetVirtualWall, SetProtocolVersion, ClientLost>;
-
-/// The requests that are answered later than they are made.
-enum class PendingAnswer {
-  kMotion,    ///< the result of a motion
-  kStop,      ///< the arm rests after StopMove
-  kRecovery,  ///< the result of an error recovery
-};
-
-/// The request of a client for this load.
-inline franka_core::fci::SetLoadRequest loadRequest(const franka_core::Payload& load) noexcept {
-  return {load.mass, load.com, load.inertia};
-}
-
-/// The request of a client for these thresholds.
-inline franka_core::fci::SetCollisionBehaviorRequest collisionRequest(
-    const CollisionThresholds& acceleration, const CollisionThresholds& nominal) noexcept {
-  return {acceleration.lower_torque, acceleration.upper_torque, nominal.lower_torque,
-          nominal.upper_torque,      acceleration.lower_force,  acceleration.upper_force,
-          nominal.lower_force,       nominal.upper_force};
-}
-
-/// A Move request for torques of an external controller without a motion generator.
-inline franka_core::fci::MoveRequest torqueControl() noexcept {
-  franka_core::fci::MoveRequest request;
-  request.controller_mode = franka_core::ControllerMode::kExternalController;
-  request.motion_generator_mode = franka_core::MotionGeneratorMode::kNone;
-  return request;
-}
-
-/// Status of a control unit that is not part of franka_core::RobotState.
-struct UnitStatus {
-  bool brakes_closed{false};  ///< the joints are locked (UserStopped, Other, once the arm rests)
-  bool close_brakes{false};   ///< the brakes' switch, whatever the mode
-  bool user_stop_pressed{false};  ///< the button's state, whatever the mode
-  bool fci_active{true};          ///< clients may control the arm
-  bool measured{false};  ///< the arm was observed since the start or restart: motions can start
-  /// Time must advance even if no client answers: the arm brakes or recovers.
-  bool settling{false};
-  /// No joint moves, or so slowly that a sensor would not see it.
-  bool resting{false};
-  /// The end of a motion or of a stop is answered only after the arm has come to rest.
-  bool answers_at_rest{false};
-  /// The thresholds of contact and collision in this tick.
-  CollisionThresholds thresholds;
-  /// The causes of joint_reflex and cartesian_reflex, until their recovery.
-  Collision joint_collision, cartesian_collision;
-  /// The links that came too close; valid after self_collision_avoidance_violation.
-  LinkPair self_collision;
-};
 
 /// The functions of Franka's control cabinet, once per millisecond.
 ///

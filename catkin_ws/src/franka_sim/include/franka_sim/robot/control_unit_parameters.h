@@ -3,45 +3,15 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
+#include <franka_sim/robot/interface_rules.h>
+#include <franka_sim/robot/safety/collision_thresholds.h>
 #include <franka_sim/robot/sensor_physics.h>
 
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <string>
 
 namespace franka_sim {
-
-/// Thresholds of contact (lower) and collision (upper), [Nm] and [N, N, N, Nm, Nm, Nm].
-struct CollisionThresholds {
-  std::array<double, 7> lower_torque, upper_torque;  ///< seven joints
-  std::array<double, 6> lower_force, upper_force;    ///< x, y, z
-};
-
-/// The rules of the interface that commands a robot (protocol 5.1) (decision 15).
-enum class InterfaceRules {
-  /// A robot: collisions, violated limits and lost commands end a motion; setters are refused in
-  /// Move; the Cartesian thresholds are for O_F_ext_hat_K.
-  kFci,
-  /// The ROS simulation: contacts and collisions are only shown; setters are accepted in Move; the
-  /// Cartesian thresholds are for K_F_ext_hat_K, as in the manual of the ROS simulation.
-  kRosControl,
-  /// The ROS simulation with the reflexes of a robot.
-  kRosControlWithReflexes,
-};
-
-/// Whether collisions and violated limits stop the robot.
-constexpr bool hasReflexes(InterfaceRules rules) noexcept {
-  return rules != InterfaceRules::kRosControl;
-}
-/// Whether setters are accepted in Move.
-constexpr bool acceptsSettersInMotion(InterfaceRules rules) noexcept {
-  return rules != InterfaceRules::kFci;
-}
-/// Whether Cartesian thresholds are for O_F_ext_hat_K; otherwise they are for K_F_ext_hat_K.
-constexpr bool checksWrenchInBase(InterfaceRules rules) noexcept {
-  return rules == InterfaceRules::kFci;
-}
 
 /// From the flange to the hand's nominal end effector: turned by -45 deg about z, 0.1034 m along z
 /// (protocol 8.3).
@@ -52,7 +22,7 @@ constexpr std::array<double, 16> kHandF_T_NE{
 constexpr std::array<double, 7> kJointStiffness{3000, 3000, 3000, 2500, 2500, 2000, 2000};
 
 /// The initial configuration of a control unit. Default thresholds are those of the original
-/// franka_gazebo; the source of each other default stands beside it.
+/// franka_gazebo; the source of each other default is given with it.
 struct ControlUnitParameters {
   franka_core::ArmModel model;                                     ///< of the arm, for estimates
   std::array<double, 7> max_torque{{87, 87, 87, 87, 12, 12, 12}};  ///< [Nm] (protocol 5.5)
@@ -107,45 +77,5 @@ bool isCartesianStiffness(const std::array<double, 6>& K) noexcept;
 
 /// @throws std::invalid_argument with a sentence that names the first invalid parameter.
 void checkParameters(const ControlUnitParameters& parameters);
-
-/// Protocol versions that a robot speaks.
-struct ProtocolRange {
-  std::uint16_t oldest;  ///< included
-  std::uint16_t newest;  ///< included
-};
-
-/// All versions of a robot's generation (decision 25). @param robot "fr3"; any other value is a
-/// Panda
-inline ProtocolRange protocolsOf(const std::string& robot) noexcept {
-  return robot == "fr3" ? ProtocolRange{6, 10} : ProtocolRange{3, 5};
-}
-
-/// The cause of a collision reflex: the joint or axis that was farthest beyond its upper threshold
-/// in the tick of the reflex.
-struct Collision {
-  bool happened{false};   ///< whether there was one
-  std::size_t index{0};   ///< of the joint, or of x, y, z, R, P, Y
-  double value{0.0};      ///< external torque [Nm] or force [N], not filtered
-  double threshold{0.0};  ///< the upper one in effect [Nm, N]
-};
-
-/// Which magnitudes are above their thresholds: 1 or 0, as the flags of RobotState. Real-time safe.
-template <std::size_t N>
-std::array<double, N> above(const std::array<double, N>& values,
-                            const std::array<double, N>& thresholds) noexcept;
-
-/// "joint 4: external torque 23.4 Nm, upper threshold 20 Nm". Not real-time safe.
-std::string describeJointCollision(const Collision& collision);
-/// "along z of O: external force -25.1 N, upper threshold 20 N", or about it, or of K.
-/// Not real-time safe.
-std::string describeCartesianCollision(const Collision& collision, InterfaceRules rules);
-
-constexpr int kHandLink = 8;  ///< its frame: the flange turned by -45 degrees about z
-
-/// Two parts of an arm that are close to each other: links 0 to 7, or kHandLink.
-struct LinkPair {
-  int first{0}, second{0};  ///< the two parts
-  double distance{0.0};     ///< between their surfaces, negative inside each other [m]
-};
 
 }  // namespace franka_sim

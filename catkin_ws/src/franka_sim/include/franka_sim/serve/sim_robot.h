@@ -6,6 +6,8 @@
 #include <franka_core/fci/protocol.h>
 #include <franka_core/robot_error.h>
 #include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/robot/protocol_range.h>
+#include <franka_sim/robot/safety/link_pair.h>
 #include <franka_sim/robot/whole_robot.h>
 #include <franka_sim/serve/host.h>
 

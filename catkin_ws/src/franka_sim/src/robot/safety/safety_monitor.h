@@ -6,14 +6,15 @@
 #include <franka_core/motion_limits.h>
 #include <franka_core/robot_state.h>
 #include <franka_sim/robot/fixed_pointer.h>
+#include <franka_sim/robot/safety/collision.h>
 
 #include <array>
 
 #include "robot/configuration.h"
 #include "robot/estimator/state_estimator.h"
 #include "robot/limits/error_set.h"
-#include "robot/safety/collisions.h"
 #include "robot/safety/force_watch.h"
+#include "robot/safety/self_collision.h"
 #include "robot/safety/virtual_walls.h"
 
 namespace franka_sim {

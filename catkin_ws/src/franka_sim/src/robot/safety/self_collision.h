@@ -3,29 +3,14 @@
 #pragma once
 
 #include <franka_core/arm_model.h>
-#include <franka_sim/robot/control_unit_parameters.h>
+#include <franka_sim/robot/safety/link_pair.h>
 
 #include <array>
 #include <cstddef>
 
+#include "robot/safety/capsules.h"
+
 namespace franka_sim {
-
-/// The entry farthest beyond its threshold by ratio. Real-time safe.
-template <std::size_t N>
-Collision worstOf(const std::array<double, N>& values, const std::array<double, N>& upper) noexcept;
-
-/// A cylinder with a half sphere on either end, fixed to a link.
-struct Capsule {
-  int link;                        ///< 0 to 7; kHandLink for the hand
-  std::array<double, 3> from, to;  ///< centers of the half spheres, in the link's frame [m]
-  double radius;                   ///< [m]
-};
-
-constexpr std::size_t kCapsuleCount = 12;
-
-/// The coarse volumes of arm and hand: those of the links `_sc` of the robot's description, without
-/// safety distance. A test compares both.
-extern const std::array<Capsule, kCapsuleCount> kCapsules;
 
 /// The shortest distance between two line segments [m].
 double segmentDistance(const std::array<double, 3>& a0, const std::array<double, 3>& a1,

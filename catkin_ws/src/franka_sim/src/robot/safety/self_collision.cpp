@@ -1,38 +1,18 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "robot/safety/collisions.h"
-
-#include <franka_core/numbers.h>
+#include "robot/safety/self_collision.h"
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 namespace franka_sim {
 
-template <std::size_t N>
-Collision worstOf(const std::array<double, N>& values,
-                  const std::array<double, N>& upper) noexcept {
-  Collision worst;
-  for (std::size_t i = 0; i < N; i++) {
-    const double value = std::abs(values[i]);
-    // Ratios, cross-multiplied: a threshold may be 0.
-    if (value > upper[i] &&
-        (!worst.happened || value * worst.threshold > std::abs(worst.value) * upper[i])) {
-      worst = {true, i, values[i], upper[i]};
-    }
-  }
-  return worst;
-}
-
-template Collision worstOf(const std::array<double, 6>&, const std::array<double, 6>&) noexcept;
-template Collision worstOf(const std::array<double, 7>&, const std::array<double, 7>&) noexcept;
 namespace {
 
-constexpr double kHalfRoot = 0.70710678118654752440;  // cos and sin of 45 degrees
+constexpr double kCosineOf45Degrees = 0.70710678118654752440;
 constexpr double kOverlapJitter = 1e-4;  // [m], chosen here: allowed growth of an overlap at rest
 
 struct Ends {
@@ -61,8 +41,8 @@ std::array<Ends, kCapsuleCount> place(const franka_core::ArmModel& model,
   }
   Eigen::Isometry3d flange;
   flange.matrix() = Eigen::Map<const Eigen::Matrix4d>(model.flange().data());
-  frames[kHandLink] =
-      frames[7] * flange * Eigen::AngleAxisd(-std::acos(kHalfRoot), Eigen::Vector3d::UnitZ());
+  frames[kHandLink] = frames[7] * flange *
+                      Eigen::AngleAxisd(-std::acos(kCosineOf45Degrees), Eigen::Vector3d::UnitZ());
 
   std::array<Ends, kCapsuleCount> placed;
   for (std::size_t i = 0; i < kCapsuleCount; i++) {
@@ -97,25 +77,6 @@ double distanceOf(const Ends& a, const Ends& b) noexcept {
 }
 
 }  // namespace
-
-// The frame of link 7's volumes is turned by 45 degrees about the link's z.
-const std::array<Capsule, kCapsuleCount> kCapsules{{
-    {0, {{-0.09, 0, 0.06}}, {{-0.06, 0, 0.06}}, 0.06},
-    {1, {{0, 0, -0.333}}, {{0, 0, -0.05}}, 0.06},
-    {2, {{0, 0, -0.06}}, {{0, 0, 0.06}}, 0.06},
-    {3, {{0, 0, -0.22}}, {{0, 0, -0.07}}, 0.06},
-    {4, {{0, 0, -0.06}}, {{0, 0, 0.06}}, 0.06},
-    {5, {{0, 0, -0.31}}, {{0, 0, -0.21}}, 0.06},
-    {5, {{0, 0.08, -0.2}}, {{0, 0.08, -0.06}}, 0.025},
-    {6, {{0, 0, -0.07}}, {{0, 0, 0.01}}, 0.05},
-    {7, {{0, 0, -0.06}}, {{0, 0, 0.08}}, 0.04},
-    {7,
-     {{0.055 * kHalfRoot, 0.055 * kHalfRoot, 0.082}},
-     {{0.065 * kHalfRoot, 0.065 * kHalfRoot, 0.082}},
-     0.03},
-    {kHandLink, {{0, -0.05, 0.04}}, {{0, 0.05, 0.04}}, 0.04},
-    {kHandLink, {{0, -0.05, 0.1}}, {{0, 0.05, 0.1}}, 0.02},
-}};
 
 double segmentDistance(const std::array<double, 3>& a0, const std::array<double, 3>& a1,
                        const std::array<double, 3>& b0, const std::array<double, 3>& b1) noexcept {
