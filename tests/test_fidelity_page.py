@@ -34,7 +34,7 @@ CONSTANTS = [
     ("the last # commands", f"{ROBOT}/safety/command_window.h", "kSlots = #;", 1),
     (
         "shows #, #, #, #, #, # and # Nm",
-        "franka_sim/src/physics/physics_config.cpp",
+        "franka_sim/src/physics/world/physics_config.cpp",
         f"kGravityError{{{SEVEN}}};",
         1,
     ),
@@ -43,7 +43,7 @@ CONSTANTS = [
     ("with # % of", f"{ROBOT}/hands/gripper_unit.cpp", "finger_force = # * std::min(force,", 100),
     (
         "time constant # ms between finger pads",
-        "franka_sim/src/physics/contacts.h",
+        "franka_sim/src/physics/contacts/contacts.h",
         'kGraspSolref = "# 1";',
         1000,
     ),
@@ -70,7 +70,7 @@ CONSTANTS = [
     ("time constant of # s", f"{HEADERS}/hands/gripper_unit.h", "temperature_time{#};", 1),
     ("within #;", f"{CORE}/transform.h", "kTransformTolerance = #;", 1),
     # Worlds, hand, ros_control
-    ("# cm", "franka_sim/src/physics/meshes.cpp", "kPlate = #;", 100),
+    ("# cm", "franka_sim/src/physics/meshes/meshes.cpp", "kPlate = #;", 100),
     ("nothing for # s", "franka_gripper/src/franka_gripper/gripper_node.py", "SILENCE = #", 1),
     ("polls every # ms", SCHEDULE, "kMinWait{#};", 1e-3),
     ("down to every # ms", SCHEDULE, "kMaxWait{#};", 1e-3),

@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "physics/mesh_assets.h"
-#include "physics/model_compiler.h"
+#include "physics/meshes/mesh_assets.h"
+#include "physics/mjcf/model_compiler.h"
 
 namespace franka_sim::physics {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "physics/step_preparation.h"
-#include "physics/world_impl.h"
+#include "physics/stepping/step_preparation.h"
+#include "physics/world/world_impl.h"
 #include "stone_in_hand.h"
 
 namespace franka_sim::test {

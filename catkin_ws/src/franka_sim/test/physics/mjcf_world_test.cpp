@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "physics/model_compiler.h"
+#include "physics/mjcf/model_compiler.h"
 #include "temporary_folder.h"
 #include "test_support.h"
 

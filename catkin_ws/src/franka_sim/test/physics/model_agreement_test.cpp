@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "physics/model_compiler.h"
+#include "physics/mjcf/model_compiler.h"
 #include "test_support.h"
 
 namespace franka_sim::test {

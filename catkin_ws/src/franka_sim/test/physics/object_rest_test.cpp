@@ -5,7 +5,7 @@
 #include <cmath>
 #include <vector>
 
-#include "physics/world_impl.h"
+#include "physics/world/world_impl.h"
 #include "stone_in_hand.h"
 
 namespace franka_sim::test {

@@ -6,7 +6,7 @@
 #include <atomic>
 #include <thread>
 
-#include "physics/step_preparation.h"
+#include "physics/stepping/step_preparation.h"
 
 namespace franka_sim::physics {
 namespace {

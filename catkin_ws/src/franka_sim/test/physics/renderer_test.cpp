@@ -12,7 +12,7 @@
 #include <thread>
 #include <vector>
 
-#include "physics/gl_context.h"
+#include "physics/pictures/gl_context.h"
 #include "temporary_folder.h"
 #include "test_support.h"
 

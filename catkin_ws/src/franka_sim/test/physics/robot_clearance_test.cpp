@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "physics/world_impl.h"
+#include "physics/world/world_impl.h"
 #include "test_support.h"
 
 namespace franka_sim::test {

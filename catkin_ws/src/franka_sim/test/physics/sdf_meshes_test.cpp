@@ -7,8 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "physics/meshes.h"
-#include "physics/model_compiler.h"
+#include "physics/meshes/meshes.h"
+#include "physics/mjcf/model_compiler.h"
 #include "sdf_test.h"
 
 namespace franka_sim::test {

@@ -6,7 +6,7 @@
 #include <filesystem>
 #include <set>
 
-#include "physics/sdf_scene.h"
+#include "physics/sdf/sdf_scene.h"
 #include "sdf_test.h"
 
 namespace franka_sim::test {

@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "physics/urdf_robot.h"
+#include "physics/urdf/urdf_robot.h"
 
 #include <franka_sim/robot/control_unit_parameters.h>
 
 #include <cmath>
 
-#include "physics/robot_model.h"
+#include "physics/mjcf/robot_model.h"
 #include "test_support.h"
 
 namespace franka_sim::test {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "physics/world_impl.h"
+#include "physics/world/world_impl.h"
 #include "temporary_folder.h"
 #include "test_support.h"
 

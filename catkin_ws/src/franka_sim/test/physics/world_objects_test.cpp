@@ -10,7 +10,7 @@
 #include <functional>
 #include <thread>
 
-#include "physics/world_impl.h"
+#include "physics/world/world_impl.h"
 #include "test_support.h"
 
 namespace franka_sim::test {

@@ -14,7 +14,7 @@
 #include <thread>
 #include <vector>
 
-#include "physics/world_impl.h"
+#include "physics/world/world_impl.h"
 #include "test_support.h"
 
 namespace franka_sim::test {

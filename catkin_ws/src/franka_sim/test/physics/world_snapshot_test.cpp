@@ -8,7 +8,7 @@
 #include <memory>
 #include <string>
 
-#include "physics/world_impl.h"
+#include "physics/world/world_impl.h"
 #include "temporary_folder.h"
 #include "test_support.h"
 

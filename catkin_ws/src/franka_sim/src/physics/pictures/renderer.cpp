@@ -1,0 +1,349 @@
+// Copyright (c) 2026 the franka_ros for Debian authors
+// SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/renderer.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "physics/mjcf/mjcf_robot.h"
+#include "physics/mjcf/model_compiler.h"
+#include "physics/mjcf/rotations.h"
+#include "physics/pictures/gl_context.h"
+#include "physics/pictures/scene_model.h"
+#include "physics/world/world_impl.h"
+
+namespace franka_sim {
+namespace {
+
+/// MuJoCo leaves out, without a word, what a scene has no room for. Besides its geoms a model has
+/// sites, tendons and skins (room chosen here).
+constexpr int kSpareGeoms = 1000;
+
+/// MuJoCo's free camera turns about the point it looks at.
+mjvCamera freeCamera(const Camera& camera) {
+  const Eigen::Vector3d from(camera.position.data());
+  const Eigen::Vector3d to(camera.target.data());
+  const Eigen::Vector3d line = to - from;
+  if (!line.allFinite() || line.norm() < 1e-6) {
+    throw std::runtime_error("The camera cannot look from a point to that same point.");
+  }
+  mjvCamera result;
+  mjv_defaultCamera(&result);
+  result.type = mjCAMERA_FREE;
+  result.distance = line.norm();
+  std::copy(camera.target.begin(), camera.target.end(), result.lookat);
+  result.azimuth = std::atan2(line.y(), line.x()) / physics::kDegree;
+  result.elevation = std::asin(line.z() / line.norm()) / physics::kDegree;
+  return result;
+}
+
+void checkSize(int width, int height) {
+  constexpr int kMax = Renderer::kMaxPictureSide;
+  if (width < 1 || height < 1 || width > kMax || height > kMax) {
+    throw std::runtime_error(
+        "A picture of " + std::to_string(width) + " x " + std::to_string(height) +
+        " pixels cannot be drawn; each side can have 1 to " + std::to_string(kMax) + ".");
+  }
+}
+
+/// Converts the z-buffer (rows from the bottom) to distances (rows from the top). 1 is the far end
+/// of the drawn range: no hit.
+std::vector<float> toMeters(const std::vector<float>& buffer, const mjModel& model, int width,
+                            int height) {
+  const double near = model.vis.map.znear * model.stat.extent;
+  const double far = model.vis.map.zfar * model.stat.extent;
+  std::vector<float> meters(buffer.size());
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double z = buffer[static_cast<std::size_t>(height - 1 - y) * width + x];
+      meters[static_cast<std::size_t>(y) * width + x] =
+          z >= 1 ? std::numeric_limits<float>::infinity()
+                 : static_cast<float>(near * far / (far - z * (far - near)));
+    }
+  }
+  return meters;
+}
+
+/// MuJoCo's cameras look along -z with y up; optical frames along z with y down.
+Pose opticalFrame(const mjData& data, int camera) {
+  Eigen::Matrix3d turn =
+      Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(data.cam_xmat + 9 * camera);
+  turn.col(1) = -turn.col(1);
+  turn.col(2) = -turn.col(2);
+  const Eigen::Quaterniond q(turn);
+  const double* p = data.cam_xpos + 3 * camera;
+  return {{p[0], p[1], p[2]}, {q.w(), q.x(), q.y(), q.z()}};
+}
+
+}  // namespace
+
+struct Renderer::Impl {
+  std::unique_ptr<physics::GlContext> gl{physics::makeGlContext()};
+  physics::SceneModel drawn;
+  mjvScene scene;
+  mjrContext context;
+
+  Impl() {
+    mjv_defaultScene(&scene);
+    mjr_defaultContext(&context);
+  }
+  ~Impl() {
+    try {
+      const physics::CurrentContext current(*gl);
+      mjr_freeContext(&context);
+    } catch (const std::runtime_error&) {  // NOLINT(bugprone-empty-catch)
+      // What the driver holds ends with its context.
+    }
+    mjv_freeScene(&scene);
+  }
+
+  /// Compiles and uploads only if the set of objects changed or the picture is larger than the
+  /// buffer.
+  void prepare(const std::string& text, int width, int height) {
+    const bool other_model = drawn.load(text);
+    if (!other_model && width <= context.offWidth && height <= context.offHeight) {
+      return;
+    }
+    mjModel* model = drawn.model();
+    if (other_model) {
+      mjv_freeScene(&scene);
+      mjv_makeScene(model, &scene, model->ngeom + kSpareGeoms);
+    }
+    model->vis.global.offwidth = std::max(width, context.offWidth);
+    model->vis.global.offheight = std::max(height, context.offHeight);
+    model->vis.quality.offsamples = 0;
+    mjr_freeContext(&context);
+    mjr_makeContext(model, &context, mjFONTSCALE_100);
+    mjr_setBuffer(mjFB_OFFSCREEN, &context);
+    if (context.currentBuffer != mjFB_OFFSCREEN) {
+      throw std::runtime_error("The graphics driver (" + gl->name() +
+                               ") gives no buffer to draw pictures into.");
+    }
+  }
+
+  /// Draws in the picture's size. @param depth null or an array with one entry per pixel
+  void draw(mjvCamera* view, float* depth, Picture* picture) {
+    mjvOption option;
+    mjv_defaultOption(&option);
+    mjv_updateScene(drawn.model(), drawn.data(), &option, nullptr, view, mjCAT_ALL, &scene);
+    const mjrRect area{0, 0, picture->width, picture->height};
+    mjr_render(area, &scene, &context);
+    const std::size_t row = 3u * picture->width;
+    std::vector<std::uint8_t> upside_down(row * picture->height);
+    mjr_readPixels(upside_down.data(), depth, area, &context);
+    picture->rgb.resize(upside_down.size());
+    for (int y = 0; y < picture->height; ++y) {
+      std::copy_n(upside_down.begin() + row * (picture->height - 1 - y), row,
+                  picture->rgb.begin() + row * y);
+    }
+  }
+};
+
+Renderer::Renderer() : impl_(std::make_unique<Impl>()) {}
+Renderer::~Renderer() {
+  if (!physics::isGlProcess()) {
+    impl_.release();  // NOLINT(bugprone-unused-return-value): its driver cannot be used here
+  }
+}
+
+std::string Renderer::backend() const { return impl_->gl->name(); }
+
+Picture Renderer::render(const Scene& scene, const Camera& camera, int width, int height) {
+  checkSize(width, height);
+  if (!(camera.field_of_view > 1 && camera.field_of_view < 170)) {
+    throw std::runtime_error("The camera's field of view must lie between 1 and 170 degrees.");
+  }
+  mjvCamera view = freeCamera(camera);
+  const physics::EngineErrorScope scope;
+  const physics::CurrentContext current(*impl_->gl);
+  impl_->prepare(scene.mjcf, width, height);
+  impl_->drawn.pose(scene);
+  impl_->drawn.model()->vis.global.fovy = static_cast<float>(camera.field_of_view);
+  Picture picture;
+  picture.width = width;
+  picture.height = height;
+  impl_->draw(&view, nullptr, &picture);
+  return picture;
+}
+
+Picture Renderer::render(const Scene& scene, const std::string& camera, int width, int height) {
+  checkSize(width, height);
+  const physics::EngineErrorScope scope;
+  const physics::CurrentContext current(*impl_->gl);
+  impl_->prepare(scene.mjcf, width, height);
+  impl_->drawn.pose(scene);
+  const mjModel& model = *impl_->drawn.model();
+  const int id = mj_name2id(&model, mjOBJ_CAMERA, camera.c_str());
+  if (id < 0) {
+    throw std::runtime_error("There is no camera '" + camera + "' in the simulated world.");
+  }
+  mjvCamera view;
+  mjv_defaultCamera(&view);
+  view.type = mjCAMERA_FIXED;
+  view.fixedcamid = id;
+  Picture picture;
+  picture.width = width;
+  picture.height = height;
+  std::vector<float> depth(static_cast<std::size_t>(width) * height);
+  impl_->draw(&view, depth.data(), &picture);
+  picture.depth = toMeters(depth, model, width, height);
+  picture.camera = opticalFrame(*impl_->drawn.data(), id);
+  return picture;
+}
+
+Scene captureScene(World& world) {
+  World::Impl& impl = implOf(world);
+  if (impl.visual_mjcf.empty()) {
+    impl.visual_mjcf = world.mjcf(true);
+  }
+  Scene scene;
+  scene.mjcf = impl.visual_mjcf;
+  scene.contacts = contacts(world);
+  scene.time = world.time();
+  scene.fault = world.fault();
+  const mjModel& model = *impl.model;
+  for (int l = 0; l < model.nlight; ++l) {
+    scene.lights.push_back(physics::readLight(model, l));
+  }
+  for (int j = 0; j < model.njnt; ++j) {
+    const double* qpos = impl.data->qpos + model.jnt_qposadr[j];
+    if (model.jnt_type[j] == mjJNT_FREE) {
+      const char* body = mj_id2name(&model, mjOBJ_BODY, model.jnt_bodyid[j]);
+      scene.bodies[body != nullptr ? body : ""] = {{qpos[0], qpos[1], qpos[2]},
+                                                   {qpos[3], qpos[4], qpos[5], qpos[6]}};
+    } else if (model.jnt_type[j] != mjJNT_BALL) {
+      const char* name = mj_id2name(&model, mjOBJ_JOINT, j);
+      scene.joints[name != nullptr ? name : ""] = *qpos;
+    }
+  }
+  return scene;
+}
+
+namespace {
+
+constexpr int kFirstHiddenGroup = 3;  // MuJoCo's renderer draws groups 0 to 2 by default
+
+std::optional<Shape::Kind> kindOf(int type) {
+  switch (type) {
+    case mjGEOM_PLANE:
+      return Shape::Kind::kPlane;
+    case mjGEOM_SPHERE:
+      return Shape::Kind::kSphere;
+    case mjGEOM_CAPSULE:
+      return Shape::Kind::kCapsule;
+    case mjGEOM_ELLIPSOID:
+      return Shape::Kind::kEllipsoid;
+    case mjGEOM_CYLINDER:
+      return Shape::Kind::kCylinder;
+    case mjGEOM_BOX:
+      return Shape::Kind::kBox;
+    case mjGEOM_MESH:
+      return Shape::Kind::kMesh;
+    default:
+      return {};
+  }
+}
+
+// As MuJoCo's renderer: a material's color, unless the geom has one of its own.
+std::array<float, 4> colorOf(const mjModel& model, int geom) {
+  constexpr std::array<float, 4> kUnset{0.5F, 0.5F, 0.5F, 1.0F};
+  std::array<float, 4> color;
+  std::copy_n(model.geom_rgba + 4 * geom, 4, color.begin());
+  const int material = model.geom_matid[geom];
+  if (material >= 0 && color == kUnset) {
+    std::copy_n(model.mat_rgba + 4 * material, 4, color.begin());
+  }
+  return color;
+}
+
+ShapeMesh meshOf(const mjModel& model, int mesh) {
+  const float* const vertices = model.mesh_vert + 3 * model.mesh_vertadr[mesh];
+  const int* const faces = model.mesh_face + 3 * model.mesh_faceadr[mesh];
+  return {{vertices, vertices + 3 * model.mesh_vertnum[mesh]},
+          {faces, faces + 3 * model.mesh_facenum[mesh]}};
+}
+
+Eigen::Isometry3d poseInBody(const mjModel& model, int geom) {
+  const double* const q = model.geom_quat + 4 * geom;
+  return Eigen::Translation3d(Eigen::Map<const Eigen::Vector3d>(model.geom_pos + 3 * geom)) *
+         Eigen::Quaterniond(q[0], q[1], q[2], q[3]);
+}
+
+/// Collects the shapes of a compiled model.
+class ShapeReader {
+ public:
+  ShapeReader(const mjModel& model, const std::vector<NamedFrame>& frames)
+      : model_(model), frames_(frames) {}
+
+  WorldShapes read() {
+    for (const NamedFrame& frame : frames_) {
+      result_.bodies.push_back(frame.name);
+    }
+    for (int geom = 0; geom < model_.ngeom; geom++) {
+      const std::optional<Shape::Kind> kind = kindOf(model_.geom_type[geom]);
+      const std::array<float, 4> color = colorOf(model_, geom);
+      if (kind && model_.geom_group[geom] < kFirstHiddenGroup && color[3] > 0.0F) {
+        add(geom, *kind, color);
+      }
+    }
+    return std::move(result_);
+  }
+
+ private:
+  void add(int geom, Shape::Kind kind, const std::array<float, 4>& color) {
+    Shape shape;
+    shape.body = frameOf(geom);
+    shape.kind = kind;
+    shape.pose = toPose(frames_[shape.body].frame.pose.inverse() * poseInBody(model_, geom));
+    shape.color = color;
+    if (kind == Shape::Kind::kMesh) {
+      shape.mesh = indexOfMesh(model_.geom_dataid[geom]);
+    } else {
+      std::copy_n(model_.geom_size + 3 * geom, 3, shape.size.begin());
+    }
+    result_.shapes.push_back(shape);
+  }
+
+  // The link that the geom's name begins with, if it is in this body; otherwise the body.
+  std::size_t frameOf(int geom) const {
+    const int body = model_.geom_bodyid[geom];
+    const char* const name = mj_id2name(&model_, mjOBJ_GEOM, geom);
+    const std::string link = physics::linkOfGeom(name != nullptr ? name : "");
+    const auto found =
+        std::find_if(frames_.begin(), frames_.end(), [&](const NamedFrame& candidate) {
+          return candidate.name == link && candidate.frame.body == body;
+        });
+    return found != frames_.end() ? static_cast<std::size_t>(found - frames_.begin())
+                                  : static_cast<std::size_t>(body);
+  }
+
+  std::size_t indexOfMesh(int mesh) {
+    const auto [entry, is_new] = indices_.emplace(mesh, result_.meshes.size());
+    if (is_new) {
+      result_.meshes.push_back(meshOf(model_, mesh));
+    }
+    return entry->second;
+  }
+
+  const mjModel& model_;
+  const std::vector<NamedFrame>& frames_;
+  std::map<int, std::size_t> indices_;  // by MuJoCo's number
+  WorldShapes result_;
+};
+
+}  // namespace
+
+std::function<WorldShapes()> shapesOf(World& world) {
+  return [text = captureScene(world).mjcf, frames = implOf(world).ordered_frames] {
+    const physics::ModelPtr model = physics::compile(text, "The model to draw");
+    return ShapeReader(*model, frames).read();
+  };
+}
+
+}  // namespace franka_sim
