@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Bodies, contacts and cameras of a world; pyfranka/sim gives them their Python interface.
 #include <franka_core/numbers.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_cameras.h>
+#include <franka_sim/physics/world_contacts.h>
+#include <franka_sim/physics/world_pushes.h>
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 

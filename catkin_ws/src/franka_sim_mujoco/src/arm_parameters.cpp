@@ -6,7 +6,9 @@
 #include <franka_core/numbers.h>
 #include <franka_core/typed_transform.h>
 #include <franka_hw/robot_mismatch.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_gravity.h>
 #include <franka_sim/robot/control_unit_parameters.h>
 #include <franka_sim/robot/protocol_range.h>
 #include <franka_sim/serve/sim_robot.h>

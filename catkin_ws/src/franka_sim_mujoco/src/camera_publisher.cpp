@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "camera_publisher.h"
 
+#include <franka_sim/physics/world_cameras.h>
 #include <ros/console.h>
 #include <sensor_msgs/Image.h>
 #include <sensor_msgs/distortion_models.h>

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_sim/physics/renderer.h>
+#include <franka_sim/physics/world_cameras.h>
 #include <ros/node_handle.h>
 #include <ros/publisher.h>
 #include <sensor_msgs/CameraInfo.h>

@@ -4,7 +4,8 @@
 #include <franka_core/numbers.h>
 #include <franka_core/robot_error.h>
 #include <franka_core/transform.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_joints.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <franka_sim_mujoco/franka_hw_sim.h>

@@ -5,7 +5,8 @@
 /// SimServices: Gazebo's services for lights.
 
 #include <franka_sim/physics/pose_conversions.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_lights.h>
 #include <gazebo_msgs/DeleteLight.h>
 #include <gazebo_msgs/GetLightProperties.h>
 #include <gazebo_msgs/SetLightProperties.h>

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_models.h>
 #include <gazebo_msgs/LinkState.h>
 #include <gazebo_msgs/ModelState.h>
 #include <geometry_msgs/Pose.h>

@@ -6,8 +6,13 @@
 /// What a running simulation cannot change is refused with a sentence.
 
 #include <franka_core/numbers.h>
+#include <franka_sim/physics/input_limits.h>
 #include <franka_sim/physics/pose_conversions.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_gravity.h>
+#include <franka_sim/physics/world_models.h>
+#include <franka_sim/physics/world_pushes.h>
 #include <gazebo_msgs/ApplyBodyWrench.h>
 #include <gazebo_msgs/ApplyJointEffort.h>
 #include <gazebo_msgs/BodyRequest.h>

@@ -5,6 +5,7 @@
 /// SimServices: the most used services of Gazebo, with its names and types. Errors are reported in
 /// status_message.
 
+#include <franka_sim/physics/world_joints.h>
 #include <gazebo_msgs/DeleteModel.h>
 #include <gazebo_msgs/GetJointProperties.h>
 #include <gazebo_msgs/GetLinkState.h>

@@ -2,7 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "joint_state_publisher.h"
 
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_joints.h>
 #include <franka_sim_mujoco/robot_hw_sim.h>
 
 #include <algorithm>

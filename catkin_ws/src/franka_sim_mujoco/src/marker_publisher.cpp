@@ -3,6 +3,7 @@
 #include "marker_publisher.h"
 
 #include <franka_sim/physics/pose_conversions.h>
+#include <franka_sim/physics/world_models.h>
 #include <ros/console.h>
 
 #include <algorithm>

@@ -4,7 +4,10 @@
 /// @file
 /// SimServices: objects, states, gravity and snapshots.
 
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_gravity.h>
+#include <franka_sim/physics/world_joints.h>
 #include <franka_sim_mujoco/DeleteObject.h>
 #include <franka_sim_mujoco/GetBodyState.h>
 #include <franka_sim_mujoco/GetJointStates.h>

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "robot_set.h"
 
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_contacts.h>
+#include <franka_sim/physics/world_joints.h>
 #include <realtime_tools/realtime_publisher.h>
 #include <ros/console.h>
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "sim_services.h"
 
+#include <franka_sim/physics/world_pushes.h>
 #include <franka_sim_mujoco/Benchmark.h>
 #include <franka_sim_mujoco/DeleteRobot.h>
 #include <franka_sim_mujoco/GetBodyPose.h>

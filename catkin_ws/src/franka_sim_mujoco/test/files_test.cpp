@@ -4,7 +4,8 @@
 /// @file
 /// World files by name, and files that packages export.
 
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_bodies.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>

@@ -3,7 +3,8 @@
 //
 // Simulated robots on the network, without ROS.
 #include <franka_sim/physics/window.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_contacts.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/realism.h>
 #include <franka_sim/serve/host.h>

@@ -6,7 +6,7 @@
 #include <franka_core/fci/protocol.h>
 #include <franka_core/numbers.h>
 #include <franka_core/spin_rule.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/input_limits.h>
 #include <franka_sim/robot/realism.h>
 
 #include <CLI/CLI.hpp>

@@ -49,7 +49,7 @@ bool isInertia(const std::array<double, 9>& inertia) noexcept {
   return I.determinant() >= -tolerance * scale * scale;
 }
 
-constexpr double kMaxGravity = 100.0;  // [m/s^2], as the world's (physics/world_properties.h)
+constexpr double kMaxGravity = 100.0;  // [m/s^2], as the world's (physics/input_limits.h)
 
 // Not std::hypot of three: it may return 0 for a number that is not finite.
 double distance(double x, double y, double z) noexcept { return std::sqrt(x * x + y * y + z * z); }

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world_bodies.h>
 #include <franka_sim/serve/scene_text.h>
 #include <sched.h>
 

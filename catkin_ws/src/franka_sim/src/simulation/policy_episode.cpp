@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/motion_limits.h>
 #include <franka_core/rotations.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_contacts.h>
 #include <franka_sim/simulation/policy_episode.h>
 
 #include <Eigen/Cholesky>

@@ -1,7 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/motion_limits.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_joints.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <franka_sim/simulation/robot_setup.h>
 #include <franka_sim/simulation/simulation.h>

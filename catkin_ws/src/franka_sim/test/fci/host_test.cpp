@@ -3,7 +3,8 @@
 //
 // The whole simulated robot over real sockets, in lock-step.
 #include <franka_core/fci/gripper_codec.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_pushes.h>
 #include <ros_test/eventually.h>
 
 #include <optional>

@@ -8,7 +8,8 @@
 #include <franka/log.h>
 #include <franka/model.h>
 #include <franka_core/limits.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_pushes.h>
 #include <gtest/gtest.h>
 #include <transform_sweep.h>
 

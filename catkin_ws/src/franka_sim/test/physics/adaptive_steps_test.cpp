@@ -1,6 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Long physics steps while robots move freely, short ones before and during contact (decision 58).
+#include <franka_sim/physics/world_joints.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>

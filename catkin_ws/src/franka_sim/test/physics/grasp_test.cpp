@@ -1,6 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // A stone between two fingers, held only by friction.
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_contacts.h>
+
 #include <cmath>
 
 #include "stone_in_hand.h"

@@ -1,5 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_sim/physics/world_joints.h>
+#include <franka_sim/physics/world_pushes.h>
 #include <source_file.h>
 
 #include <algorithm>

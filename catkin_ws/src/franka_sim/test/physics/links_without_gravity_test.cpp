@@ -1,6 +1,10 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_gravity.h>
+#include <franka_sim/physics/world_joints.h>
+#include <franka_sim/physics/world_pushes.h>
 
 #include <cmath>
 

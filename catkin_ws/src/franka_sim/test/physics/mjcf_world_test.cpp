@@ -1,6 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // World files by other authors: kept elements, and errors of refused ones.
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_cameras.h>
 #include <unistd.h>
 
 #include <cstdio>

@@ -1,6 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Objects that rest are held in place until something can move them (decision 60).
+#include <franka_sim/physics/world_joints.h>
+#include <franka_sim/physics/world_pushes.h>
+
 #include <algorithm>
 #include <cmath>
 #include <vector>

@@ -4,6 +4,7 @@
 #include <EGL/eglext.h>
 #include <GL/osmesa.h>
 #include <franka_sim/physics/renderer.h>
+#include <franka_sim/physics/world_joints.h>
 
 #include <array>
 #include <cstdlib>

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_contacts.h>
+
 #include <array>
 #include <memory>
 #include <string>

@@ -5,7 +5,8 @@
 #include <franka_core/arm_model.h>
 #include <franka_core/numbers.h>
 #include <franka_sim/physics/physics_config.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_gravity.h>
 #include <gtest/gtest.h>
 #include <source_file.h>
 

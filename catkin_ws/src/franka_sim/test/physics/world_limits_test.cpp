@@ -5,7 +5,12 @@
 /// Numbers beyond any robot are refused; a world that diverges nevertheless stops, reports why, and
 /// can be reset; overlaps of a new robot are reported.
 
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_contacts.h>
+#include <franka_sim/physics/world_gravity.h>
+#include <franka_sim/physics/world_joints.h>
+#include <franka_sim/physics/world_pushes.h>
 
 #include <limits>
 #include <string>

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // Objects that are added and removed, states that are set, snapshots that continue to the last bit.
 #include <franka_sim/physics/world.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_gravity.h>
+#include <franka_sim/physics/world_lights.h>
 #include <gmock/gmock.h>
 
 #include <atomic>

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Control unit and gripper unit on the MuJoCo physics, Panda and FR3.
 #include <franka_sim/physics/physics_config.h>
+#include <franka_sim/physics/world_contacts.h>
+#include <franka_sim/physics/world_pushes.h>
 #include <franka_sim/robot/control_unit.h>
 #include <franka_sim/robot/hands/gripper_unit.h>
 

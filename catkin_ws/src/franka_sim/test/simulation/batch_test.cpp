@@ -1,7 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Many simulations on several threads: equal to each alone, observed, and what goes wrong in one.
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_pushes.h>
 #include <franka_sim/simulation/batch.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Robots that a program drives in its own process: commands, laws, refusals, resets.
+#include <franka_sim/physics/world_pushes.h>
 #include <franka_sim/serve/sim_robot.h>
 #include <franka_sim/simulation/policy_episode.h>
 #include <franka_sim/simulation/simulation.h>

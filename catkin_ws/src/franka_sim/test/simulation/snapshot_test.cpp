@@ -1,6 +1,8 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Snapshots of world and robots: in the middle of motions and grasps, and of other simulations.
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_pushes.h>
 #include <franka_sim/simulation/simulation.h>
 #include <gtest/gtest.h>
 

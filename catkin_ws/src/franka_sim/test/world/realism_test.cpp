@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The profiles of realism against the figures of recordings and publications (docs/fidelity.md).
 #include <franka_sim/physics/physics_config.h>
+#include <franka_sim/physics/world_joints.h>
+#include <franka_sim/physics/world_pushes.h>
 #include <franka_sim/robot/control_unit.h>
 #include <source_file.h>
 

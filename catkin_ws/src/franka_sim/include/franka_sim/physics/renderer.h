@@ -3,7 +3,9 @@
 #pragma once
 
 #include <franka_sim/physics/world.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_contacts.h>
+#include <franka_sim/physics/world_lights.h>
 
 #include <array>
 #include <cstddef>
@@ -96,7 +98,7 @@ struct Shape {
 /// The shapes of a world as data, for programs that draw it themselves.
 struct WorldShapes {
   /// All bodies, links included, and unnamed ones too; each once. The order is that of framePoses()
-  /// (physics/world_properties.h), as long as World::generation() is the same.
+  /// (physics/world_bodies.h), as long as World::generation() is the same.
   std::vector<std::string> bodies;
   std::vector<Shape> shapes;
   std::vector<ShapeMesh> meshes;

@@ -92,8 +92,8 @@ class WorldChange {
 };
 
 /// The simulated world: an MJCF or SDF world file with robots from URDFs, stepped in ticks of 1 ms.
-/// What is in it - bodies, joints, contacts, gravity - is read and changed by the functions of
-/// physics/world_properties.h.
+/// What is in it - bodies, joints, contacts, models, cameras, gravity, lights - is read and changed
+/// by the functions of the headers physics/world_*.h.
 ///
 /// Called by one thread at a time, those functions included. Functions that change the set of
 /// robots allocate and throw std::runtime_error with a sentence.

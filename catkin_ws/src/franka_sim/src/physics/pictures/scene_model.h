@@ -3,7 +3,7 @@
 #pragma once
 
 #include <franka_sim/physics/renderer.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world_lights.h>
 #include <mujoco/mujoco.h>
 
 #include <algorithm>

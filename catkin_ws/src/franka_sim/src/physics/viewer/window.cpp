@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/numbers.h>
 #include <franka_sim/physics/window.h>
+#include <franka_sim/physics/world_pushes.h>
 
 #include <algorithm>
 #include <chrono>

@@ -4,7 +4,8 @@
 
 #include <franka_sim/physics/pose_conversions.h>
 #include <franka_sim/physics/world.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/world_contacts.h>
+#include <franka_sim/physics/world_lights.h>
 
 #include <Eigen/Geometry>
 #include <array>

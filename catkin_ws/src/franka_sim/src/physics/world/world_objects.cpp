@@ -3,8 +3,8 @@
 
 /// @file
 /// World: its set of robots and objects, which changes at run time.
+#include <franka_sim/physics/input_limits.h>
 #include <franka_sim/physics/world.h>
-#include <franka_sim/physics/world_properties.h>
 
 #include <algorithm>
 #include <set>

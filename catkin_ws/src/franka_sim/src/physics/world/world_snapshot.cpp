@@ -6,6 +6,7 @@
 
 #include <franka_core/fnv_hash.h>
 #include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_gravity.h>
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/motion_limits.h>
 #include <franka_core/transform.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/input_limits.h>
 
 #include <Eigen/Core>
 #include <Eigen/Geometry>

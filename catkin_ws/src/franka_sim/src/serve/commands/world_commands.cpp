@@ -1,7 +1,9 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_core/numbers.h>
-#include <franka_sim/physics/world_properties.h>
+#include <franka_sim/physics/input_limits.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_pushes.h>
 
 #include <array>
 #include <cstdint>
