@@ -70,7 +70,7 @@ CONSTANTS = [
     ("time constant of # s", f"{HEADERS}/hands/gripper_unit.h", "temperature_time{#};", 1),
     ("within #;", f"{CORE}/transform.h", "kTransformTolerance = #;", 1),
     # Worlds, hand, ros_control
-    ("# cm", "franka_sim/src/physics/meshes/meshes.cpp", "kPlate = #;", 100),
+    ("# cm", "franka_sim/src/physics/meshes/mesh_conversion.cpp", "kPlate = #;", 100),
     ("nothing for # s", "franka_gripper/src/franka_gripper/gripper_node.py", "SILENCE = #", 1),
     ("polls every # ms", SCHEDULE, "kMinWait{#};", 1e-3),
     ("down to every # ms", SCHEDULE, "kMaxWait{#};", 1e-3),

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "physics/meshes/mesh_assets.h"
+#include "physics/meshes/mesh_simplification.h"
 #include "physics/mjcf/model_compiler.h"
 
 namespace franka_sim::physics {

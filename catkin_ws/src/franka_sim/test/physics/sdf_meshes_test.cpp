@@ -7,7 +7,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "physics/meshes/meshes.h"
+#include "physics/meshes/mesh_file.h"
+#include "physics/meshes/triangle_mesh.h"
 #include "physics/mjcf/model_compiler.h"
 #include "sdf_test.h"
 

@@ -3,18 +3,17 @@
 #pragma once
 
 #include <franka_sim/physics/world.h>
-#include <mujoco/mujoco.h>
 
 #include <string>
 #include <vector>
 
-#include "physics/meshes/meshes.h"
+#include "physics/meshes/mesh_conversion.h"
 
 namespace franka_sim::physics {
 
 /// Drawable parts of a robot's mesh URI: those of the mesh installer (one OBJ per material, listed
 /// in `meshes/mujoco/visual/<name>/index.yaml`), the file itself (binary STL, OBJ), or the result
-/// of `loadMeshToDraw`, which takes longer. Empty when it cannot be read: the caller shows
+/// of `loadMeshToDraw`, which takes longer. Empty when it cannot be read: the caller draws
 /// something simpler.
 std::vector<MeshPart> visualParts(const std::string& uri, const ResourceResolver& resolve);
 
@@ -22,10 +21,5 @@ std::vector<MeshPart> visualParts(const std::string& uri, const ResourceResolver
 /// std::runtime_error with a sentence starting with `where` when it cannot be found or read.
 std::string collisionFile(const std::string& uri, const ResourceResolver& resolve,
                           const std::string& where);
-
-/// Simplifies the meshes of a model that is only drawn, and shades them smoothly up to edges of 30
-/// degrees (decision 63). They lose their convex hulls. Meshes with texture coordinates stay as
-/// they are. Not real-time safe.
-void simplifyDrawnMeshes(mjModel* model);
 
 }  // namespace franka_sim::physics

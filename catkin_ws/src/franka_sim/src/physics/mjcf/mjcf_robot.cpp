@@ -9,6 +9,7 @@
 
 #include "physics/contacts/contacts.h"
 #include "physics/meshes/mesh_assets.h"
+#include "physics/meshes/mesh_conversion.h"
 #include "physics/mjcf/mjcf_files.h"
 #include "physics/mjcf/xml_util.h"
 #include "physics/stepping/links_without_gravity.h"

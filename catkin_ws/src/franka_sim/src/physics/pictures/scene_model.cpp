@@ -9,7 +9,7 @@
 #include <cstddef>
 #include <cstring>
 
-#include "physics/meshes/mesh_assets.h"
+#include "physics/meshes/mesh_simplification.h"
 
 namespace franka_sim::physics {
 namespace {

@@ -9,7 +9,7 @@
 #include <stdexcept>
 
 #include "physics/contacts/contacts.h"
-#include "physics/meshes/meshes.h"
+#include "physics/meshes/mesh_conversion.h"
 #include "physics/mjcf/mjcf_files.h"
 #include "physics/mjcf/rotations.h"
 #include "physics/mjcf/xml_util.h"

@@ -12,7 +12,7 @@
 #include <utility>
 #include <vector>
 
-#include "physics/meshes/meshes.h"
+#include "physics/meshes/mesh_conversion.h"
 #include "physics/sdf/camera_sensor.h"
 #include "physics/urdf/urdf_robot.h"
 
