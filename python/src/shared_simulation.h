@@ -3,6 +3,7 @@
 #pragma once
 
 #include <franka_sim/physics/renderer.h>
+#include <franka_sim/physics/scene.h>
 #include <franka_sim/simulation/simulation.h>
 #include <sys/types.h>
 #include <unistd.h>

@@ -4,6 +4,8 @@
 #include <EGL/eglext.h>
 #include <GL/osmesa.h>
 #include <franka_sim/physics/renderer.h>
+#include <franka_sim/physics/scene.h>
+#include <franka_sim/physics/world_bodies.h>
 #include <franka_sim/physics/world_joints.h>
 
 #include <array>

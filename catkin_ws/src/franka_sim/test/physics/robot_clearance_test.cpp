@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Steps that leave out collisions of robots give the same states, bit for bit (decision 56).
+#include <franka_sim/physics/world_bodies.h>
 #include <franka_sim/physics/world_joints.h>
 
 #include <cmath>

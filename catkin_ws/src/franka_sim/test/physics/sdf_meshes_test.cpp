@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // Meshes of SDF worlds and of robots: poses, colors, and errors.
+#include <franka_sim/physics/world_bodies.h>
 #include <gmock/gmock.h>
 
 #include <Eigen/Geometry>

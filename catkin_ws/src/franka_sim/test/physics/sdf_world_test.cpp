@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // SDF worlds and models against closed forms: MuJoCo moves what the text describes.
+#include <franka_sim/physics/world_bodies.h>
 #include <franka_sim/physics/world_cameras.h>
 #include <franka_sim/physics/world_joints.h>
 #include <franka_sim/physics/world_pushes.h>

@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_sim/physics/renderer.h>
+#include <franka_sim/physics/world_bodies.h>
+#include <franka_sim/physics/world_shapes.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

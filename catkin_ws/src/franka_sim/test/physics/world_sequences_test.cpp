@@ -6,6 +6,7 @@
 /// only runs, the other one also prepares its steps, is read, is restored from snapshots, and goes
 /// on while a new robot or object is compiled.
 
+#include <franka_sim/physics/world_bodies.h>
 #include <franka_sim/physics/world_joints.h>
 #include <franka_sim/physics/world_pushes.h>
 

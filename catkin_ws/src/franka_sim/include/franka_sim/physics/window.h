@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/physics/renderer.h>
+#include <franka_sim/physics/scene.h>
 
 #include <array>
 #include <cstdint>

@@ -32,7 +32,7 @@ Pose bodyPose(const World& world, const std::string& body);  ///< in the world f
 BodyState bodyState(const World& world, const std::string& body);
 /// The same for many bodies in one call, which is faster.
 std::vector<BodyState> bodyStates(const World& world, const std::vector<std::string>& names);
-/// Poses for drawing, in the order of WorldShapes::bodies (physics/renderer.h).
+/// Poses for drawing, in the order of WorldShapes::bodies (physics/world_shapes.h).
 std::vector<Pose> framePoses(const World& world);
 /// @throws std::runtime_error if a body that is not free, or such a pose, cannot be set
 void checkBodyPose(const World& world, const std::string& body, const Pose& pose);
