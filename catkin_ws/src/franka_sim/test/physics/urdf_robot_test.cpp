@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "physics/mjcf/robot_model.h"
+#include "physics/urdf/urdf_reader.h"
 #include "test_support.h"
 
 namespace franka_sim::test {

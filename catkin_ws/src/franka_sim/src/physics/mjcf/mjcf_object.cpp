@@ -11,156 +11,15 @@
 #include "physics/mjcf/mjcf_files.h"
 #include "physics/mjcf/mjcf_names.h"
 #include "physics/mjcf/model_compiler.h"
-#include "physics/mjcf/robot_model.h"
 #include "physics/mjcf/rotations.h"
 #include "physics/mjcf/xml_util.h"
 #include "physics/sdf/sdf_scene.h"
-#include "physics/urdf/urdf_robot.h"
+#include "physics/urdf/urdf_object.h"
 
 namespace franka_sim::physics {
 namespace {
 
 using tinyxml2::XMLElement;
-
-/// An SDF scene of one model from a URDF.
-class SceneBuilder {
- public:
-  SceneBuilder(const UrdfRobot& urdf, const std::string& name, const ResourceResolver& resolve)
-      : urdf_(urdf), resolve_(resolve) {
-    scene_.unsupported = urdf.notes;
-    scene_.models.push_back({name,
-                             Eigen::Isometry3d::Identity(),
-                             {},
-                             urdf.describes_self_collide && urdf.self_collide});
-  }
-
-  SdfScene build() {
-    addLink(urdf_.root, Eigen::Isometry3d::Identity());
-    return std::move(scene_);
-  }
-
- private:
-  const std::string& model() const { return scene_.models.front().name; }
-
-  /// @returns the link's index in the scene. @param pose in the model
-  int addLink(int index, const Eigen::Isometry3d& pose) {
-    const UrdfLink& link = urdf_.links[index];
-    SdfLink result;
-    result.name = model() + "::" + link.name;
-    result.model = model();
-    result.is_static = urdf_.is_static;
-    result.gravity = link.gravity;
-    result.self_collide = link.self_collide;
-    result.pose = pose;
-    result.inertial = link.inertial.value_or(UrdfInertial{});
-    if (result.inertial.mass == 0 && !link.collisions.empty() && !urdf_.is_static) {
-      scene_.unsupported.insert("link '" + result.name +
-                                "' (it has no mass: that of its shapes at 1000 kg/m^3 is used)");
-    }
-    for (const UrdfGeometry& geometry : link.collisions) {
-      result.collisions.push_back(shapeOf(geometry, link.name, result.collisions.size()));
-      result.collisions.back().surface.mu = link.friction.value_or(SdfSurface{}.mu);
-    }
-    for (const UrdfGeometry& geometry : link.visuals) {
-      result.visuals.push_back(shapeOf(geometry, link.name, result.visuals.size()));
-      result.visuals.back().rgba = geometry.rgba;
-    }
-    const int own = static_cast<int>(scene_.links.size());
-    scene_.links.push_back(std::move(result));
-    scene_.models.front().links.push_back(own);
-    for (const CameraSensor& camera : link.cameras) {
-      scene_.cameras.emplace_back(camera, own);
-    }
-    for (const int child : link.child_joints) {
-      addJoint(urdf_.joints[child], own, pose);
-    }
-    return own;
-  }
-
-  void addJoint(const UrdfJoint& joint, int parent, const Eigen::Isometry3d& parent_pose) {
-    const Eigen::Isometry3d pose = parent_pose * joint.origin;
-    SdfJoint result;
-    result.name = model() + "::" + joint.name;
-    result.parent = parent;
-    result.position = pose.translation();
-    result.axis = pose.linear() * joint.axis;
-    result.damping = joint.damping;
-    result.friction = joint.friction;
-    switch (joint.type) {
-      case UrdfJoint::Type::kFixed:
-        result.kind = SdfJoint::Kind::kFixed;
-        break;
-      case UrdfJoint::Type::kContinuous:
-        result.kind = SdfJoint::Kind::kHinge;
-        break;
-      case UrdfJoint::Type::kRevolute:
-      case UrdfJoint::Type::kPrismatic:
-        result.kind = joint.type == UrdfJoint::Type::kRevolute ? SdfJoint::Kind::kHinge
-                                                               : SdfJoint::Kind::kSlide;
-        result.limits = {joint.lower, joint.upper};
-        break;
-    }
-    if (!joint.mimic.empty()) {
-      scene_.unsupported.insert("<mimic> of joint '" + result.name + "'");
-    }
-    result.child = addLink(joint.child, pose);
-    scene_.joints.push_back(result);
-  }
-
-  SdfShape shapeOf(const UrdfGeometry& geometry, const std::string& link, std::size_t number) {
-    SdfShape shape;
-    shape.name = link + "_" + std::to_string(number);
-    shape.pose = geometry.origin;
-    shape.size = geometry.size;
-    switch (geometry.shape) {
-      case UrdfGeometry::Shape::kBox:
-        shape.kind = SdfShape::Kind::kBox;
-        break;
-      case UrdfGeometry::Shape::kCylinder:
-        shape.kind = SdfShape::Kind::kCylinder;
-        break;
-      case UrdfGeometry::Shape::kSphere:
-        shape.kind = SdfShape::Kind::kSphere;
-        break;
-      case UrdfGeometry::Shape::kMesh:
-        shape.kind = SdfShape::Kind::kMesh;
-        shape.mesh.file = fileOf(geometry.mesh);
-        shape.mesh.scale = geometry.scale;
-        break;
-    }
-    return shape;
-  }
-
-  /// The name itself if it is not found, for the note about it.
-  std::string fileOf(const std::string& uri) const {
-    const std::string found = resolve_ ? resolve_(uri) : std::string();
-    return found.empty() ? uri : found;
-  }
-
-  const UrdfRobot& urdf_;
-  const ResourceResolver& resolve_;
-  SdfScene scene_;
-};
-
-/// An object's URDF as an SDF scene with one model of that name, whose root link is at the origin
-/// and free to move, unless <gazebo><static> is true.
-/// @param resolve finds its meshes
-SdfScene readUrdfObject(const std::string& text, const std::string& name,
-                        const ResourceResolver& resolve) {
-  const UrdfRobot urdf = readUrdf(text, name);
-  return SceneBuilder(urdf, name, resolve).build();
-}
-
-bool hasArm(const UrdfRobot& urdf) {
-  RobotModel robot;
-  robot.urdf = urdf;
-  for (const UrdfJoint& joint : urdf.joints) {
-    if (joint.type != UrdfJoint::Type::kPrismatic && robot.isFranka(joint)) {
-      return true;
-    }
-  }
-  return false;
-}
 
 void checkSections(const XMLElement& root, const std::string& title) {
   for (auto* e = root.FirstChildElement(); e != nullptr; e = e->NextSiblingElement()) {
@@ -402,35 +261,3 @@ void avoidNamesOf(const XMLElement& world, MjcfObject* object) {
 }
 
 }  // namespace franka_sim::physics
-
-namespace franka_sim {
-
-bool isUrdfOfObject(const std::string& urdf) {
-  tinyxml2::XMLDocument document;
-  if (document.Parse(urdf.c_str(), urdf.size()) != tinyxml2::XML_SUCCESS) {
-    return false;
-  }
-  const auto* root = document.FirstChildElement("robot");
-  if (root == nullptr || root->FirstChildElement("transmission") != nullptr) {
-    return false;
-  }
-  try {
-    const physics::UrdfRobot robot = physics::readUrdf(urdf, "object");
-    return robot.link("world") < 0 && !robot.has_control_plugin && !physics::hasArm(robot);
-  } catch (const std::runtime_error&) {
-    return false;  // the reader of robots reports the error
-  }
-}
-
-std::string withHeldJoints(const std::string& urdf) {
-  tinyxml2::XMLDocument document;
-  if (document.Parse(urdf.c_str(), urdf.size()) != tinyxml2::XML_SUCCESS) {
-    return urdf;
-  }
-  auto* root = document.FirstChildElement("robot");
-  std::set<std::string> notes;
-  const bool held = root != nullptr && physics::holdJoints(root, "The robot description", &notes);
-  return held ? physics::toText(document) : urdf;
-}
-
-}  // namespace franka_sim

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "physics/urdf/urdf_reader.h"
 #include "physics/urdf/urdf_robot.h"
 
 namespace franka_sim::physics {

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <tinyxml2.h>
-
 #include <Eigen/Geometry>
 #include <array>
 #include <optional>
@@ -26,12 +24,14 @@ struct UrdfGeometry {
   std::optional<std::array<double, 4>> rgba;                ///< visuals with a material
 };
 
+/// Mass and inertia of a link.
 struct UrdfInertial {
   double mass{0};                                    ///< [kg]
   Eigen::Vector3d com{Eigen::Vector3d::Zero()};      ///< link frame [m]
   Eigen::Matrix3d inertia{Eigen::Matrix3d::Zero()};  ///< about com, link axes [kg m^2]
 };
 
+/// A link with all that is fixed to it.
 struct UrdfLink {
   std::string name;
   std::optional<UrdfInertial> inertial;
@@ -44,6 +44,7 @@ struct UrdfLink {
   std::vector<int> child_joints;      ///< in the order of the file
 };
 
+/// A joint between two links.
 struct UrdfJoint {
   enum class Type { kFixed, kRevolute, kContinuous, kPrismatic };
   std::string name;
@@ -76,18 +77,5 @@ struct UrdfRobot {
   int link(const std::string& link_name) const noexcept;
   int joint(const std::string& joint_name) const noexcept;
 };
-
-/// Makes the joints of a URDF fixed that cannot move: revolute and prismatic ones without <limit>,
-/// or whose limits are equal, at that position.
-/// @param root <robot>; unchanged if it has no such joint. @param notes gets their names
-/// @returns whether there was one. @throws std::runtime_error for values that are not numbers
-bool holdJoints(tinyxml2::XMLElement* root, const std::string& where, std::set<std::string>* notes);
-
-/// Reads a URDF text with tinyxml2, because urdfdom loses the order of the file (decision 59).
-/// Joints without a range are held, and rounded inertias repaired: see `notes`.
-/// @throws std::runtime_error that names the robot, the element and the error: XML errors,
-/// duplicate names, unknown links, two roots or parents, loops, unsupported joint types, values
-/// that are not numbers, limits in the wrong order, inertias that no body has.
-UrdfRobot readUrdf(const std::string& text, const std::string& robot_name);
 
 }  // namespace franka_sim::physics
