@@ -39,7 +39,7 @@ CONSTANTS = [
         1,
     ),
     # Robot
-    ("damping #·√", f"{ROBOT}/laws/control_laws.h", "kDampingFactor = #;", 1),
+    ("damping #·√", f"{ROBOT}/laws/damping_factor.h", "kDampingFactor = #;", 1),
     ("with # % of", f"{ROBOT}/hands/gripper_unit.cpp", "finger_force = # * std::min(force,", 100),
     (
         "time constant # ms between finger pads",
@@ -50,7 +50,7 @@ CONSTANTS = [
     ("adds up to # ms", f"{HEADERS}/realism.h", "kMaxCommandDelay = #;", 1),
     # Control
     ("null space # Nm/rad", f"{ROBOT}/laws/control_laws.cpp", "kNullspace = #;", 1),
-    ("fades at # Nm/s", f"{ROBOT}/laws/control_laws.cpp", "kStep = # * kTick;", 1),
+    ("fades at # Nm/s", f"{ROBOT}/laws/torque_blend.cpp", "kBlendStep = # * franka_core::kTick;", 1),
     ("then, for # s", f"{ROBOT}/motion/rest_sequence.cpp", "kYieldTicks = #;", 1e-3),
     ("# N/m, ", f"{ROBOT}/laws/control_laws.cpp", "kGuidingTranslation = #;", 1),
     ("locked elbow with # Nm/rad", f"{ROBOT}/laws/control_laws.cpp", "kGuidingNullspace = #;", 1),

@@ -8,6 +8,7 @@
 
 #include "robot/estimator/state_estimator.h"
 #include "robot/laws/control_laws.h"
+#include "robot/laws/control_task.h"
 #include "robot/motion_supervisor.h"
 
 namespace franka_sim {

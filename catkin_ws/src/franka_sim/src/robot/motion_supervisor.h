@@ -12,7 +12,7 @@
 
 #include "robot/configuration.h"
 #include "robot/estimator/state_estimator.h"
-#include "robot/laws/control_laws.h"
+#include "robot/laws/control_task.h"
 #include "robot/mode_machine.h"
 #include "robot/motion/client_motion.h"
 #include "robot/motion/desired_state.h"

@@ -11,7 +11,8 @@
 
 #include <algorithm>
 
-#include "robot/laws/control_laws.h"
+#include "robot/laws/cartesian_impedance.h"
+#include "robot/laws/joint_impedance.h"
 
 namespace franka_sim {
 

@@ -12,6 +12,9 @@
 #include "robot/configuration.h"
 #include "robot/estimator/estimate.h"
 #include "robot/estimator/state_estimator.h"
+#include "robot/laws/cartesian_impedance.h"
+#include "robot/laws/control_task.h"
+#include "robot/laws/joint_impedance.h"
 
 namespace franka_sim::test {
 

@@ -8,7 +8,7 @@
 
 #include <array>
 
-#include "robot/laws/control_laws.h"
+#include "robot/laws/torque_command.h"
 #include "robot/limits/error_set.h"
 #include "robot/motion/command_filter.h"
 #include "robot/motion/motion_generator.h"
