@@ -43,7 +43,7 @@ CONSTANTS = [
     ("with # % of", f"{ROBOT}/hands/gripper_unit.cpp", "finger_force = # * std::min(force,", 100),
     (
         "time constant # ms between finger pads",
-        "franka_sim/src/physics/contacts/contacts.h",
+        "franka_sim/src/physics/contacts/contact_parameters.h",
         'kGraspSolref = "# 1";',
         1000,
     ),

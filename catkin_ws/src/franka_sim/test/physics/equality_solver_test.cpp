@@ -2,12 +2,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // Which solver a step uses: equalities are solved directly, piles by conjugate gradients,
 // everything else by MuJoCo's Newton method.
+#include "physics/stepping/equality_solver.h"
+
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
 
-#include "physics/stepping/step_preparation.h"
 #include "physics/world/world_impl.h"
 #include "stone_in_hand.h"
 

@@ -1,12 +1,12 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include "physics/stepping/preparation_thread.h"
+
 #include <gtest/gtest.h>
 #include <ros_test/eventually.h>
 
 #include <atomic>
 #include <thread>
-
-#include "physics/stepping/step_preparation.h"
 
 namespace franka_sim::physics {
 namespace {

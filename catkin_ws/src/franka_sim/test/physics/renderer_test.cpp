@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "physics/pictures/gl_context.h"
+#include "physics/pictures/run_time_library.h"
 #include "temporary_folder.h"
 #include "test_support.h"
 

@@ -6,8 +6,9 @@
 
 #include <vector>
 
-#include "physics/contacts/contacts.h"
-#include "physics/joints/joint_dynamics.h"
+#include "physics/contacts/geom_contact.h"
+#include "physics/contacts/ownership.h"
+#include "physics/joints/motor_side.h"
 
 namespace franka_sim::physics {
 

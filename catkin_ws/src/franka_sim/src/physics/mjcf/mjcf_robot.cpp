@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "physics/contacts/contacts.h"
+#include "physics/contacts/contact_parameters.h"
 #include "physics/meshes/mesh_assets.h"
 #include "physics/meshes/mesh_conversion.h"
 #include "physics/mjcf/mjcf_files.h"

@@ -12,7 +12,8 @@
 #include <stdexcept>
 #include <utility>
 
-#include "physics/contacts/contacts.h"
+#include "physics/contacts/contact_capacity.h"
+#include "physics/contacts/contact_parameters.h"
 #include "physics/mjcf/mjcf_files.h"
 #include "physics/mjcf/model_compiler.h"
 #include "physics/mjcf/rotations.h"

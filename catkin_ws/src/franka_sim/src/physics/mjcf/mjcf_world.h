@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "physics/contacts/contacts.h"
+#include "physics/contacts/contact_capacity.h"
 #include "physics/mjcf/mjcf_object.h"
 #include "physics/mjcf/mjcf_robot.h"
 #include "physics/mjcf/robot_model.h"

@@ -12,6 +12,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "physics/pictures/run_time_library.h"
+
 namespace franka_sim::physics {
 namespace {
 

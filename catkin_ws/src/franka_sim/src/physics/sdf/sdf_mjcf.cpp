@@ -8,7 +8,7 @@
 #include <set>
 #include <stdexcept>
 
-#include "physics/contacts/contacts.h"
+#include "physics/contacts/contact_parameters.h"
 #include "physics/meshes/mesh_conversion.h"
 #include "physics/mjcf/mjcf_files.h"
 #include "physics/mjcf/rotations.h"

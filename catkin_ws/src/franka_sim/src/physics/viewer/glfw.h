@@ -7,7 +7,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "physics/pictures/gl_context.h"
+#include "physics/pictures/run_time_library.h"
 
 namespace franka_sim::physics {
 

@@ -18,15 +18,23 @@
 #include <string>
 #include <vector>
 
-#include "physics/contacts/contacts.h"
+#include "physics/contacts/collision_scope.h"
+#include "physics/contacts/geom_contact.h"
 #include "physics/contacts/object_rest.h"
+#include "physics/contacts/ownership.h"
 #include "physics/contacts/robot_clearance.h"
-#include "physics/joints/joint_dynamics.h"
-#include "physics/joints/plants.h"
+#include "physics/joints/joint_frictions.h"
+#include "physics/joints/motor_side.h"
+#include "physics/joints/mujoco_arm.h"
+#include "physics/joints/mujoco_drive.h"
+#include "physics/joints/mujoco_hand.h"
+#include "physics/joints/plant_view.h"
 #include "physics/mjcf/mjcf_world.h"
 #include "physics/mjcf/model_compiler.h"
 #include "physics/pictures/scene_model.h"
 #include "physics/stepping/links_without_gravity.h"
+#include "physics/stepping/preparation_thread.h"
+#include "physics/stepping/step_fault.h"
 #include "physics/stepping/step_preparation.h"
 
 namespace franka_sim {
