@@ -36,68 +36,15 @@
 #include "physics/stepping/preparation_thread.h"
 #include "physics/stepping/step_fault.h"
 #include "physics/stepping/step_preparation.h"
+#include "physics/world/frame.h"
+#include "physics/world/push.h"
+#include "physics/world/world_change.h"
 
 namespace franka_sim {
 
-/// A force at a point fixed to a body, for a number of ticks.
-struct Push {
-  std::string body_name;  ///< to find the body again in a recompiled model
-  int body;
-  Eigen::Vector3d point;          ///< MuJoCo body frame [m]
-  Eigen::Vector3d force, torque;  ///< world axes [N] [Nm]
-  std::uint64_t ticks_left;
-  /// A push along a joint of an object, instead of at a point.
-  std::string joint{};  ///< empty: none
-  double effort{0};     ///< [Nm] or [N]
-  int dof{-1};
-};
-
-/// A link or body by its name: a MuJoCo body and a fixed pose in it.
-struct Frame {
-  int body;
-  Eigen::Isometry3d pose;
-};
-
-struct NamedFrame {
-  std::string name;
-  Frame frame;
-};
-
-namespace physics {
-
-/// In the order of addition.
-using Robots = std::vector<std::shared_ptr<const RobotModel>>;
-
-/// Puts robots' joints at their initial positions.
-void placeInitially(const mjModel& model, mjData* data, const Robots& robots);
-/// Per MuJoCo body the index of its robot, or -1.
-std::vector<int> robotOfBody(const mjModel& model, const Robots& robots);
-/// Copies positions, velocities, warm starts and applied forces of all joints, motion-capture
-/// bodies and actuators that both models have, by name (joints without a name: by the name of their
-/// body).
-void carryState(const mjModel& from, const mjData& from_data, const mjModel& to, mjData* to_data);
-
-}  // namespace physics
-
-/// The content of a world and the model compiled from it. compile() uses nothing else of the world.
-struct WorldChange::Content {
-  std::shared_ptr<const physics::MjcfWorld> world;
-  physics::Robots robots;
-  std::uint64_t generation{0};             ///< of the model that it replaces
-  std::string added;                       ///< name of what is added; or empty
-  std::function<void(Content&)> describe;  ///< changes `world` or `robots`
-
-  physics::ModelPtr model;
-  physics::DataPtr data;  ///< in its initial state
-  physics::ModelIdentity identity;
-  /// Plants of robots that the change has taken from the world: they come back with their robots.
-  std::map<std::string, std::unique_ptr<physics::MujocoArm>> arms{};
-  std::map<std::string, std::unique_ptr<physics::MujocoHand>> hands{};
-  std::map<std::string, std::unique_ptr<physics::MujocoDrive>> drives{};
-
-  void compile();
-};
-
+/// The implementation of World: what it is made of, the merged model and its state. Called by the
+/// thread that uses the world; prepareStep() also by the thread that prepares steps. Positions [m]
+/// and velocities [m/s] in the world frame.
 struct World::Impl {
   Impl(const std::string& file, ResourceResolver resolve);
 
