@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 """The examples in examples/python run as they stand, say what is true and draw their pictures.
 
-The short form runs each with one of the robots. sweep_stiffness.py: python/test/test_sweep.py.
+The short form runs each with one of the robots. sweep_stiffness.py: python/test/test_sweep.py;
+lerobot_dataset.py: python/test/test_lerobot.py.
 """
 
 import re
@@ -124,7 +125,8 @@ def folder(tmp_path_factory):
 
 def test_each_program_is_a_notebook_with_the_same_code(folder):
     assert {path.stem for path in folder.glob("*.ipynb")} == {path.stem for path in EXAMPLES.glob("*.py")} - {
-        "common"
+        "common",
+        "lerobot_dataset",  # a command
     }
     for path in folder.glob("*.ipynb"):
         notebook = nbformat.read(path, as_version=4)

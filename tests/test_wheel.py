@@ -23,7 +23,7 @@ PICK_AND_PLACE = SUPPORT / "wheel_pick_and_place.py"
 PACKAGE = TOP / "python" / "src" / "pyfranka"
 # The build of the wheel has a limit of its own: from an empty compiler cache it takes minutes.
 pytestmark = pytest.mark.timeout(func_only=True)
-ALL_EXTRAS = "[gym,cluster,plot,desk,lerobot]"
+ALL_EXTRAS = "[gym,cluster,plot,desk]"
 with_extras = pytest.mark.long_form("downloads the packages of all extras")
 # What the wheel takes from the machine: libraries of every Debian that has Python.
 OF_THE_SYSTEM = {
@@ -257,7 +257,6 @@ def test_a_plot_names_the_packages_that_it_needs(environment):
 OF_EXTRAS = [
     ("gym", "import pyfranka.gym"),
     ("plot", "import pyfranka.plot"),
-    ("lerobot", "import pyfranka.lerobot as lerobot; lerobot.Dataset('x', 20)"),
 ]
 
 
@@ -461,22 +460,6 @@ def test_a_sweep_runs_with_its_extra(complete):
         print(pyarrow.parquet.read_table("cases.parquet")["result.ticks"].to_pylist())
     """
     assert complete.python(code) == "[100, 101, 102, 103]\n"
-
-
-@with_extras
-def test_an_episode_becomes_a_data_set_with_its_extra(complete):
-    code = """
-        import numpy
-        from pyfranka.lerobot import Dataset
-        pictures = numpy.random.default_rng(1).integers(0, 255, (10, 48, 64, 3), numpy.uint8)
-        with Dataset("episodes", 10) as dataset:
-            for picture in pictures:
-                dataset.add_frame({"action": numpy.zeros(3), "observation.images.picture": picture})
-            dataset.save_episode("look around")
-        video, = dataset.folder.rglob("*.mp4")
-        print(dataset.frames, video.stat().st_size > 1000)
-    """
-    assert complete.python(code).split() == ["10", "True"]
 
 
 @with_extras

@@ -12,13 +12,12 @@ import gymnasium
 import numpy
 import pyfranka
 import pyfranka.gym
-import pyfranka.lerobot
 import pyfranka.sim
 import pytest
 from pyfranka.franka_sim import FrankaSim
 from pyfranka.sim import FR3, Panda
 
-MODULES = ("", ".franka_sim", ".gym", ".lerobot", ".plot", ".sim", ".sweeps")
+MODULES = ("", ".franka_sim", ".gym", ".plot", ".sim", ".sweeps")
 # Addresses that a real robot and a real gripper could have.
 ROBOT, GRIPPER = "172.16.0.2", "172.16.0.3"
 # Names without an example, with the reason. A new name gets an example.
@@ -27,8 +26,6 @@ OF_GYMNASIUM = "Gymnasium's own"
 WITHOUT = {
     "pyfranka.set_current_thread_to_highest_scheduler_priority": "no test runs at real-time priority",
     "pyfranka.plot.read_bag": "needs a bag of ROS",
-    "pyfranka.lerobot.convert_recording": "needs a recording of some seconds",
-    "pyfranka.lerobot.main": PROGRAM,
     "pyfranka.sweeps.main": PROGRAM,
 }
 

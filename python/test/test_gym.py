@@ -9,6 +9,7 @@ import warnings
 from pathlib import Path
 
 import numpy as np
+import page_output
 import pyfranka.gym
 import pytest
 from gym_tasks import TASKS, make, make_vec, same
@@ -157,3 +158,9 @@ def test_a_module_whose_extra_is_missing_says_so(module, needed):
     ran = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, timeout=120)
     *_, last = ran.stderr.splitlines()
     assert re.search(rf"pyfranka.{module} needs the Python package {needed}: .*\[{module}\]", last)
+
+
+def test_the_example_of_the_documentation_runs(capsys):
+    (example,) = page_output.examples("gym.md")
+    example.run()
+    example.check(capsys.readouterr().out)

@@ -59,12 +59,6 @@ ONLY_IN_THE_WHEEL = "Only [the wheel](../../python.md#without-ros-the-wheel) has
 OTHERS = (
     Program(
         "pyfranka",
-        TOP / "python" / "src" / "pyfranka" / "lerobot.py",
-        "python3 -m pyfranka.lerobot",
-        start=(sys.executable, "-m", "pyfranka.lerobot"),
-    ),
-    Program(
-        "pyfranka",
         WHEEL,
         "pyfranka-examples",
         ONLY_IN_THE_WHEEL,

@@ -29,7 +29,6 @@ MODULES = (
     Module("pyfranka.pytest_plugin", "pyfranka.pytest_plugin: simulated robots in tests"),
     Module("pyfranka.gym", "pyfranka.gym: tasks for learning programs"),
     Module("pyfranka.sweeps", "pyfranka.sweep: many cases on many cores"),
-    Module("pyfranka.lerobot", "pyfranka.lerobot: episodes as data sets of LeRobot"),
     Module("pyfranka.desk", "pyfranka.desk: the robot's web interface"),
     Module("pyfranka.libfranka", "pyfranka.libfranka: under the names of pylibfranka"),
     Module("pyfranka.plot", "pyfranka.plot: plots of robots"),

@@ -18,8 +18,6 @@ WITHOUT_WHEEL = {
     "gym": "./franka install extras in the workspace, and use .venv/bin/python3",
     "cluster": "./franka install extras in the workspace, and use .venv/bin/python3; "
     "or apt-get install ros-franka-sweep",
-    "lerobot": "./franka install extras in the workspace, and use .venv/bin/python3; "
-    "for pictures apt-get install ffmpeg",
 }
 
 
@@ -32,7 +30,7 @@ class Parser(argparse.ArgumentParser):
 
 
 def install_command(extra: str) -> str:
-    """For messages: the command that installs the packages of an extra (desk, gym, plot, cluster, lerobot).
+    """For messages: the command that installs the packages of an extra (desk, gym, plot, cluster).
 
     The name pyfranka is not on PyPI, so `pip install pyfranka[gym]` finds nothing: the command names the file
     of the wheel, or the packages if the file has gone.

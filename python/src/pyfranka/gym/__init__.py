@@ -19,12 +19,11 @@ except ModuleNotFoundError as error:
     raise missing_package("pyfranka.gym", "gymnasium", "gym") from None
 
 from .environment import Environment
-from .record_episodes import RecordEpisodes
 from .scripted import scripted_policy
 from .tasks import TASKS
 from .vector_environment import VectorEnvironment
 
-__all__ = ["Environment", "RecordEpisodes", "VectorEnvironment", "scripted_policy"]
+__all__ = ["Environment", "VectorEnvironment", "scripted_policy"]
 
 for _name, _task in TASKS.items():
     if f"pyfranka/{_name}-v0" not in registry:
