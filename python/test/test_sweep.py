@@ -381,7 +381,7 @@ def test_two_processes_cannot_write_one_output(cluster, tmp_path):
         return None
 
     with pytest.raises(RuntimeError, match="Another process writes"):
-        plan = sweeps._Plan(nothing, 1, 1)
+        plan = sweeps.Plan(nothing, 1, 1)
         with sweeps._open_output(path, plan):
             pyfranka.sweep(nothing, 1, cluster, output=path)
 
@@ -391,7 +391,7 @@ from pyfranka import sweeps
 names = {"shoulder", "elbow", "wrist"}
 def use(case, seed):
     return len(names)
-print(sweeps._Plan(use, [{"parts": {"left", "right", "tool"}}, frozenset({("a", 1), ("b", 2)})], 1).identity)
+print(sweeps.Plan(use, [{"parts": {"left", "right", "tool"}}, frozenset({("a", 1), ("b", 2)})], 1).identity)
 """
 
 
@@ -414,7 +414,7 @@ def test_a_variable_without_a_value_fails_its_cases_only(cluster):
         later = 1
     first, second = pyfranka.sweep(use, 2, cluster, progress=False, retries=0)
     assert first.ok and "later" in second.error
-    assert sweeps._Plan(use, 2, 1).identity
+    assert sweeps.Plan(use, 2, 1).identity
 
 
 def test_an_output_whose_folder_was_removed_meanwhile_is_locked_again(tmp_path, monkeypatch):
@@ -428,7 +428,7 @@ def test_an_output_whose_folder_was_removed_meanwhile_is_locked_again(tmp_path, 
         lock(file, how)
 
     monkeypatch.setattr(fcntl, "flock", remove_and_lock)
-    plan = sweeps._Plan(lambda case, seed: case, 1, 1)
+    plan = sweeps.Plan(lambda case, seed: case, 1, 1)
     with sweeps._open_output(path, plan) as output:
         assert os.path.samestat(os.fstat(output._lock), folder.stat())
         with pytest.raises(RuntimeError, match="Another process writes"):

@@ -6,7 +6,6 @@ from __future__ import annotations
 
 import functools
 import inspect
-import io
 import itertools
 import logging
 import os
@@ -17,10 +16,8 @@ import uuid
 from collections.abc import Callable, Iterator
 from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
-from types import CodeType
 from typing import TYPE_CHECKING, Any
 
-import cloudpickle
 import dask
 from dask.system import CPU_COUNT
 from distributed import CancelledError, Client, Future, KilledWorker, Scheduler, as_completed, get_worker
@@ -28,8 +25,10 @@ from distributed.deploy.spec import SpecCluster
 from distributed.deploy.subprocess import SubprocessWorker
 from distributed.utils import silence_logging_cmgr
 
+from pyfranka._sweep_plan import Function, Plan
+
 if TYPE_CHECKING:
-    from pyfranka.sweeps import Function, Row, _Plan
+    from pyfranka._sweep_output import Row
 
 # Result (its columns if they are to be written), error, duration [s], worker.
 CaseResult = tuple[dict[str, object], str | None, float, str]
@@ -107,31 +106,6 @@ def local_cluster(workers: int) -> SpecCluster:
         )
 
 
-# ---- what is sent ----------------------------------------------------------------------------------------
-
-
-class _Pickler(cloudpickle.Pickler):
-    """cloudpickle's, but code that travels by value keeps the name of its file, which a failed case reports:
-    cloudpickle 3.1.3 and later replace it."""
-
-    def reducer_override(self, obj: Any) -> Any:
-        if not isinstance(obj, CodeType):
-            return super().reducer_override(obj)
-        make, arguments = self.dispatch_table[CodeType](obj)[:2]
-        return _code_of_file, (make, arguments, obj.co_filename)
-
-
-def _code_of_file(make: Callable[..., CodeType], arguments: tuple[Any, ...], file: str) -> CodeType:
-    return make(*arguments).replace(co_filename=file)
-
-
-def dumps(value: object) -> bytes:
-    """A function or a case; functions and classes of scripts by value. Raises what pickling them raises."""
-    with io.BytesIO() as file:
-        _Pickler(file).dump(value)
-        return file.getvalue()
-
-
 # ---- on the workers --------------------------------------------------------------------------------------
 
 
@@ -158,7 +132,7 @@ def run_case(case: bytes, seed: int, payload: bytes, paths: tuple[str, ...], pla
     duration = time.perf_counter() - begin
     if not plain:
         return {"result": result}, None, duration, worker
-    from pyfranka._sweep_output import columns
+    from pyfranka._sweep_output import columns  # a worker without pyarrow returns other results
 
     try:
         return columns("result", result), None, duration, worker
@@ -207,7 +181,7 @@ class NoWorkers(TimeoutError):
 class Run:
     """Cases on their way: a bounded number of futures."""
 
-    def __init__(self, client: Client, plan: _Plan, retries: int, patience: float, plain: bool, local: bool):
+    def __init__(self, client: Client, plan: Plan, retries: int, patience: float, plain: bool, local: bool):
         self._client, self._plan, self._retries, self._patience = client, plan, retries, patience
         paths = tuple(sys.path) if local else ()  # workers on this machine find modules beside the script
         work = functools.partial(run_case, payload=plan.payload, paths=paths, plain=plain)
