@@ -93,6 +93,12 @@ def test_it_is_kept_where_only_its_user_can_read_it(path, folder, caplog):
     assert os.listdir(folder) == [path.name] and not caplog.records
 
 
+def test_folders_above_it_are_made(tmp_path, caplog):
+    folder = tmp_path / "cache" / "below"
+    tls_context(ADDRESS, folder)
+    assert os.listdir(folder) == [f"{ADDRESS}.pem"] and not caplog.records
+
+
 def test_it_is_in_memory_where_it_cannot_be_kept(tmp_path, caplog):
     (tmp_path / "file").write_text("")
     tls_context(ADDRESS, tmp_path / "file" / "below")

@@ -176,6 +176,16 @@ def test_commands_reach_the_robot_as_lines(desk, robot, cookie, words):
     assert (send(""), send("wrong"), send(token)) == (without, without, sent)
 
 
+def test_reboot_requires_control(desk, robot, cookie):
+    token = control(desk, cookie)["token"]
+    assert command(desk, cookie, "reboot", token="wrong").status == 423
+    assert not desk.desk.power.down
+    assert command(desk, cookie, "reboot", token=token).status == 200
+    wait_for(lambda: robot.lines[-1:] == ["power off"])
+    desk.advance(desk.desk.profile.boot)
+    wait_for(desk.listens)
+
+
 REFUSED = [
     ("quit",),
     ("reset",),

@@ -196,16 +196,6 @@ def test_events_of_the_newer_interface_are_a_stream(desk):
 # ---- robots that go away ---------------------------------------------------------------------------------
 
 
-def listens(desk):
-    desk.close_connection()
-    try:
-        return desk.send("GET", "/admin/api/startup-phase").status == 200
-    except OSError:
-        return False
-    finally:
-        desk.close_connection()
-
-
 REBOOTS = [("/admin/api/reboot", 200), ("/desk/api/reboot", 200), ("/api/system:reboot", 204)]
 
 
@@ -217,10 +207,10 @@ def test_a_reboot_answers_and_goes_away_and_comes_back_without_logins(desk, robo
         answer = desk.send("POST", path, **basic())
         assert (answer.status, answer.body) == (expected, b"")
         assert socket.receive().type is aiohttp.WSMsgType.CLOSE
-    wait_for(lambda: not listens(desk))
+    wait_for(lambda: not desk.listens())
     wait_for(lambda: robot.lines == ["power off"])
     desk.advance(desk.desk.profile.boot)
-    wait_for(lambda: listens(desk))
+    wait_for(lambda: desk.listens())
     assert robot.lines == ["power off", "power on"]
     assert desk.send("GET", CONFIGURATION, Cookie=control["Cookie"]).status == 401
     assert desk.send("GET", TOKEN).json()["activeToken"] is None
@@ -233,18 +223,18 @@ SHUTDOWNS = [("/admin/api/shutdown", 200), ("/api/system:shutdown", 204)]
 @pytest.mark.parametrize("path, expected", SHUTDOWNS)
 def test_after_a_shutdown_the_robot_comes_back_with_its_power(desk, robot, path, expected):
     assert desk.send("POST", path, {"token": "x"}, **basic()).status == expected
-    wait_for(lambda: not listens(desk) and robot.lines == ["power off"])
+    wait_for(lambda: not desk.listens() and robot.lines == ["power off"])
     desk.advance(2 * desk.desk.profile.boot)
-    assert not listens(desk) and robot.lines == ["power off"]
+    assert not desk.listens() and robot.lines == ["power off"]
     robot.report["power"] = True
-    wait_for(lambda: listens(desk))
+    wait_for(lambda: desk.listens())
 
 
 def test_desk_is_unreachable_while_the_robot_is_off(desk, robot):
     robot.report["power"] = False
-    wait_for(lambda: not listens(desk))
+    wait_for(lambda: not desk.listens())
     robot.report["power"] = True
-    wait_for(lambda: listens(desk))
+    wait_for(lambda: desk.listens())
 
 
 def test_with_an_option_a_reboot_needs_no_login(tmp_path):

@@ -75,6 +75,7 @@ SHOWN = [
     ({"joint_limit_violation": flags(2)}, SAFETY, "demandedRecoveries jointLimitViolation", flags(2)),
     ({"joint_position_error": flags(3)}, SAFETY, "demandedRecoveries jointPositionError", flags(3)),
     ({}, SAFETY, "powerState", {"endEffector": "On", "robot": "On"}),
+    ({"self_test": {"running": True}}, SAFETY, "powerState", {"endEffector": "On", "robot": "Off"}),
     ({"end_effector": {"power": False}}, SAFETY, "powerState", {"endEffector": "Off", "robot": "On"}),
     ({}, SAFETY, "safetyControllerStatusReason conflictingInputs", False),
     ({"light": {"color": "pink"}}, SAFETY, "safetyControllerStatusReason conflictingInputs", True),

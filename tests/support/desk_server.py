@@ -130,6 +130,15 @@ class DeskServer:
         finally:
             self.call(call(self.loop.start_clock))
 
+    def listens(self) -> bool:
+        self.close_connection()
+        try:
+            return self.send("GET", "/admin/api/startup-phase").status == 200
+        except OSError:
+            return False
+        finally:
+            self.close_connection()
+
     def advance(self, seconds: float) -> None:
         """Puts Desk's clock forward. The robot answers after each step, so none of its reports is late."""
 
