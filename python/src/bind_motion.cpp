@@ -6,7 +6,9 @@
 #include <franka/rate_limiting.h>
 #include <pybind11/stl.h>
 
+#include <algorithm>
 #include <optional>
+#include <stdexcept>
 #include <string>
 #include <tuple>
 #include <type_traits>
@@ -108,15 +110,20 @@ void bindTools(py::module_& module) {
   module.def(
       "limit_rate",
       [](const py::object& max_derivatives, const py::object& commanded, const py::object& last) {
-        return copy(franka::limitRate(arrayOf<7>(max_derivatives, "max_derivatives"),
-                                      arrayOf<7>(commanded, "commanded_values"),
-                                      arrayOf<7>(last, "last_commanded_values")),
+        const auto derivatives = arrayOf<7>(max_derivatives, "max_derivatives");
+        if (!std::all_of(derivatives.begin(), derivatives.end(),
+                         [](double value) { return value >= 0.0; })) {  // not NaN either
+          throw std::invalid_argument("max_derivatives must be 7 numbers from 0.");
+        }
+        return copy(franka::limitRate(derivatives, finite<7>(commanded, "commanded_values"),
+                                      finite<7>(last, "last_commanded_values")),
                     Shape::kVector);
       },
       py::arg("max_derivatives"), py::arg("commanded_values"), py::arg("last_commanded_values"),
       "The 7 commanded values, at most as far from the last ones as max_derivatives allow in a "
-      "millisecond: torques with MAX_TORQUE_RATE [Nm/s]. Raises ValueError if one is not "
-      "finite.\n\n>>> pyfranka.limit_rate(pyfranka.MAX_TORQUE_RATE, [5.0] * 7, [0.0] * "
+      "millisecond: torques with MAX_TORQUE_RATE [Nm/s]. Raises ValueError if a value is not "
+      "finite, or one of max_derivatives is NaN or negative.\n\n>>> "
+      "pyfranka.limit_rate(pyfranka.MAX_TORQUE_RATE, [5.0] * 7, [0.0] * "
       "7).round(3).tolist()\n[1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]");
   module.def(
       "is_valid_elbow",

@@ -433,9 +433,9 @@ VALUES = {
 }
 ELBOW = Kind([0.0, 1.0], (object(), "a", [1.0]))
 FUNCTIONS = {
-    "max_derivatives": Kind(FLAT, bound("", FLAT).wrong),
+    "max_derivatives": Kind(FLAT, (*bound("", FLAT).wrong, 5.0, [-1.0] * 7, [NAN, *FLAT[1:]])),
     "commanded_values": bound("commanded_values", FLAT),
-    "last_commanded_values": Kind(FLAT, bound("", FLAT).wrong),
+    "last_commanded_values": numbers(FLAT),
     "motion_finished.command": Kind(None, (object(), 5)),
     "elbow": ELBOW,
     "log": Kind([], (object(), "a", [5])),
