@@ -59,16 +59,15 @@ def demonstrations(arguments):
     import gymnasium
     import pyfranka.gym
 
-    options = {"observation": "state+pictures"} if arguments.pictures else {}
-    env = gymnasium.make(arguments.environment, robot=arguments.robot, **options)
+    observation = "state+pictures" if arguments.pictures else "state"
+    env = gymnasium.make(arguments.environment, robot=arguments.robot, observation=observation)
     episodes = []
     for seed in range(arguments.episodes):
         frames, success = play(env, pyfranka.gym.scripted_policy(env), seed)
         episodes += [frames] if success else []
+    layout = env.get_wrapper_attr("layout")
     env.close()
-    state = [
-        f"{part}.{i}" for part, where in env.unwrapped.layout.items() for i in range(where.stop - where.start)
-    ]
+    state = [f"{part}.{i}" for part, where in layout.items() for i in range(where.stop - where.start)]
     return episodes, int(env.metadata["render_fps"]), {"observation.state": state}
 
 
