@@ -424,6 +424,9 @@ void bindRobot(py::module_& module) {
                       throw std::invalid_argument("log_size must be 0 or more, not " +
                                                   std::to_string(size) + ".");
                     }
+                    // Arrays of states need it; in a motion its import would delay the first
+                    // command.
+                    py::module_::import("numpy");
                     const release free;
                     return std::make_unique<Robot>(where, config, static_cast<std::size_t>(size));
                   }),

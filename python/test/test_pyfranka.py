@@ -4,6 +4,8 @@
 
 import copy
 import math
+import subprocess
+import sys
 import threading
 
 import numpy as np
@@ -60,6 +62,16 @@ def test_arrays_outlive_their_state(robot):
     states = [robot.read_once() for _ in range(20)]
     assert (q == kept).all()
     assert states[-1].time > states[0].time
+
+
+def test_a_connection_has_numpy_before_a_motion():
+    """The first call of a callback would import it otherwise, which takes 50 ms or more."""
+    code = (
+        "import sys, pyfranka\n"
+        "try: pyfranka.Robot('127.0.0.1:1')\n"
+        "except pyfranka.NetworkException: sys.exit('numpy' not in sys.modules)"
+    )
+    subprocess.run([sys.executable, "-c", code], check=True, timeout=120)
 
 
 def test_read_continues_until_the_callback_returns_false(robot):
