@@ -92,6 +92,11 @@ class RobotServer {
   bool hasClient() const noexcept { return version_ != 0; }
   /// Whether its client, if it has one, is connected by a loopback address.
   bool clientIsLocal() const noexcept { return client_is_local_; }
+  /// Whether that client has read every state that was sent to it; nothing if it is not local, or
+  /// the system does not show its socket. Not real-time safe.
+  std::optional<bool> clientHasReadStates() const {
+    return client_is_local_ ? datagrams_.peerHasRead() : std::nullopt;
+  }
   bool idle() const noexcept { return slot_.idle(); }
   /// See ClientSlot::onRefusal.
   void onRefusal(ClientSlot::Report report) { slot_.onRefusal(std::move(report)); }

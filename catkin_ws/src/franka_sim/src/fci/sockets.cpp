@@ -10,7 +10,10 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <sstream>
 #include <stdexcept>
 #include <utility>
 
@@ -307,6 +310,37 @@ std::ptrdiff_t Datagrams::receive(std::uint8_t* buffer, std::size_t capacity) no
     }
   }
   return -1;
+}
+
+namespace {
+
+/// As the list of sockets writes an address and a port: hexadecimal, the address as the number that
+/// its bytes are on this machine.
+std::string listed(std::uint32_t address, std::uint16_t port) {
+  char text[16];
+  std::snprintf(text, sizeof(text), "%08X:%04X", address, port);
+  return text;
+}
+
+}  // namespace
+
+// The columns of the list are in proc(5).
+std::optional<bool> Datagrams::peerHasRead() const {
+  const std::uint16_t port = ntohs(peer_.sin_port);
+  const std::string name = listed(peer_.sin_addr.s_addr, port);
+  const std::string any_address = listed(INADDR_ANY, port);
+  std::ifstream sockets("/proc/net/udp");
+  std::optional<bool> has_read;
+  for (std::string line; std::getline(sockets, line);) {
+    std::istringstream columns(line);
+    std::string slot, local, remote, state, queues;  // queues: sent and received bytes
+    columns >> slot >> local >> remote >> state >> queues;
+    if (local == name || local == any_address) {
+      const bool is_empty = queues.size() > 9 && queues.find_first_not_of('0', 9) == queues.npos;
+      has_read = has_read.value_or(true) && is_empty;
+    }
+  }
+  return has_read;
 }
 
 }  // namespace franka_sim::fci

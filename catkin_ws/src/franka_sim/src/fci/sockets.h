@@ -8,6 +8,7 @@
 #include <chrono>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -147,6 +148,9 @@ class Datagrams {
   /// The next datagram from the peer's address; others are dropped, a limited number per call.
   /// @returns its size, which may be larger than `capacity`; -1 when there is none.
   std::ptrdiff_t receive(std::uint8_t* buffer, std::size_t capacity) noexcept;
+  /// Whether the peer, a socket of this machine, has read every datagram; nothing if the system
+  /// does not list it: it belongs to another network namespace. Not real-time safe.
+  std::optional<bool> peerHasRead() const;
 
  private:
   Descriptor socket_;

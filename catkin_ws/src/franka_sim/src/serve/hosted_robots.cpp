@@ -24,11 +24,14 @@ constexpr std::chrono::milliseconds kMaxIdleServeInterval{10};
 /// second.
 constexpr std::chrono::milliseconds kRepeatPeriod{300};
 
-/// Before its first command a client needs two states that show the motion; they are sent at once.
-/// Further states are for a client that missed them. They come as slowly as the client's timeout of
-/// a second allows: each state that arrives while a starved client works on its first answer puts
-/// its clock, which counts states, ahead of the arm's, and runs would not repeat. So the time in
-/// which this process did not run does not count, and repeats keep the client waiting (chosen
+/// Before its first command a client needs two states that show the motion, one after the other;
+/// they are sent at once. Clients of libfranka take the newest state in their socket, so the next
+/// one is sent when the client has read the last one.
+/// Further states are for a client that missed one of them. Each that arrives while a client works
+/// on its first answer puts its clock, which counts states, ahead of the arm's, and runs would not
+/// repeat. So a client gets one only if it waits for it: it has read a repeat of the last state,
+/// and has not answered that state. If it is unknown what the client has read, it gets one as late
+/// as its timeout of a second allows, without the time in which this process did not run (chosen
 /// here).
 constexpr int kPromptStarts = 2;
 constexpr std::chrono::milliseconds kLaterStarts{600};
@@ -111,17 +114,37 @@ void HostedRobots::reportPublished() {
 // that has not answered gets no new state; it must answer the last one.
 void HostedRobots::publishWhileWaiting(Clock::time_point now, Clock::duration waited) {
   for (Entry& entry : entries_) {
-    const Clock::duration interval =
-        entry.starts_shown < kPromptStarts ? Clock::duration(kStateInterval) : kLaterStarts;
     // Before its first command a client receives states without answering them.
-    if (entry.isStarting() && waited - entry.start_shown_after >= interval) {
+    if (entry.isStarting() && isStartDue(entry, now, waited - entry.start_shown_after)) {
       publish(entry, true, now);
       entry.starts_shown++;
       entry.start_shown_after = waited;
+      entry.start_is_repeated = false;
     } else {
       repeatIfDue(entry, now);
     }
   }
+}
+
+// Remembers whether it is known what the client has read.
+// @param waited since the last state of this start
+bool HostedRobots::isStartDue(Entry& entry, Clock::time_point now, Clock::duration waited) {
+  const bool is_late = waited >= kLaterStarts;
+  const bool has_answers = entry.robot->hasPendingState();  // they follow a state
+  if (entry.starts_shown < kPromptStarts) {
+    if (waited < kStateInterval) {
+      return false;
+    }
+    const std::optional<bool> has_read = entry.robot->clientHasReadStates();
+    entry.reads_are_known = has_read.has_value();
+    return is_late || has_answers || has_read.value_or(true);
+  }
+  if (has_answers || !entry.reads_are_known) {
+    return is_late;
+  }
+  // A client that works on its answer sends it before it reads the repeat.
+  return entry.start_is_repeated && now - entry.shown_at >= kRepeatPeriod &&
+         entry.robot->clientHasReadStates().value_or(false) && entry.isMissing();
 }
 
 // A client in a motion, or at its start, gets the states that it would get without the wait.
@@ -142,7 +165,7 @@ void HostedRobots::repeatIfDue(Entry& entry, Clock::time_point now) {
       publish(entry, true, now);
     }
   } else if (now - entry.shown_at >= kRepeatPeriod) {
-    entry.robot->repeat();
+    entry.start_is_repeated = entry.robot->repeat();
     entry.shown_at = now;
   }
 }
@@ -211,6 +234,7 @@ void HostedRobots::beginWait() {
   for (Entry& entry : entries_) {
     entry.starts_shown = entry.isDue() ? 1 : 0;
     entry.start_shown_after = {};
+    entry.reads_are_known = entry.start_is_repeated = false;
   }
 }
 

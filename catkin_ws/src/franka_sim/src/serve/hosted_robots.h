@@ -74,6 +74,8 @@ class HostedRobots {
     bool silence_reported{false};
     int starts_shown{0};  // states sent to a client that has not sent its first command
     Clock::duration start_shown_after{};  // waiting for it in this tick
+    bool reads_are_known{false};          // see HostedRobot::clientHasReadStates
+    bool start_is_repeated{false};        // the last of these states
     Clock::time_point shown_at{};
     std::optional<Clock::time_point> ended_at{};  // first shown without a motion
     std::uint64_t unpublished_ticks{1};
@@ -86,6 +88,7 @@ class HostedRobots {
 
   void publish(Entry& entry, bool same_tick, Clock::time_point now);
   void repeatIfDue(Entry& entry, Clock::time_point now);
+  static bool isStartDue(Entry& entry, Clock::time_point now, Clock::duration waited);
 
   const Pace& pace_;
   const HostClock& clock_;

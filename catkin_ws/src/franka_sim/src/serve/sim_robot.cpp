@@ -119,6 +119,10 @@ bool SimRobot::expectsCommand() const { return servers_->arm.expectsCommands(); 
 
 bool SimRobot::clientIsLocal() const { return servers_->arm.clientIsLocal(); }
 
+std::optional<bool> SimRobot::clientHasReadStates() const {
+  return servers_->arm.clientHasReadStates();
+}
+
 bool SimRobot::asynchronous() const { return servers_->arm.asynchronous(); }
 
 bool SimRobot::motionHasBegun() const { return servers_->arm.motionHasBegun(); }
@@ -181,11 +185,15 @@ void SimRobot::publishTools(std::uint64_t ticks) {
   }
 }
 
-void SimRobot::repeat() {
-  if (servers_->arm.asynchronous() || servers_->arm.receiveCommand()) {
+bool SimRobot::repeat() {
+  const bool starts =
+      !servers_->arm.motionHasBegun() && servers_->arm.clientHasReadStates().value_or(false);
+  const bool repeats = starts || servers_->arm.asynchronous() || servers_->arm.receiveCommand();
+  if (repeats) {
     servers_->arm.repeat();
   }
   publishTools(0);
+  return repeats;
 }
 
 void SimRobot::onRefusal(const std::function<void(const std::string&)>& report) {

@@ -9,6 +9,7 @@
 #include <chrono>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "own_directory.h"
@@ -77,8 +78,15 @@ class CountingRobot : public HostedRobot {
       shown_at = clock_.now();
     }
   }
-  void repeat() override { repeats++; }
-  bool hasPendingState() const override { return false; }
+  bool repeat() override {
+    repeats++;
+    return reads.value_or(false);
+  }
+  std::optional<bool> clientHasReadStates() const override {
+    on_look();
+    return reads;
+  }
+  bool hasPendingState() const override { return has_pending_state; }
   bool receiveCommand() override { return answers && seen && clock_.now() - shown_at >= delay; }
   bool expectsCommand() const override { return moving; }
   bool clientIsLocal() const override { return is_local; }
@@ -95,7 +103,9 @@ class CountingRobot : public HostedRobot {
   std::vector<Silence> silences;
   bool is_idle{false}, moving{false}, has_asynchronous_motion{false}, never_settles{false};
   bool answers{true}, is_local{false};
-  bool moves_when_served{false}, begun{true}, seen{true};
+  bool moves_when_served{false}, begun{true}, seen{true}, has_pending_state{false};
+  std::optional<bool> reads;  ///< all states
+  std::function<void()> on_look{[] {}};
   milliseconds delay{0};
   Clock::time_point shown_at;
   std::uint64_t message_ids{0};
@@ -362,6 +372,69 @@ TEST_F(HostRules, DelaysOfTheHostDoNotPutTheClockOfAStartingClientAhead) {
   EXPECT_GT(time, std::chrono::seconds(15));
   EXPECT_EQ(2 + 3, robot.published + robot.repeated) << "two at once, then one each 0.6 s";
   EXPECT_GE(robot.repeats, time / milliseconds(330) - 3) << "a client would give up";
+}
+
+// The first call of its callback takes so long.
+TEST_F(HostRules, AStartingClientGetsTwoStatesHoweverLateItAnswers) {
+  Pace pace = waiting(PaceMode::kLockStep);
+  pace.patience = std::chrono::seconds(100);
+  use(pace);
+  robot.reads = robot.moving = true;
+  robot.begun = false;
+  robot.delay = std::chrono::seconds(20);
+  clock.on_wait = [this] { robot.reads = robot.repeats == 0; };
+  EXPECT_NEAR(20000, timeOf(1).count(), 10);
+  EXPECT_EQ(1, robot.answered);
+  EXPECT_EQ(2U, robot.message_ids) << "with a third one its clock would be ahead";
+}
+
+TEST_F(HostRules, AStartingClientIsNotTakenForOneThatWaitsAfterItHasAnswered) {
+  Pace pace = waiting(PaceMode::kLockStep);
+  pace.patience = std::chrono::seconds(100);
+  use(pace);
+  robot.reads = robot.moving = true;
+  robot.begun = false;
+  robot.delay = std::chrono::seconds(100);
+  // It answers, and then reads the repeat, while the host looks at its socket.
+  robot.on_look = [this] { robot.delay = milliseconds(robot.repeats > 0 ? 0 : 100000); };
+  EXPECT_NEAR(600, timeOf(1).count(), 10);
+  EXPECT_EQ(1, robot.answered);
+  EXPECT_EQ(2U, robot.message_ids);
+}
+
+TEST_F(HostRules, AStartingClientGetsTheSecondStateWhenItHasReadTheFirst) {
+  Pace pace = waiting(PaceMode::kLockStep);
+  pace.patience = milliseconds(550);
+  use(pace);
+  robot.moving = true;
+  robot.reads = robot.begun = robot.answers = false;
+  std::vector<std::uint64_t> numbers;
+  clock.on_wait = [&] {
+    numbers.push_back(robot.message_ids);
+    robot.reads = numbers.size() >= 500;
+  };
+  timeOf(1);
+  EXPECT_NEAR(500, std::count(numbers.begin(), numbers.end(), 1), 2);
+  EXPECT_EQ(2U, robot.message_ids);
+}
+
+TEST_F(HostRules, AStartingClientThatMissedAStateGetsAnotherOne) {
+  Pace pace = waiting(PaceMode::kLockStep);
+  pace.patience = milliseconds(2500);
+  use(pace);
+  robot.reads = robot.moving = true;
+  robot.begun = robot.answers = false;
+  timeOf(1);
+  EXPECT_EQ(2U + 4U, robot.message_ids) << "two at once, then one each 0.6 s";
+  EXPECT_EQ(4, robot.repeats) << "it reads one before each of them";
+}
+
+TEST_F(HostRules, AnswersToRequestsOfAStartingClientDoNotWaitForItsCommand) {
+  use(waiting(PaceMode::kLockStep));
+  robot.moving = robot.has_pending_state = true;
+  robot.reads = robot.begun = robot.answers = false;
+  timeOf(1);
+  EXPECT_EQ(2U, robot.message_ids);
 }
 
 TEST_F(HostRules, FreeRunningIgnoresTheClockBetweenMotions) {

@@ -58,7 +58,10 @@ class BareRobot final : public HostedRobot {
     hand.publish(ticks);
     vacuum.publish(ticks);
   }
-  void repeat() override { arm.repeat(); }
+  bool repeat() override {
+    arm.repeat();
+    return true;
+  }
   bool hasPendingState() const override { return arm.hasPendingState(); }
   bool receiveCommand() override { return arm.receiveCommand(); }
   bool expectsCommand() const override { return arm.expectsCommands(); }

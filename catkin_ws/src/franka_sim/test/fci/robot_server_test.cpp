@@ -291,6 +291,20 @@ TEST_F(RobotServerTest, RepeatsAStateByteForByte) {
   EXPECT_EQ(first->q, second->q);
 }
 
+TEST_F(RobotServerTest, KnowsWhetherItsClientHasReadAllStates) {
+  TestClient client(server_.port());
+  connect(client, 10);
+  server_.publish();
+  server_.publish();
+  EXPECT_EQ(false, server_.clientHasReadStates());
+  ASSERT_TRUE(client.state());
+  EXPECT_EQ(false, server_.clientHasReadStates());
+  ASSERT_TRUE(client.state());
+  EXPECT_EQ(true, server_.clientHasReadStates());
+  client.close();
+  EXPECT_EQ(std::nullopt, server_.clientHasReadStates());
+}
+
 TEST_F(RobotServerTest, DropsInvalidDatagrams) {
   TestClient client(server_.port());
   connect(client, 5);

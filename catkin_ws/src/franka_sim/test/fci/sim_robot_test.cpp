@@ -136,6 +136,22 @@ TEST_F(Panda, StartsAMotionWithoutDelayedCommandsOfTheLast) {
   }
 }
 
+// A client of libfranka gives up after a second without a datagram.
+TEST_F(SimRobotTest, RepeatsAStateToAStartingClientThatWaits) {
+  TestClient client(robot.server().port());
+  connect(client, 10);
+  startMotion(client);
+  robot.publish(1, true, false);
+  EXPECT_FALSE(robot.repeat()) << "it has not read the state";
+  const auto shown = client.state();
+  ASSERT_TRUE(shown);
+  EXPECT_TRUE(robot.repeat());
+  EXPECT_FALSE(robot.repeat()) << "unread repeats would fill its socket";
+  const auto repeated = client.state();
+  ASSERT_TRUE(repeated);
+  EXPECT_EQ(shown->message_id, repeated->message_id);
+}
+
 TEST_F(SimRobotTest, ReportsWhyFramesAndLoadsOfAClientAreRefused) {
   std::vector<std::string> reports;
   robot.onRefusal([&](const std::string& what) { reports.push_back(what); });

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -101,8 +102,10 @@ class HostedRobot {
   /// since. @param keep_end see RobotServer::publish.
   virtual void publish(std::uint64_t ticks, bool same_tick, bool keep_end) = 0;
   /// For long standstills of time within a motion: sends the client the last state again,
-  /// unchanged, unless an answer to it is due; also to clients of the device on the flange.
-  virtual void repeat() = 0;
+  /// unchanged, unless an answer to it is due and the motion has begun or the client may not have
+  /// read its states; also to clients of the device on the flange.
+  /// @returns whether it has sent the client the state
+  virtual bool repeat() = 0;
   /// Whether a client waits for the next state.
   virtual bool hasPendingState() const = 0;
 
@@ -115,6 +118,8 @@ class HostedRobot {
   virtual bool expectsCommand() const = 0;
   /// Whether the client is on this machine, as far as its address shows.
   virtual bool clientIsLocal() const { return false; }
+  /// Whether the client has read every state that was sent to it; nothing if that is unknown.
+  virtual std::optional<bool> clientHasReadStates() const { return std::nullopt; }
   /// Whether that client may send commands at any time, so that no tick waits for one.
   virtual bool asynchronous() const = 0;
   /// Whether that motion has had its first command.

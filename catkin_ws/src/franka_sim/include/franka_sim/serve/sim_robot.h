@@ -97,12 +97,13 @@ class SimRobot : public HostedRobot {
   void serve(bool stops_only) override;
   bool idle() const override;
   void publish(std::uint64_t ticks, bool same_tick, bool keep_end) override;
-  void repeat() override;
+  bool repeat() override;
   bool hasPendingState() const override;
   bool receiveCommand() override;
   void reportSilence(Silence silence) override;
   bool expectsCommand() const override;
   bool clientIsLocal() const override;
+  std::optional<bool> clientHasReadStates() const override;
   bool asynchronous() const override;
   bool motionHasBegun() const override;
   bool settling() const override;
