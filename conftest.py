@@ -57,5 +57,5 @@ def pytest_collection_modifyitems(config, items):
 
 @pytest.fixture(scope="session")
 def long_run(request) -> bool:
-    """Whether the long forms were asked for."""
+    """Whether the long forms are requested."""
     return is_long(request.config)

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Steps a second of pyfranka.gym beside those of other packages' environments, in turns in one run.
+"""Steps a second of pyfranka.gym and of other packages' environments, in turns in one run.
 
 The others come from PyPI into environments of their own in a folder that is deleted afterwards. Where one
 cannot be installed, the benchmark says so and goes on.

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""pyfranka.sim: what Python costs beside the tick in C++, whose speed is the reference."""
+"""pyfranka.sim: what Python costs in addition to the tick in C++, whose speed is the reference."""
 
 import os
 import time

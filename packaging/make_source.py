@@ -33,7 +33,7 @@ OWN = "franka_sim"  # not in the place of an original: its version is that of th
 SETUP = "ros-franka-setup"
 DEVELOPMENT = "ros-franka-dev"
 SWEEPS = "ros-franka-sweep"
-# What PyPI's packages have beside what a program loads.
+# Parts of PyPI's packages that a program does not load.
 NOT_LOADED = {"tests", "__pycache__", "include", "RECORD", "INSTALLER", "REQUESTED", "direct_url.json"}
 # Groups of apt-packages.txt, and single packages, without which the workspace builds.
 NOT_FOR_BUILDS = {
@@ -218,7 +218,7 @@ def owner(distribution: metadata.Distribution) -> str:
 
 
 def copy_bundled(distributions: list[metadata.Distribution], target: Path) -> None:
-    """Their modules, with licences, into a folder of their own."""
+    """Their modules, with licenses, into a folder of their own."""
     for distribution in distributions:
         for file in distribution.files or []:
             if file.parts[0] == ".." or NOT_LOADED & set(file.parts) or file.suffix in {".pyc", ".a", ".pxd"}:
@@ -351,7 +351,7 @@ def copy_sources(target: Path) -> None:
 
 
 def copy_xacro(venv: Path, target: Path) -> None:
-    """The PyPI package, which Debian does not have, with its licence, where the build looks for it."""
+    """The PyPI package, which Debian does not have, with its license, where the build looks for it."""
     for modules in sorted(venv.glob("lib/python3*/site-packages")):
         if metadata := sorted(modules.glob("xacro-2.*.dist-info")):
             there = target / "vendor" / "lib" / "python3" / "site-packages"

@@ -159,7 +159,7 @@ def test_unknown_arguments_are_refused_before_a_build(arguments):
     result = franka(*arguments)
     assert result.returncode == 2
     assert result.stdout == ""
-    assert f'"{arguments[-1]}" is nothing that ./franka {arguments[0]} takes.' in result.stderr
+    assert f'unknown argument "{arguments[-1]}" of ./franka {arguments[0]}.' in result.stderr
     assert f"\n  {arguments[0]} " in result.stderr
 
 

@@ -68,7 +68,7 @@ def test_a_group_has_versions_of_the_whole_environment(name, python):
 
 
 def test_the_environment_equals_its_lock():
-    """Nothing is missing, has another version, or came beside it."""
+    """Nothing is missing, has another version, or was installed in addition."""
     folders = [str(folder) for folder in Path(sys.prefix).glob("lib/python*/site-packages")]
     assert Path(sys.prefix) == TOP / ".venv"
     there = {canonicalize_name(each.name): each.version for each in metadata.distributions(path=folders)}

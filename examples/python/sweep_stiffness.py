@@ -89,7 +89,7 @@ class PickAndPlace:
         """Carries the stone. @returns where it is then, and whether it rests in the red tray"""
         try:
             grasped = self.carry()
-        except RequestRefused:  # after a reflex: the hand met something; see mode
+        except RequestRefused:  # after a reflex: the hand hit an obstacle; see mode
             grasped = False
         where, _ = self.sim.body_pose("stone")
         beside = numpy.abs(where[:2] - TRAY)

@@ -12,8 +12,8 @@
 #include <vector>
 
 /// @file
-/// The names of pylibfranka and panda-python beside those of pyfranka (docs/python.md). Call with
-/// the interpreter's lock held.
+/// The names of pylibfranka and panda-python in addition to those of pyfranka (docs/python.md).
+/// Call with the interpreter's lock held.
 
 namespace pyfranka {
 

@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""What tests need from PyPI beside .venv: other people's client libraries, each in an environment of its own
+"""What tests need from PyPI, not in .venv: other people's client libraries, each in an environment of its own
 (decision 33), and files for tests that install the wheel. Each has the packages of a lock: locks/panda.txt.
 
 Tests use no network. `./franka test` fetches before them, into a cache folder outside of the clone, so that

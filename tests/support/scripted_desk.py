@@ -13,7 +13,7 @@ from pyfranka.desk.profiles import PROFILES
 
 @contextlib.contextmanager
 def desk_with_robot(folder, profile="fr3-v1", limits=LIMITS, report=None, **options):
-    """A robot and its Desk. report: what the robot reports first, beside the usual; options: of Desk."""
+    """A robot and its Desk. report: what the robot reports first, added to the usual; options: of Desk."""
     kind = "fr3" if PROFILES[profile].fr3 else "panda"
     with ScriptedRobot(type=kind, arm_id=kind, **(report or {})) as robot:
         with DeskServer("127.0.0.1", robot.port, folder, profile, Options(**options), limits) as desk:

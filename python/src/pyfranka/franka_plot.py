@@ -126,7 +126,7 @@ def _parser() -> argparse.ArgumentParser:
         parents=[common, live],
         help="a robot on the network, by the FCI",
         description="Reads a robot's states by the FCI, without ROS. It listens only: nothing moves. A robot "
-        "serves one client at a time; beside a controller use topic.",
+        "serves one client at a time; while a controller runs, use topic.",
     )
     robot.add_argument("address", metavar="ADDRESS", help="name or IP address, maybe with a port, HOST:PORT")
     topic = sources.add_parser(

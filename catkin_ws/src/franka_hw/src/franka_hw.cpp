@@ -27,7 +27,7 @@ constexpr double kMaxConnectTime = 1e8;  // [s]
 constexpr char kNoRobot[] =
     " Without a robot, start a simulated one: give the launch file sim:=true, or run "
     "`franka_sim --robot panda --ip 127.0.0.1` (or fr3, any loopback address) "
-    "beside it.";
+    "in another shell.";
 
 }  // namespace
 

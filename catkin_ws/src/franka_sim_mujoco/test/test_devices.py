@@ -1,6 +1,6 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Joints of other devices, driven beside the arm as by Gazebo's default hardware."""
+"""Joints of other devices, driven in addition to the arm as by Gazebo's default hardware."""
 
 import re
 import xml.etree.ElementTree as ElementTree

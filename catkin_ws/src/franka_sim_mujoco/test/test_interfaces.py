@@ -224,7 +224,7 @@ def test_claims_conflict_as_on_the_robot(arm):
         arm.load(name)
         assert not arm.switch(start=[name]), name
     assert arm.controllers.states()["joint_position_example_controller"] == "running"
-    assert arm.switch(start=["force_example_controller"])  # torques beside a motion
+    assert arm.switch(start=["force_example_controller"])  # torques in addition to a motion
     assert arm.state().robot_mode == MOVE
 
 

@@ -145,7 +145,7 @@ class Desk:
                 listener(before, now)
         self.changed()
 
-    # ---- work beside requests ----------------------------------------------------------------------------
+    # ---- work between requests ---------------------------------------------------------------------------
 
     def begin(self, work: Coroutine[Any, Any, object]) -> asyncio.Task[None]:
         """Runs it in parallel to the requests; refusals of the robot are ignored."""

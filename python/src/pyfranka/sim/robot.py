@@ -343,7 +343,7 @@ class SimulatedRobot:
     ) -> None:
         """The same for the end effector. target: O_T_EE, 4x4, at most 2 m from the base; stiffness:
         6 [N/m, Nm/rad] along and about the axes of K; nullspace_stiffness of the joints [Nm/rad]; damping of
-        the joints beside that of the springs, 7 [Nm s/rad], for an arm that swings.
+        the joints in addition to that of the springs, 7 [Nm s/rad], for an arm that swings.
 
         >>> target = arm.state.O_T_EE.copy()
         >>> target[2, 3] += 0.05

@@ -85,7 +85,8 @@ constexpr int kBacklog = 4096;
 /// loop).
 constexpr std::chrono::milliseconds kExhausted{100};
 
-/// A peer that takes nothing, or vanishes silently, is given up after this time (chosen here).
+/// A peer that reads nothing, or is gone without a message, is disconnected after this time (chosen
+/// here).
 constexpr int kSilence = 5000;  // [ms]
 
 /// Datagrams of other senders dropped per call (chosen here: bounds the time of a call).

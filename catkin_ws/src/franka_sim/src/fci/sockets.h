@@ -86,9 +86,9 @@ class Connection {
  public:
   explicit Connection(Descriptor socket);
 
-  /// From now on a peer that vanishes silently, or takes nothing, is detected after 5 s, and no
-  /// message waits for the acknowledgement of another one. (Six system calls, which connections
-  /// that say nothing are not worth.)
+  /// From now on a peer that is gone without a message, or reads nothing, is detected after 5 s,
+  /// and no message waits for the acknowledgment of another one. (Six system calls, which
+  /// connections that say nothing are not worth.)
   void watchPeer() noexcept;
 
   int descriptor() const noexcept { return socket_.get(); }

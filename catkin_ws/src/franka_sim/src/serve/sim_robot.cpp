@@ -326,7 +326,7 @@ std::string collisionOf(const ControlUnit& unit, RobotError error) {
   const std::string detail = detailOf(unit, indexOf(error));
   return error == RobotError::kSelfCollisionAvoidanceViolation
              ? "its " + detail + " came too close to each other"
-             : "it met something, " + detail;
+             : "it hit an obstacle, " + detail;
 }
 
 std::string describe(SimRobot& robot) {

@@ -337,7 +337,7 @@ TEST_F(Panda, ReportsValueAndThresholdOfACollision) {
     tick();
   }
   ASSERT_FALSE(reports.empty());
-  for (const char* part : {"it met something", "external", "upper threshold", "_reflex)."}) {
+  for (const char* part : {"it hit an obstacle", "external", "upper threshold", "_reflex)."}) {
     EXPECT_NE(std::string::npos, reports.front().find(part)) << reports.front();
   }
   EXPECT_NE(std::string::npos, describe(robot).find("upper threshold")) << describe(robot);

@@ -174,7 +174,7 @@ TEST_P(RealismTest, PushReadingHasTheDelayAndAccuracyOfARealRobot) {
 }
 
 TEST_P(RealismTest, FreeMotionReadsTheForceOfARealRobot) {
-  // The recorded FR3 reads, beside its friction, what its own model gets wrong.
+  // In addition to its friction, the recorded FR3 reads the errors of its own model.
   const franka_test::TemporaryFolder folder;
   const std::string bias = folder.write(
       "bias.yaml", "torque_offset: [-0.34, -0.39, -0.06, -0.23, -0.05, 0.14, -0.25]\n");

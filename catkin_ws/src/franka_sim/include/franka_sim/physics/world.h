@@ -46,8 +46,8 @@ struct RobotDescription {
   Pose base;                 ///< of the URDF's root, unless that is a link named `world`
   std::map<std::string, double> initial_positions;  ///< joint name -> [rad] or [m]
   std::map<std::string, double> rotor_inertia;      ///< joint name -> armature [kg m^2]; else none
-  /// Joint name -> friction, beside that of the URDF's `<dynamics>`, which the joints of Franka
-  /// arms and hands do not have.
+  /// Joint name -> friction, in addition to that of the URDF's `<dynamics>`, which the joints of
+  /// Franka arms and hands do not have.
   std::map<std::string, JointFriction> friction;
   /// Joint name -> offset of its torque sensor [Nm]: an arm's motors produce the reading, not the
   /// torque itself, to the commanded value.

@@ -166,7 +166,7 @@ std::string linksOf(const LinkPair& pair);
 void setLoad(SimRobot& robot, const franka_core::Payload& load);
 
 /// Message about a collision that raised this error (self-collision, joint or Cartesian reflex):
-/// "it met something, joint 4: external torque 23.4 Nm, upper threshold 20 Nm".
+/// "it hit an obstacle, joint 4: external torque 23.4 Nm, upper threshold 20 Nm".
 std::string collisionOf(const ControlUnit& unit, franka_core::RobotError error);
 
 /// The links or the axis of a collision that raised this error (an index of RobotState::errors);

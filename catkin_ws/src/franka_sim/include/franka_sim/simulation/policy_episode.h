@@ -22,7 +22,7 @@ namespace franka_sim {
 
 /// What the numbers of an action are.
 enum class PolicyControl {
-  kTorque,          ///< 7 torques beside gravity
+  kTorque,          ///< 7 torques in addition to gravity
   kJointDelta,      ///< 7 steps of the joints' targets
   kCartesianDelta,  ///< steps of the end effector's target: x, y, z and a rotation vector
 };

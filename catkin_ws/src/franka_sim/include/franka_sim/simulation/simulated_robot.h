@@ -115,7 +115,8 @@ class SimulatedRobot {
   JointLaw& jointLaw();
   /// The same for the Cartesian law.
   CartesianLaw& cartesianLaw();
-  /// Damps the joints beside the law that runs, until its motion ends or torques are commanded.
+  /// Damps the joints in addition to the law that runs, until its motion ends or torques are
+  /// commanded.
   void setDamping(const std::array<double, 7>& damping) noexcept { shaping_.damping = damping; }
   /// Ends the motion as a client does at the end of its work; the robot brakes. Nothing without
   /// one.

@@ -34,7 +34,7 @@ class MujocoArm final : public ArmPlant {
   /// Opens brakes, zero torque.
   void reset() noexcept;
 
-  /// What a snapshot keeps of it beside the model and the data.
+  /// What a snapshot keeps of it in addition to the model and the data.
   struct State {
     bool brakes_closed{false};
     std::array<double, 7> brake_positions{};

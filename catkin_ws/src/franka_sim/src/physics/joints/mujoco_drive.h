@@ -32,7 +32,7 @@ class MujocoDrive final : public JointDrive {
   /// Call before each physics step of a tick, counted from 1: the target moves in even steps, too.
   void prepare(int substep, int substeps) noexcept;
 
-  /// What a snapshot keeps of it beside the model and the data.
+  /// What a snapshot keeps of it in addition to the model and the data.
   struct State {
     bool follows{false};
     double last_target{0},

@@ -43,7 +43,8 @@ void PreparationThread::run() {
     const unsigned requests = requests_.load(std::memory_order_relaxed);
     Clock::duration sleep =
         std::clamp<Clock::duration>(spin_rule_.pauseLeft(Clock::now()), kMinSleep, kMaxSleep);
-    // While nobody steps there is nothing to wait for, and nothing that SpinRule could learn.
+    // While the world is not stepped, the thread has nothing to wait for, and SpinRule nothing to
+    // measure.
     do {
       std::this_thread::sleep_for(sleep);
       sleep = std::min<Clock::duration>(2 * sleep, kMaxSleep);
