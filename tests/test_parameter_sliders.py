@@ -67,7 +67,7 @@ class Panel:
         with Image.open(self._picture) as picture:
             left, top = x + BORDER, y + height - ABOVE_BOTTOM
             line = picture.convert("L").crop((left, top, left + WAY + KNOB, top + 1))
-            bright = [place + 0.5 for place, grey in enumerate(line.getdata()) if grey > 200]
+            bright = [place + 0.5 for place, gray in enumerate(line.getdata()) if gray > 200]
         middle = (min(bright) + max(bright)) / 2
         return (middle - KNOB / 2) / WAY * most
 

@@ -12,7 +12,7 @@ import pytest
 import style
 
 TOP = Path(__file__).resolve().parent.parent
-LICENCE = f"// {style.HEADER}\n// SPDX-License-Identifier: Apache-2.0\n"
+LICENSE = f"// {style.HEADER}\n// SPDX-License-Identifier: Apache-2.0\n"
 PYTHON = f"# {style.HEADER}\n"
 HOMES = "/home"
 LAYERS = """[importlinter]
@@ -96,18 +96,18 @@ TESTS = [  # the same of tests that judge the wall clock (wall_clock.py)
 
 def own_rules():
     for name, clean, dirty in TEXTS:
-        yield name, f"{LICENCE}{clean}\n", f"{LICENCE}{dirty}\n"
+        yield name, f"{LICENSE}{clean}\n", f"{LICENSE}{dirty}\n"
     for clean, dirty in TESTS[:3]:
         yield "test/test_arm.py", *(f"{PYTHON}def test_arm():\n    {line}\n" for line in (clean, dirty))
     for clean, dirty in TESTS[3:]:
-        yield "test/arm_test.cpp", *(f"{LICENCE}TEST(Arm, Moves) {{\n{line}\n}}\n" for line in (clean, dirty))
+        yield "test/arm_test.cpp", *(f"{LICENSE}TEST(Arm, Moves) {{\n{line}\n}}\n" for line in (clean, dirty))
 
 
 @pytest.mark.parametrize(
     "check, name, clean, dirty",
     [
         *(("text", *rule) for rule in own_rules()),
-        ("text", "b.cpp", LICENCE, "int i = 0;\n"),
+        ("text", "b.cpp", LICENSE, "int i = 0;\n"),
         ("ruff", "a.py", "import os\n\nprint(os.name)\n", "import os\n"),
         ("ruff", "a.py", "a = 1\n", "a = 1  # TODO\n"),
         ("ruff", "program", "#!/usr/bin/env python3\nprint(1)\n", "#!/usr/bin/env python3\nprint( 1 )\n"),

@@ -164,7 +164,7 @@ def test_only_libraries_of_every_debian_are_missing(archive, tmp_path):
     assert [path.name for path in files if os.fsencode(TOP) in path.read_bytes()] == []
 
 
-def test_licences_of_bundled_libraries_are_included(archive):
+def test_licenses_of_bundled_libraries_are_included(archive):
     folders = {Path(name).parent.name for name in archive.namelist() if ".dist-info/licenses/" in name}
     bundled = [Path(name).name for name in archive.namelist() if name.startswith("pyfranka.libs/")]
     assert bundled and any(name.startswith("libmujoco") for name in bundled)

@@ -69,7 +69,7 @@ class RobotWithDesk:
         return json.loads(self.robot.remote.send("report"))
 
     def wait(self, condition) -> None:
-        """Waits for a report that fulfils the condition, and until Desk has seen it too."""
+        """Waits for a report that fulfills the condition, and until Desk has seen it too."""
         wait_for(lambda: condition(self.report()), lambda: f"The state after {self.report()}")
         self._server.refresh()
 

@@ -177,7 +177,7 @@ class DeskServer:
     def begin(
         self, method: str, path: str, body: typing.Any = None, **headers: str
     ) -> concurrent.futures.Future[Answer]:
-        """A request on a connection of its own, whose answer may take its time. Cancelling it closes the
+        """A request on a connection of its own, whose answer may take its time. Canceling it closes the
         connection, as a client does that goes away."""
 
         async def answer() -> Answer:

@@ -325,12 +325,12 @@ def check_picture(path: Path) -> None:
     if not path.exists():
         raise PageError(f"there is no picture {path.name}")
     with Image.open(path) as picture:
-        grey = picture.convert("L")
+        gray = picture.convert("L")
         if min(picture.size) < 300:
             raise PageError(f"{path.name} has {picture.size} pixels only")
-        width, height = grey.size
-        middle = grey.crop((width // 4, height // 4, 3 * width // 4, 3 * height // 4))
-        if min(max(ImageStat.Stat(part).stddev) for part in (grey, middle)) < 5.0:
+        width, height = gray.size
+        middle = gray.crop((width // 4, height // 4, 3 * width // 4, 3 * height // 4))
+        if min(max(ImageStat.Stat(part).stddev) for part in (gray, middle)) < 5.0:
             raise PageError(f"{path.name} has nothing on it")
 
 

@@ -15,7 +15,7 @@ from docsite.markdown import code, table, with_links
 from docsite.packages import packages
 
 XACRO = "{http://www.ros.org/wiki/xacro}"
-LICENCE = ("Copyright (c)", "SPDX-License-Identifier")
+LICENSE = ("Copyright (c)", "SPDX-License-Identifier")
 MEANING = re.compile(r"^(\s+)(\w+(?:, \w+)*)\s{2,}(\S.*)$")
 FIND = re.compile(r"\$\(find (\w+)\)/(.*)")
 
@@ -41,7 +41,7 @@ def parsed(path: Path) -> ET.Element:
 def comments_of(root: ET.Element) -> list[str]:
     # Comments have a function in the place of a tag.
     texts = [element.text or "" for element in root.iter(typing.cast(str, ET.Comment))]
-    return [text for text in texts if not text.strip().startswith(LICENCE)]
+    return [text for text in texts if not text.strip().startswith(LICENSE)]
 
 
 def meanings_in(comment: str) -> dict[str, str]:

@@ -7,12 +7,12 @@ from pathlib import Path
 
 from docsite.markdown import block, with_links
 
-LICENCE = ("# Copyright (c)", "# SPDX-License-Identifier")
+LICENSE = ("# Copyright (c)", "# SPDX-License-Identifier")
 KINDS = {"msg": "Messages", "srv": "Services", "action": "Actions"}
 
 
 class Interface(typing.NamedTuple):
-    """A definition: its first comment, and its text without the licence."""
+    """A definition: its first comment, and its text without the license."""
 
     path: Path
     description: str
@@ -24,7 +24,7 @@ class Interface(typing.NamedTuple):
 
 
 def read_interface(path: Path) -> Interface:
-    lines = [line for line in path.read_text().splitlines() if not line.startswith(LICENCE)]
+    lines = [line for line in path.read_text().splitlines() if not line.startswith(LICENSE)]
     text = "\n".join(lines).strip()
     comment: list[str] = []
     for line in text.splitlines():

@@ -38,7 +38,7 @@ from pyfranka.sim.setups import KINDS, described
 __all__ = ["main"]
 
 TIMED_OUT, NO_ROBOT, NOT_RUN, NOT_FOUND = 124, 125, 126, 127  # as those of timeout(1)
-SIGNALLED = 128
+SIGNALED = 128
 TO_START, TO_END = 120.0, 20.0  # [s], on a busy machine (chosen here)
 TO_REAP = 1.0  # [s] for init to reap killed children; some containers have no init that does (chosen here)
 PAUSE = 0.05  # [s] between two looks (chosen here)
@@ -292,7 +292,7 @@ def run_command(words: Sequence[str], variables: dict[str, str], seconds: float)
     finally:
         if process is not None:  # also what the command has left running
             end_group(process, signal.SIGTERM)
-    return code if code >= 0 else SIGNALLED - code
+    return code if code >= 0 else SIGNALED - code
 
 
 def print_line(sentence: str) -> None:
@@ -318,7 +318,7 @@ def with_robot(options: argparse.Namespace) -> int:
         print_line(f"the robot did not start:\n{error}")
     except Interrupted as error:
         print_line(f"ended by {signal.Signals(error.number).name}.")
-        status = SIGNALLED + error.number
+        status = SIGNALED + error.number
     if robot is not None:
         status = stop(robot, status)
         report(robot, status, options.log)

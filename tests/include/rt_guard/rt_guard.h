@@ -102,7 +102,7 @@ class Scope {
 
   /// Calls of the allocator, for allocation or release.
   std::size_t allocations() const { return counts_.allocations; }
-  /// Mutexes and read-write locks taken or tried, condition variables waited on or signalled.
+  /// Mutexes and read-write locks taken or tried, condition variables waited on or signaled.
   std::size_t locks() const { return counts_.locks; }
   /// Calls of the nanosleep family.
   std::size_t sleeps() const { return counts_.sleeps; }

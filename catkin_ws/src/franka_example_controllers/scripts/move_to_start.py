@@ -95,7 +95,7 @@ def main() -> int:
     handle = run(client, goal, duration.to_sec() + WAIT)
     if handle.get_comm_state() != actionlib.CommState.DONE:
         handle.cancel()
-        return fail("the controller does not end; the goal was cancelled.")
+        return fail("the controller does not end; the goal was canceled.")
     result = handle.get_result()
     if result is None or result.error_code != FollowJointTrajectoryResult.SUCCESSFUL:
         reason = result.error_string if result else handle.get_goal_status_text()

@@ -221,7 +221,7 @@ bool FrankaCombinableHW::prepareSwitch(
   const bool was_active = controllerActive();
   const bool agrees = FrankaHW::prepareSwitch(start_list, stop_list);
   if (!was_active && controllerActive()) {
-    error_recovered_ = true;  // a switch was cancelled: its controllers are restarted
+    error_recovered_ = true;  // a switch was canceled: its controllers are restarted
   }
   return agrees;
 }

@@ -13,14 +13,14 @@ namespace franka_sim_mujoco {
 namespace {
 
 constexpr std::chrono::milliseconds kPoll{5};
-/// Maximum wait of a cancelled goal for its stop [polls]; the loop may stand still.
+/// Maximum wait of a canceled goal for its stop [polls]; the loop may stand still.
 constexpr int kCancelPolls = 40;
 constexpr double kNoEffort = 1e-4;  ///< below it gripper_action moves instead of grasping [N]
 
 constexpr char kNotRunning[] =
     "The gripper's controller does not run: start it with the controller manager.";
 constexpr char kInterrupted[] = "The command was interrupted by another command of the gripper.";
-constexpr char kCancelled[] = "The command was cancelled; the fingers stay where they are.";
+constexpr char kCanceled[] = "The command was canceled; the fingers stay where they are.";
 constexpr char kReplaced[] = "The command was replaced by a new goal.";
 constexpr char kRefused[] =
     "The gripper refused the command: its numbers are outside their ranges.";
@@ -123,8 +123,8 @@ bool GripperActions::carryOut(Server<Action>& server,
     for (int i = 0; i < kCancelPolls && !halt->isSettled(); ++i) {
       std::this_thread::sleep_for(kPoll);
     }
-    explain(result, kCancelled, view_.width);
-    server.setPreempted(result, kCancelled);
+    explain(result, kCanceled, view_.width);
+    server.setPreempted(result, kCanceled);
   } else {
     abort(server, result, view_.controller_runs ? "The simulation is shutting down." : kNotRunning,
           view_.width);

@@ -124,7 +124,7 @@ void FakeRobot::serve() {
 void FakeRobot::acceptClient() {
   client_ = accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
   if (client_ >= 0) {
-    // Two replies in a row must not wait for each other's acknowledgement.
+    // Two replies in a row must not wait for each other's acknowledgment.
     const int at_once = 1;
     setsockopt(client_, IPPROTO_TCP, TCP_NODELAY, &at_once, sizeof(at_once));
     connections_++;

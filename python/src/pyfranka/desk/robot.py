@@ -87,7 +87,7 @@ class DeskRobot:
         """Sends a line; returns the text after `ok`. The report is then newer than the effect of the line.
 
         A line that equals the last one, which is not answered yet, is not sent again, unless only the new one
-        is urgent. urgent: does not wait for other lines. If the caller is cancelled, the line still runs to
+        is urgent. urgent: does not wait for other lines. If the caller is canceled, the line still runs to
         its end. Raises Refused or RobotGone.
         """
         if "\n" in line or "\r" in line:

@@ -18,7 +18,7 @@ class Options:
     the names have hyphens: --option release-status=204."""
 
     release_status: int = 200  #: of DELETE control-token: 200 or 204
-    no_acknowledge_status: int = 424  #: of an acknowledgement without a matching error: 424 or 404
+    no_acknowledge_status: int = 424  #: of an acknowledgment without a matching error: 424 or 404
     token_id: bool = True  #: v1 answers have tokenId (5.3.1 had none)
     recovery_type_on_top: bool = False  #: GET /api/safety/recovery also has the type at its top level
     time_to_td2_in_system: bool = False  #: GET /api/system has safety.timeToTd2

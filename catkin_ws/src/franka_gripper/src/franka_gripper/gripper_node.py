@@ -35,7 +35,7 @@ from franka_gripper.msg import (
 if TYPE_CHECKING:
     import pyfranka
 
-# Carries out a goal: goal, its result, whether it was cancelled.
+# Carries out a goal: goal, its result, whether it was canceled.
 CarryOut = Callable[[Any, Any, Callable[[], bool]], None]
 # Raises a Fault if a goal is impossible; may fill its result.
 Check = Callable[[Any, Any], None]
@@ -237,8 +237,8 @@ class GripperNode:
             f"The width {width:g} m is not possible: it must lie between 0 and {most:g} m.",
         )
 
-    def _homing(self, _goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
-        result.success = self._hand.run(lambda gripper: gripper.homing(), cancelled)
+    def _homing(self, _goal: Any, result: Any, canceled: Callable[[], bool]) -> None:
+        result.success = self._hand.run(lambda gripper: gripper.homing(), canceled)
         if not result.success:
             result.error = "Homing did not reach the fingers' ends: something is in their way."
 
@@ -246,8 +246,8 @@ class GripperNode:
         self._check_width(goal.width)
         check(math.isfinite(goal.speed) and goal.speed > 0.0, "Only positive speeds allowed")
 
-    def _move(self, goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
-        result.success = self._hand.run(lambda gripper: gripper.move(goal.width, goal.speed), cancelled)
+    def _move(self, goal: Any, result: Any, canceled: Callable[[], bool]) -> None:
+        result.success = self._hand.run(lambda gripper: gripper.move(goal.width, goal.speed), canceled)
         if not result.success:
             result.error = (
                 f"The fingers stopped at {1e3 * self._hand.next_state().width:.1f} mm instead of "
@@ -263,10 +263,10 @@ class GripperNode:
             "The epsilons must be numbers not below zero.",
         )
 
-    def _grasp(self, goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
+    def _grasp(self, goal: Any, result: Any, canceled: Callable[[], bool]) -> None:
         inner, outer = goal.epsilon.inner, goal.epsilon.outer
         result.success = self._hand.run(
-            lambda gripper: gripper.grasp(goal.width, goal.speed, goal.force, inner, outer), cancelled
+            lambda gripper: gripper.grasp(goal.width, goal.speed, goal.force, inner, outer), canceled
         )
         if not result.success:
             result.error = (
@@ -280,7 +280,7 @@ class GripperNode:
         self._check_width(2.0 * goal.command.position)
         check(math.isfinite(goal.command.max_effort), "max_effort must be a number.")
 
-    def _command(self, goal: Any, result: Any, cancelled: Callable[[], bool]) -> None:
+    def _command(self, goal: Any, result: Any, canceled: Callable[[], bool]) -> None:
         """control_msgs/GripperCommand: the position is one finger's, the result's the whole width."""
         parameters, state = self._parameters, self._hand.state
         width, effort = 2.0 * goal.command.position, goal.command.max_effort
@@ -305,7 +305,7 @@ class GripperNode:
 
             result.reached_goal = False
             try:
-                result.reached_goal = self._hand.run(command, cancelled)
+                result.reached_goal = self._hand.run(command, canceled)
             finally:
                 state = self._hand.next_state()
                 result.position = state.width

@@ -117,11 +117,11 @@ class Hand:
             self._stopped = self._asked
         return self._gripper.stop()
 
-    def run(self, command: Command, cancelled: Callable[[], bool] = lambda: False) -> bool:
+    def run(self, command: Command, canceled: Callable[[], bool] = lambda: False) -> bool:
         """Executes command(gripper) and returns its result.
 
         Ends another running command first. Raises Interrupted or Stopped if this one was ended before it
-        was complete, otherwise the command's exceptions. Polls `cancelled` and ends the command if it is
+        was complete, otherwise the command's exceptions. Polls `canceled` and ends the command if it is
         true.
         """
         with self._idle:
@@ -129,7 +129,7 @@ class Hand:
             ticket = self._asked
 
             def end() -> bool:
-                return self._asked != ticket or cancelled()
+                return self._asked != ticket or canceled()
 
             while self._busy and not end():
                 self._idle.wait(self.POLL)

@@ -206,7 +206,7 @@ class VacuumGripperOnTheNetwork : public ::testing::Test {
     const std::lock_guard<std::mutex> lock(mutex_);
     change(unit_);
   }
-  /// Waits for a state that fulfils the condition.
+  /// Waits for a state that fulfills the condition.
   template <typename Condition>
   static bool becomes(const franka::VacuumGripper& gripper, Condition&& condition) {
     return ros_test::eventually([&] { return condition(gripper.readOnce()); });

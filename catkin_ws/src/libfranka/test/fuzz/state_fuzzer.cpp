@@ -21,7 +21,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     franka_fuzz::require(
         decodeState(version, {again.data(), datagram.size}, twice) == CodecError::kNone,
         "a state that was written is accepted");
-    // Signalling NaNs may lose a bit in registers, so only modes and id are compared.
+    // Signaling NaNs may lose a bit in registers, so only modes and id are compared.
     franka_fuzz::require(twice.message_id == state.message_id && twice.errors == state.errors &&
                              twice.robot_mode == state.robot_mode,
                          "a state is unchanged after decoding");

@@ -118,7 +118,7 @@ SwitchHandover::Result SwitchHandover::Turn::await() {
       return Result::kWithdrawn;
     }
     if (must_end || elapsed() > limit + kExtraTime) {
-      request.cancelled.store(true, std::memory_order_relaxed);
+      request.canceled.store(true, std::memory_order_relaxed);
       return Result::kAbandoned;
     }
     std::this_thread::sleep_for(kPollPeriod);

@@ -36,10 +36,10 @@ bool SwitchRequest::proceed(hardware_interface::RobotHW& robot, const ros::Time&
   if (!begin(robot, time)) {
     return false;
   }
-  if (cancelled.load(std::memory_order_relaxed)) {
+  if (canceled.load(std::memory_order_relaxed)) {
     for (Start& start : starts) {
       if (start.outcome == Outcome::kPending) {
-        giveUp(start, Outcome::kCancelled, time);
+        giveUp(start, Outcome::kCanceled, time);
       }
     }
     return true;

@@ -4,7 +4,7 @@
 # find_xacro_module(<module> <metadata>)
 #
 # Sets the two variables to the directories of the PyPI module xacro, version 2, and of its metadata
-# and licence. Looks in the environment FRANKA_VENV (a CMake variable), in the project's own .venv,
+# and license. Looks in the environment FRANKA_VENV (a CMake variable), in the project's own .venv,
 # and among the modules of the build's Python; fails with a sentence when it is in none of them.
 function(find_xacro_module module_variable metadata_variable)
   get_filename_component(project_venv ${CMAKE_CURRENT_SOURCE_DIR}/../../../../.venv ABSOLUTE)

@@ -225,7 +225,7 @@ std::optional<std::array<double, 4>> readMaterial(const XMLElement& visual, cons
   }
   const auto known = plainMaterials().find(script.substr(script.rfind('/') + 1));
   if (known == plainMaterials().end()) {
-    unsupported->insert(what + ": the material '" + script + "' (it is drawn grey)");
+    unsupported->insert(what + ": the material '" + script + "' (it is drawn gray)");
     return kGrey;
   }
   return std::array<double, 4>{known->second[0], known->second[1], known->second[2], 1};

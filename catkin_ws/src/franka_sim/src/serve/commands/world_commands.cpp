@@ -120,7 +120,7 @@ void addWorldCommands(fci::CommandTable& table, const OperatorContext& context) 
   addTime(table, context.host, context.world);
   table.add(line("reset"),
             "sets the world to its initial state, for all robots; between motions only. `loss` "
-            "restarts with its seed, `lose` is cancelled. Modes, errors and settings by clients "
+            "restarts with its seed, `lose` is canceled. Modes, errors and settings by clients "
             "and lines stay",
             kNotOnPage, [reset = context.reset] { reset(); });
   table.add(line("quit"), "exits the program", kNotOnPage, [quit = context.quit] { quit(); });

@@ -22,7 +22,7 @@ namespace forward_command_controller {
 /// namespace: the command in the unit of the interface ([rad], [rad/s], [Nm]; m and N for prismatic
 /// joints). A command that is not finite is refused with an error, and the last valid one stays.
 ///
-/// starting() is specialised for each kind of joint. When the controller stops, a velocity or an
+/// starting() is specialized for each kind of joint. When the controller stops, a velocity or an
 /// effort is set to zero.
 ///
 /// The control loop calls starting(), update() and stopping(). Real-time safe. The subscriber's

@@ -24,7 +24,7 @@ namespace forward_command_controller {
 /// message of another size, or with a command that is not finite, is refused as a whole with an
 /// error, and the last valid one stays.
 ///
-/// starting() is specialised for each kind of joint. When the controller stops, velocities and
+/// starting() is specialized for each kind of joint. When the controller stops, velocities and
 /// efforts are set to zero.
 ///
 /// The control loop calls starting(), update() and stopping(). Real-time safe. The subscriber's

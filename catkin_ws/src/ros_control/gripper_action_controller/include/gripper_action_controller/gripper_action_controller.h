@@ -55,7 +55,7 @@ class GripperActionController : public controller_interface::Controller<Hardware
             ros::NodeHandle& controller_nh) override;
   /// Holds the present position.
   void starting(const ros::Time& time) override;
-  /// Stops; a running goal is cancelled shortly afterwards.
+  /// Stops; a running goal is canceled shortly afterwards.
   void stopping(const ros::Time& time) override;
   void waiting(const ros::Time& time) override { stopping(time); }
   void aborting(const ros::Time& time) override { stopping(time); }

@@ -255,7 +255,7 @@ void GripperActionController<HardwareInterface>::cancelCB(GoalHandle gh) {
     order->session = session_.load();
     exchange_.put(std::move(order));
   }
-  endGoal("The client cancelled the goal. The gripper now holds its position.");
+  endGoal("The client canceled the goal. The gripper now holds its position.");
 }
 
 template <class HardwareInterface>

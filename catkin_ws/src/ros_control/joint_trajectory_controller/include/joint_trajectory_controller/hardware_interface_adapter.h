@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-/// Converts desired states into commands of a hardware interface. Controllers specialise it for
+/// Converts desired states into commands of a hardware interface. Controllers specialize it for
 /// their own interfaces; implemented for position, velocity, effort, posvel and posvelacc.
 ///
 /// init() runs outside the control loop, all others in it: no allocation, no lock.

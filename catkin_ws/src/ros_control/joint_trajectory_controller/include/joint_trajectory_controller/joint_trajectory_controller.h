@@ -66,7 +66,7 @@ class JointTrajectoryController : public controller_interface::Controller<Hardwa
 
   /// Holds the present position.
   void starting(const ros::Time& time) override;
-  /// Stops; a running goal is cancelled shortly afterwards.
+  /// Stops; a running goal is canceled shortly afterwards.
   void stopping(const ros::Time& time) override;
   void waiting(const ros::Time& time) override { stopping(time); }
   void aborting(const ros::Time& time) override { stopping(time); }

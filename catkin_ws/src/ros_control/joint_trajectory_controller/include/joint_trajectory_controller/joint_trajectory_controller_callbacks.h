@@ -235,7 +235,7 @@ void JointTrajectoryController<SegmentImpl, HardwareInterface>::cancelCB(GoalHan
   if (active_goal_->isOpen() && running_.load()) {
     putHold(JointTrajectoryConstPtr(), nullptr);
   }
-  cancelActiveGoal("The client cancelled the goal. The joints now hold their position.");
+  cancelActiveGoal("The client canceled the goal. The joints now hold their position.");
 }
 
 template <class SegmentImpl, class HardwareInterface>

@@ -49,7 +49,7 @@ class RealtimeServerGoalHandle {
   /// Requests an end of the goal. The first request of the three counts, later ones are ignored.
   /// Real-time safe. @param result to send; none if null.
   void setAborted(ResultConstPtr result = ResultConstPtr()) { request(End::kAborted, result); }
-  /// The same for a goal that was cancelled. Real-time safe.
+  /// The same for a goal that was canceled. Real-time safe.
   void setCanceled(ResultConstPtr result = ResultConstPtr()) { request(End::kCanceled, result); }
   /// The same for a goal that was reached. Real-time safe.
   void setSucceeded(ResultConstPtr result = ResultConstPtr()) { request(End::kSucceeded, result); }

@@ -26,7 +26,7 @@ struct SwitchRequest {
     kDone        ///< the loop will never access it again
   };
 
-  enum class Outcome { kPending, kStarted, kRobotError, kTimeout, kCancelled, kThrew };
+  enum class Outcome { kPending, kStarted, kRobotError, kTimeout, kCanceled, kThrew };
 
   struct Start {
     controller_interface::ControllerBaseSharedPtr controller;
@@ -53,7 +53,7 @@ struct SwitchRequest {
   ExceptionText broken_by{};  ///< that exception
 
   std::atomic<Phase> phase{Phase::kPosted};
-  std::atomic<bool> cancelled{false};  ///< its caller no longer waits: abort
+  std::atomic<bool> canceled{false};  ///< its caller no longer waits: abort
 
   /// Whether this switch starts or stops a controller.
   bool involves(const std::string& name) const;

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-// Errors in words, with recovery and acknowledgement.
+// Errors in words, with recovery and acknowledgment.
 import { actionButton, card } from "../controls.js";
 import { el, renderIfChanged, setHidden } from "../dom.js";
 import * as icons from "../icons.js";
