@@ -67,7 +67,6 @@ PARTS = (
     modules("pyfranka.desk", "desk/*", also="aiohttp, cryptography; the robot by its control interface only"),
     modules("pyfranka.sweep", "sweeps.py", "_sweep*.py", also="dask"),
     modules("pyfranka.gym", "gym/*", also="Gymnasium, SciPy"),
-    modules("pyfranka.lerobot", "lerobot.py", also="pyarrow"),
     modules("pyfranka.plot", "plot/*", "franka_plot.py", also="Matplotlib, SciPy; rospy for topics and bags"),
     Part("pyfranka", "pybind11", ("python/*",)),
     package("franka_hw", "KDL"),

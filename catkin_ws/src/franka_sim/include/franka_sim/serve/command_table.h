@@ -24,7 +24,7 @@ struct Permission {
 constexpr Permission kNotOnPage{};
 constexpr Permission kControl{true, true, false};
 constexpr Permission kUrgentControl{true, true, true};
-/// Inputs of whoever stands at the robot: stops, buttons, pushes, faults.
+/// Inputs by the operator at the robot: stops, buttons, pushes, faults.
 constexpr Permission kInput{true, false, false};
 constexpr Permission kUrgentInput{true, false, true};
 

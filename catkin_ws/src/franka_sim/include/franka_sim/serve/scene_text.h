@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <franka_sim/physics/world_shapes.h>
 #include <franka_sim/physics/world.h>
+#include <franka_sim/physics/world_shapes.h>
 #include <franka_sim/serve/reply.h>
 
 #include <cstddef>
