@@ -11,8 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "physics/engine/model_compiler.h"
+#include "physics/engine/model_data.h"
 #include "physics/meshes/mesh_simplification.h"
-#include "physics/mjcf/model_compiler.h"
 
 namespace franka_sim::physics {
 namespace {

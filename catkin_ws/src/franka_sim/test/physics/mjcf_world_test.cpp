@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "physics/mjcf/model_compiler.h"
+#include "physics/engine/model_compiler.h"
 #include "temporary_folder.h"
 #include "test_support.h"
 

@@ -5,7 +5,8 @@
 #include <cmath>
 #include <random>
 
-#include "physics/mjcf/model_compiler.h"
+#include "physics/engine/model_compiler.h"
+#include "physics/engine/model_data.h"
 #include "test_support.h"
 
 namespace franka_sim::test {

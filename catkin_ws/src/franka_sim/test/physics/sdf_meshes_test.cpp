@@ -8,9 +8,9 @@
 #include <cstdint>
 #include <cstring>
 
+#include "physics/engine/file_registry.h"
 #include "physics/meshes/mesh_file.h"
 #include "physics/meshes/triangle_mesh.h"
-#include "physics/mjcf/model_compiler.h"
 #include "sdf_test.h"
 
 namespace franka_sim::test {

@@ -8,7 +8,7 @@
 #include <array>
 #include <cmath>
 
-#include "physics/mjcf/rotations.h"
+#include "physics/engine/rotations.h"
 
 namespace franka_sim::physics {
 

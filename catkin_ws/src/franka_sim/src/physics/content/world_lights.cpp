@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "physics/pictures/scene_model.h"
+#include "physics/engine/model_lights.h"
 #include "physics/world/world_impl.h"
 
 namespace franka_sim {

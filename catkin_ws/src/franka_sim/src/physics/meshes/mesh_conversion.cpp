@@ -8,9 +8,9 @@
 #include <stdexcept>
 #include <utility>
 
+#include "physics/engine/file_registry.h"
 #include "physics/meshes/mesh_file.h"
 #include "physics/meshes/triangle_mesh.h"
-#include "physics/mjcf/model_compiler.h"
 #include "physics/mjcf/xml_util.h"
 
 namespace franka_sim::physics {

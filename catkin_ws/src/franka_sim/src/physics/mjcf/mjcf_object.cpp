@@ -8,10 +8,11 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "physics/engine/model_compiler.h"
+#include "physics/engine/model_data.h"
+#include "physics/engine/rotations.h"
 #include "physics/mjcf/mjcf_files.h"
 #include "physics/mjcf/mjcf_names.h"
-#include "physics/mjcf/model_compiler.h"
-#include "physics/mjcf/rotations.h"
 #include "physics/mjcf/xml_util.h"
 #include "physics/sdf/sdf_scene.h"
 #include "physics/urdf/urdf_object.h"

@@ -14,9 +14,10 @@
 
 #include "physics/contacts/contact_capacity.h"
 #include "physics/contacts/contact_parameters.h"
+#include "physics/engine/model_compiler.h"
+#include "physics/engine/model_data.h"
+#include "physics/engine/rotations.h"
 #include "physics/mjcf/mjcf_files.h"
-#include "physics/mjcf/model_compiler.h"
-#include "physics/mjcf/rotations.h"
 #include "physics/mjcf/xml_util.h"
 
 namespace franka_sim::physics {

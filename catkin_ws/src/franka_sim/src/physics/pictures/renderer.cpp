@@ -9,8 +9,8 @@
 #include <limits>
 #include <stdexcept>
 
-#include "physics/mjcf/model_compiler.h"
-#include "physics/mjcf/rotations.h"
+#include "physics/engine/engine_error.h"
+#include "physics/engine/rotations.h"
 #include "physics/pictures/gl_context.h"
 #include "physics/pictures/scene_model.h"
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka_sim/physics/scene.h>
 
-#include "physics/pictures/scene_model.h"
+#include "physics/engine/model_lights.h"
 #include "physics/world/world_impl.h"
 
 namespace franka_sim {

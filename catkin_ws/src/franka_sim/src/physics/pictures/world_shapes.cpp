@@ -10,8 +10,9 @@
 #include <optional>
 #include <utility>
 
+#include "physics/engine/model_compiler.h"
+#include "physics/engine/model_data.h"
 #include "physics/mjcf/mjcf_robot.h"
-#include "physics/mjcf/model_compiler.h"
 #include "physics/world/world_impl.h"
 
 namespace franka_sim {

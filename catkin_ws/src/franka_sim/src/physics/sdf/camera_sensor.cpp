@@ -9,7 +9,7 @@
 #include <optional>
 #include <stdexcept>
 
-#include "physics/mjcf/rotations.h"
+#include "physics/engine/rotations.h"
 #include "physics/mjcf/xml_util.h"
 #include "physics/sdf/sdf_frames.h"
 

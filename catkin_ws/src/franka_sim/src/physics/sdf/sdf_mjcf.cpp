@@ -9,9 +9,9 @@
 #include <stdexcept>
 
 #include "physics/contacts/contact_parameters.h"
+#include "physics/engine/rotations.h"
 #include "physics/meshes/mesh_conversion.h"
 #include "physics/mjcf/mjcf_files.h"
-#include "physics/mjcf/rotations.h"
 #include "physics/mjcf/xml_util.h"
 #include "physics/stepping/links_without_gravity.h"
 

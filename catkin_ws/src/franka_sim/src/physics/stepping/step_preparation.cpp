@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/mjcf/rotations.h"
+#include "physics/engine/rotations.h"
 #include "physics/stepping/step_fault.h"
 
 namespace franka_sim::physics {

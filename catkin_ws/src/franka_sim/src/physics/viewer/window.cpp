@@ -5,172 +5,18 @@
 #include <franka_sim/physics/world_pushes.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <optional>
 #include <stdexcept>
 
-#include "physics/mjcf/model_compiler.h"
-#include "physics/mjcf/rotations.h"
+#include "physics/engine/engine_error.h"
+#include "physics/engine/rotations.h"
 #include "physics/pictures/scene_model.h"
 #include "physics/viewer/glfw.h"
+#include "physics/viewer/mouse_push.h"
+#include "physics/viewer/pace_meter.h"
 
 namespace franka_sim {
-
-namespace physics {
-namespace {
-
-// Chosen here: 10 cm of the mouse give 15 N, below the thresholds of a collision by default.
-constexpr double kStiffness = 150;     ///< [N/m]
-constexpr double kMaxForce = 100;      ///< [N]
-constexpr double kFrequency = 8;       ///< of a light body on the spring [rad/s]
-constexpr double kMaxPhase = 0.5;      ///< of its swing between two pictures [rad]
-constexpr double kDampingRatio = 0.7;  ///< of free bodies
-
-bool isFree(const mjModel& model, int body) {
-  return model.body_jntnum[body] > 0 && model.jnt_type[model.body_jntadr[body]] == mjJNT_FREE;
-}
-
-/// The geom that is drawn at a place of the window; -1: none. @param point on its surface
-int geomAt(const mjModel* model, const mjData* data, const mjvOption& option, const mjvScene& scene,
-           double aspect, double x, double y, double* point) {
-  int geom = -1, skin = -1;
-#if mjVERSION_HEADER >= 300
-  int flex = -1;
-  mjv_select(model, data, &option, aspect, x, 1 - y, &scene, point, &geom, &flex, &skin);
-#else
-  mjv_select(model, data, &option, aspect, x, 1 - y, &scene, point, &geom, &skin);
-#endif
-  return geom;
-}
-
-}  // namespace
-
-/// A push by the mouse: a point of a body is grabbed and pulled by a spring towards the mouse, in
-/// the plane through that point that faces the camera. Called by one thread, with the window's
-/// OpenGL context.
-class MousePush {
- public:
-  /// Grabs what is drawn at a place of the window, if it can move.
-  /// @param x from the left, y from the top, as shares of the window
-  void grab(SceneModel& drawn, const mjvOption& option, const mjvScene& scene, double aspect,
-            double x, double y);
-  /// Moves the mouse by shares of the window's height, to the right and downwards.
-  void move(const SceneModel& drawn, const mjvScene& scene, double dx, double dy);
-  void release() noexcept { grab_.reset(); }
-  bool holds() const noexcept { return grab_.has_value(); }
-
-  /// Computes the force in the world's present pose. Call once for each picture. @param time [s]
-  void update(const SceneModel& drawn, double time);
-  /// The push; empty if nothing is grabbed.
-  std::optional<BodyPush> push() const;
-  /// The point towards which the mouse pulls [m].
-  const double* target() const noexcept { return grab_->target; }
-
- private:
-  struct Grab {
-    std::string body;
-    int id;                ///< in the model that is drawn
-    double local[3];       ///< the point in the body's frame
-    double point[3];       ///< the same in the world
-    double target[3];      ///< in the world
-    double force[3];       ///< [N]
-    double time;           ///< of the last update [s]
-    double mass;           ///< of all that is attached [kg]
-    bool is_free;          ///< not held by anything
-    const mjModel* model;  ///< of the moment of the grab
-  };
-
-  std::optional<Grab> grab_;
-};
-
-void MousePush::grab(SceneModel& drawn, const mjvOption& option, const mjvScene& scene,
-                     double aspect, double x, double y) {
-  release();
-  const mjModel* model = drawn.model();
-  if (model == nullptr) {
-    return;
-  }
-  double point[3];
-  const int geom = geomAt(model, drawn.data(), option, scene, aspect, x, y, point);
-  if (geom < 0) {
-    return;
-  }
-  const int body = model->geom_bodyid[geom];
-  const char* name = mj_id2name(model, mjOBJ_BODY, body);
-  if (model->body_weldid[body] == 0 || name == nullptr) {
-    return;  // it is a part of the ground, or has no name
-  }
-  Grab grab{name, body, {}, {}, {}, {}, -1, 0, false, model};
-  std::copy_n(point, 3, grab.point);
-  std::copy_n(point, 3, grab.target);
-  const mjData* data = drawn.data();
-  double offset[3];
-  mju_sub3(offset, point, data->xpos + 3 * body);
-  mju_rotVecMatT(grab.local, offset, data->xmat + 9 * body);
-  grab.mass = model->body_subtreemass[model->body_rootid[body]];
-  grab.is_free = isFree(*model, model->body_rootid[body]);
-  grab_ = grab;
-}
-
-void MousePush::move(const SceneModel& drawn, const mjvScene& scene, double dx, double dy) {
-  if (!grab_) {
-    return;
-  }
-  double eye[3], ahead[3], up[3], right[3], way[3];
-  mjv_cameraInModel(eye, ahead, up, &scene);
-  mju_cross(right, ahead, up);
-  mju_sub3(way, grab_->target, eye);
-  const double height =
-      2 * mju_dot3(way, ahead) * std::tan(0.5 * kDegree * drawn.model()->vis.global.fovy);
-  mju_addToScl3(grab_->target, right, height * dx);
-  mju_addToScl3(grab_->target, up, -height * dy);
-}
-
-void MousePush::update(const SceneModel& drawn, double time) {
-  if (!grab_) {
-    return;
-  }
-  if (drawn.model() != grab_->model) {
-    release();  // something came or went
-    return;
-  }
-  double point[3], velocity[3]{};
-  mju_rotVecMat(point, grab_->local, drawn.data()->xmat + 9 * grab_->id);
-  mju_addTo3(point, drawn.data()->xpos + 3 * grab_->id);
-  double frequency = kFrequency;
-  if (grab_->time >= 0 && time > grab_->time) {
-    const double passed = time - grab_->time;
-    mju_sub3(velocity, point, grab_->point);
-    mju_scl3(velocity, velocity, 1 / passed);
-    // A delayed spring force would increase the oscillation.
-    frequency = std::min(kFrequency, kMaxPhase / passed);
-  }
-  const double stiffness = std::min(kStiffness, grab_->mass * frequency * frequency);
-  mju_sub3(grab_->force, grab_->target, point);
-  mju_scl3(grab_->force, grab_->force, stiffness);
-  if (grab_->is_free) {
-    mju_addToScl3(grab_->force, velocity, -2 * kDampingRatio * std::sqrt(stiffness * grab_->mass));
-  }
-  const double size = mju_norm3(grab_->force);
-  if (size > kMaxForce) {
-    mju_scl3(grab_->force, grab_->force, kMaxForce / size);
-  }
-  std::copy_n(point, 3, grab_->point);
-  grab_->time = time;
-}
-
-std::optional<BodyPush> MousePush::push() const {
-  if (!grab_) {
-    return std::nullopt;
-  }
-  BodyPush push{grab_->body, {}, {}};
-  std::copy_n(grab_->point, 3, push.point.begin());
-  std::copy_n(grab_->force, 3, push.force.begin());
-  return push;
-}
-
-}  // namespace physics
 
 using physics::glfw;
 
@@ -182,7 +28,6 @@ constexpr int kSpareWindowGeoms = 4000;
 constexpr double kZoomStep = 0.05;
 constexpr double kContactDot = 0.004;         ///< [m]
 constexpr double kMetersPerNewton = 0.005;    ///< length of contact force arrows
-constexpr double kPaceSpan = 0.5;             ///< over which the pace is measured [s]
 constexpr std::uint64_t kMaxPushTicks = 100;  ///< [ticks], for each picture
 constexpr float kOrange[4] = {0.95f, 0.45f, 0.1f, 1};
 constexpr float kGreen[4] = {0.1f, 0.75f, 0.3f, 1};
@@ -197,35 +42,6 @@ constexpr const char* kHelpTexts =
 void toggle(mjtByte& flag) { flag = flag != 0 ? 0 : 1; }
 
 }  // namespace
-
-/// The world's time over the clock's.
-class PaceMeter {
- public:
-  /// Empty until it is known.
-  std::string text(double time) {
-    const Clock::time_point now = Clock::now();
-    const double passed = std::chrono::duration<double>(now - begin_).count();
-    if (!started_ || time < time_ || passed > 4 * kPaceSpan) {
-      text_.clear();
-    } else if (passed < kPaceSpan) {
-      return text_;
-    } else {
-      const double pace = (time - time_) / passed;
-      text_ = pace > 0 ? franka_core::fixedText(pace, 2) + " x real time" : "time stands still";
-    }
-    started_ = true;
-    begin_ = now;
-    time_ = time;
-    return text_;
-  }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  bool started_{false};
-  Clock::time_point begin_;
-  double time_{0};
-  std::string text_;
-};
 
 struct Window::Impl {
   const physics::Glfw& library{glfw()};  // without it there is nothing to destroy

@@ -12,12 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "physics/engine/model_compiler.h"
+#include "physics/engine/model_data.h"
+#include "physics/engine/model_identity.h"
 #include "physics/joints/mujoco_arm.h"
 #include "physics/joints/mujoco_drive.h"
 #include "physics/joints/mujoco_hand.h"
 #include "physics/mjcf/mjcf_world.h"
-#include "physics/mjcf/model_compiler.h"
-#include "physics/pictures/scene_model.h"
 
 namespace franka_sim {
 

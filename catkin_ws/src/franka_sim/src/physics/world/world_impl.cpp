@@ -6,7 +6,8 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "physics/pictures/scene_model.h"
+#include "physics/engine/model_identity.h"
+#include "physics/engine/model_lights.h"
 #include "physics/world/state_transfer.h"
 
 namespace franka_sim {

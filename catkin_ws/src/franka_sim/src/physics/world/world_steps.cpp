@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <string>
 
-#include "physics/mjcf/rotations.h"
+#include "physics/engine/rotations.h"
 #include "physics/world/world_impl.h"
 
 namespace franka_sim {
