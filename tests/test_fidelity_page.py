@@ -29,7 +29,7 @@ CONSTANTS = [
     # State
     ("# Hz low-pass", f"{HEADERS}/plant.h", "kSignalCutoff = #;", 1),
     ("q + tau_J/#, dq + dtau_J/#", f"{ROBOT}/estimator/state_estimator.cpp", "kJointElasticity = #;", 1),
-    ("without gravity; # in Idle", f"{ROBOT}/motion_supervisor.cpp", "state_->tau_J_d.fill(#);", 1),
+    ("without gravity; # in Idle", f"{ROBOT}/supervisor/motion_supervisor.cpp", "state_->tau_J_d.fill(#);", 1),
     ("singular value is below #", f"{ROBOT}/estimator/external_wrench.cpp", "kMinSingularValue = #;", 1),
     ("the last # commands", f"{ROBOT}/safety/command_window.h", "kSlots = #;", 1),
     (
@@ -62,9 +62,9 @@ CONSTANTS = [
     ("above # W", f"{ROBOT}/limits/measured_limits.h", "kPowerLimit = #;", 1),
     ("# times the motors'", f"{ROBOT}/limits/measured_limits.cpp", "kTorqueMargin = #;", 1),
     ("# times the joints' jerk", f"{ROBOT}/motion/joint_motion.cpp", "kSolvedJerkFactor = #;", 1),
-    ("been slower than # rad/s", f"{ROBOT}/motion_supervisor.cpp", "kStandstill = #;", 1),
-    ("for # ms, so that", f"{ROBOT}/safety/joint_brakes.cpp", "kRestingTicks = #;", 1),
-    ("or after # s in which", f"{ROBOT}/safety/joint_brakes.cpp", "kClosingTicks = #;", 1e-3),
+    ("been slower than # rad/s", f"{ROBOT}/supervisor/motion_supervisor.cpp", "kStandstill = #;", 1),
+    ("for # ms, so that", f"{ROBOT}/supervisor/joint_brakes.cpp", "kRestingTicks = #;", 1),
+    ("or after # s in which", f"{ROBOT}/supervisor/joint_brakes.cpp", "kClosingTicks = #;", 1e-3),
     # Commands
     ("# degrees Celsius at rest", f"{HEADERS}/hands/gripper_unit.h", "room_temperature{#};", 1),
     ("time constant of # s", f"{HEADERS}/hands/gripper_unit.h", "temperature_time{#};", 1),

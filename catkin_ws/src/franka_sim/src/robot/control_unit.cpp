@@ -9,7 +9,7 @@
 #include "robot/estimator/state_estimator.h"
 #include "robot/laws/control_laws.h"
 #include "robot/laws/control_task.h"
-#include "robot/motion_supervisor.h"
+#include "robot/supervisor/motion_supervisor.h"
 
 namespace franka_sim {
 

@@ -5,9 +5,9 @@
 #include <random>
 
 #include "fci_fixture.h"
-#include "robot/motion_supervisor.h"
-#include "robot/pending_answers.h"
 #include "robot/safety/virtual_walls.h"
+#include "robot/supervisor/motion_supervisor.h"
+#include "robot/supervisor/pending_answers.h"
 
 namespace franka_sim::test {
 

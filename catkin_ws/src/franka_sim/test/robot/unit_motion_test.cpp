@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "fci_fixture.h"
-#include "robot/mode_machine.h"
+#include "robot/supervisor/mode_machine.h"
 
 namespace franka_sim::test {
 

@@ -3,7 +3,7 @@
 // The supervisor's transitions between modes, and what they begin and end.
 #include <algorithm>
 
-#include "robot/motion_supervisor.h"
+#include "robot/supervisor/motion_supervisor.h"
 
 namespace franka_sim {
 

@@ -13,14 +13,14 @@
 #include "robot/configuration.h"
 #include "robot/estimator/state_estimator.h"
 #include "robot/laws/control_task.h"
-#include "robot/mode_machine.h"
-#include "robot/motion/client_motion.h"
-#include "robot/motion/desired_state.h"
 #include "robot/motion/rest_sequence.h"
-#include "robot/pending_answers.h"
-#include "robot/safety/joint_brakes.h"
 #include "robot/safety/safety_monitor.h"
 #include "robot/safety/threshold_phase.h"
+#include "robot/supervisor/client_motion.h"
+#include "robot/supervisor/desired_state.h"
+#include "robot/supervisor/joint_brakes.h"
+#include "robot/supervisor/mode_machine.h"
+#include "robot/supervisor/pending_answers.h"
 
 namespace franka_sim {
 

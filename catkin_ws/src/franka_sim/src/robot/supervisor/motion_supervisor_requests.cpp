@@ -9,7 +9,7 @@
 #include "robot/limits/deviation.h"
 #include "robot/limits/measured_limits.h"
 #include "robot/motion/inverse_kinematics.h"
-#include "robot/motion_supervisor.h"
+#include "robot/supervisor/motion_supervisor.h"
 
 namespace franka_sim {
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "robot/motion/desired_state.h"
+#include "robot/supervisor/desired_state.h"
 
 #include "robot/transforms.h"
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "robot/pending_answers.h"
+#include "robot/supervisor/pending_answers.h"
 
 #include <utility>
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The supervisor's work in each tick. Its requests: motion_supervisor_requests.cpp; its transitions
 // between modes: motion_supervisor_transitions.cpp.
-#include "robot/motion_supervisor.h"
+#include "robot/supervisor/motion_supervisor.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "robot/mode_machine.h"
+#include "robot/supervisor/mode_machine.h"
 
 namespace franka_sim {
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "robot/safety/joint_brakes.h"
+#include "robot/supervisor/joint_brakes.h"
 
 namespace franka_sim {
 

@@ -1,6 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include "robot/motion/client_motion.h"
+#include "robot/supervisor/client_motion.h"
 
 #include <franka_core/finite.h>
 
