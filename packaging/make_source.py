@@ -350,16 +350,16 @@ def copy_sources(target: Path) -> None:
         shutil.copy(TOP / name, target)
 
 
-def copy_xacro(venv: Path, target: Path) -> None:
-    """The PyPI package, which Debian does not have, with its license, where the build looks for it."""
+def copy_package(venv: Path, name: str, target: Path) -> None:
+    """A PyPI package, which Debian does not have, with its license, where the build looks for it."""
     for modules in sorted(venv.glob("lib/python3*/site-packages")):
-        if metadata := sorted(modules.glob("xacro-2.*.dist-info")):
+        if metadata := sorted(modules.glob(f"{name}-*.dist-info")):
             there = target / "vendor" / "lib" / "python3" / "site-packages"
-            for folder in (modules / "xacro", metadata[0]):
+            for folder in (modules / name, metadata[0]):
                 ignored = shutil.ignore_patterns("__pycache__", "direct_url.json", "RECORD", "REQUESTED")
                 shutil.copytree(folder, there / folder.name, ignore=ignored)
             return
-    raise PackagingError(f"{venv} has no xacro; run ./franka install.")
+    raise PackagingError(f"{venv} has no {name}; run ./franka install.")
 
 
 def check_downloads() -> None:
@@ -418,7 +418,8 @@ def main() -> int:
         check_downloads()
         packages = read_packages(TOP / SOURCES)
         copy_sources(options.target)
-        copy_xacro(Path(sys.prefix), options.target)
+        for name in ("xacro", "pybind11_stubgen"):
+            copy_package(Path(sys.prefix), name, options.target)
         copy_bundled(bundled()[0], options.target / "vendor" / "sweep")
         write_debian(options.target / "debian", packages, release)
     except PackagingError as error:

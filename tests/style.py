@@ -28,6 +28,7 @@ import wall_clock
 TOP = Path(__file__).resolve().parent.parent
 VENV = TOP / ".venv" / "bin"
 NOT_IN_DEBIAN = TOP / "out" / "not_in_debian"  # written by ./franka
+TYPES = TOP / "catkin_ws" / "build" / "pyfranka" / "types"
 COMPILE_COMMANDS = TOP / "compile_commands.json"
 
 HEADER = "Copyright (c) 2026 the franka_ros for Debian authors"
@@ -281,6 +282,8 @@ def without_clashes(files: list[Path]) -> list[list[Path]]:
 
 
 def check_mypy(files: list[Path], long: bool) -> bool:
+    if not TYPES.is_dir():
+        raise ToolMissing("mypy needs the types of pyfranka's module: run ./franka build, which makes them.")
     mypy = [pinned_tool("mypy"), "--no-error-summary"]
     stubs = [path for path in files if path.suffix == ".pyi"]  # which are imported in place of their modules
     typed = [path for path in python_of(files) if not UNTYPED.search(str(path.relative_to(TOP)))]

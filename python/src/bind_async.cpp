@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "bindings.h"
+#include "python_types.h"
 
 namespace pyfranka {
 
@@ -20,8 +21,8 @@ using Handler = franka::AsyncPositionControlHandler;
 void bindValues(py::class_<Handler, std::shared_ptr<Handler>>& handler) {
   py::class_<Handler::Configuration>(handler, "Configuration", py::module_local(),
                                      "How targets are approached.")
-      .def(py::init([](std::vector<double> velocities, double tolerance) {
-             return Handler::Configuration{std::move(velocities), tolerance};
+      .def(py::init([](const python::Sequence<double>& velocities, double tolerance) {
+             return Handler::Configuration{velocities.cast<std::vector<double>>(), tolerance};
            }),
            py::arg("maximum_joint_velocities"), py::arg("goal_tolerance") = 0.001,
            "Of 7 limits [rad/s] and a norm of joint angles [rad].")
@@ -32,14 +33,22 @@ void bindValues(py::class_<Handler, std::shared_ptr<Handler>>& handler) {
       .def("__repr__", shown({"maximum_joint_velocities", "goal_tolerance"}));
   py::class_<Handler::ConfigurationResult>(handler, "ConfigurationResult", py::module_local(),
                                            "A handler, or the reason why there is none.")
-      .def_readwrite("handler", &Handler::ConfigurationResult::handler, "The handler, or None.")
+      .def_property(
+          "handler",
+          [](const Handler::ConfigurationResult& self) {
+            return python::OptionalObjectOf<Handler>(py::cast(self.handler));
+          },
+          [](Handler::ConfigurationResult& self, std::shared_ptr<Handler> handler) {
+            self.handler = std::move(handler);
+          },
+          "The handler, or None.")
       .def_readwrite("error_message", &Handler::ConfigurationResult::error_message,
                      "The reason, or None.")
       .def("__repr__", shown({"error_message"}));
   py::class_<Handler::JointPositionTarget>(handler, "JointPositionTarget", py::module_local(),
                                            "Where to go.")
-      .def(py::init([](std::vector<double> positions) {
-             return Handler::JointPositionTarget{std::move(positions)};
+      .def(py::init([](const python::Sequence<double>& positions) {
+             return Handler::JointPositionTarget{positions.cast<std::vector<double>>()};
            }),
            py::arg("joint_positions"), "Of 7 joint positions [rad].")
       .def_readwrite("joint_positions", &Handler::JointPositionTarget::joint_positions,

@@ -49,11 +49,14 @@ void bindExceptions(py::module_& module) {
 
   static py::exception<franka::ControlException> control(module, "ControlException", base);
   control.attr("__doc__") = "A motion was aborted. `log` holds the last records, oldest first.";
+  control.attr("__annotations__") = py::dict(py::arg("log") = "list[Record]");
   control_exception = control.ptr();
   static py::exception<franka::IncompatibleVersionException> version(
       module, "IncompatibleVersionException", base);
   version.attr("__doc__") =
       "Robot and library have no protocol in common: `server_version`, `library_version`.";
+  version.attr("__annotations__") =
+      py::dict(py::arg("server_version") = "int", py::arg("library_version") = "int");
   version_exception = version.ptr();
   py::register_local_exception_translator([](std::exception_ptr pointer) {
     try {

@@ -13,6 +13,7 @@
 #include "bindings.h"
 #include "numbers.h"
 #include "other_names.h"
+#include "python_types.h"
 
 namespace pyfranka {
 
@@ -25,7 +26,7 @@ void bindConnection(py::class_<Type>& type) {
   withNames(
       {{{"address", "franka_address"}}},
       [&](const auto&... extra) {
-        type.def(py::init([](const py::object& address) {
+        type.def(py::init([](const python::Str& address) {
                    const std::string where = text(address, "address");
                    const release free;
                    return std::make_unique<Type>(where);
@@ -46,7 +47,7 @@ void bindConnection(py::class_<Type>& type) {
       "Version of the protocol that the hand or gripper speaks, an int.");
 }
 
-py::dict valuesOf(const franka::GripperState& state) {
+python::AnyDict valuesOf(const franka::GripperState& state) {
   py::dict values;
   values["time"] = state.time.toSec();
   values["width"] = state.width;
@@ -128,8 +129,8 @@ void bindHand(py::module_& module) {
            "NetworkException.\n\n>>> hand.homing()\nTrue")
       .def(
           "grasp",
-          [](const Gripper& self, const py::object& width, const py::object& speed,
-             const py::object& force, const py::object& inner, const py::object& outer) {
+          [](const Gripper& self, const python::Float& width, const python::Float& speed,
+             const python::Float& force, const python::Float& inner, const python::Float& outer) {
             const double w = number(width, "width");
             const double v = number(speed, "speed");
             const double f = number(force, "force");
@@ -146,7 +147,7 @@ void bindHand(py::module_& module) {
           "force=10.0)  # there is nothing to hold\nFalse")
       .def(
           "move",
-          [](const Gripper& self, const py::object& width, const py::object& speed) {
+          [](const Gripper& self, const python::Float& width, const python::Float& speed) {
             const double w = number(width, "width");
             const double v = number(speed, "speed");
             const release free;

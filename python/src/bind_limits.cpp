@@ -11,6 +11,7 @@
 
 #include "arguments.h"
 #include "bindings.h"
+#include "python_types.h"
 
 namespace pyfranka {
 
@@ -21,7 +22,14 @@ using franka_core::MotionLimits;
 
 using Positions = py::array_t<double, py::array::c_style | py::array::forcecast>;
 
-MotionLimits limitsOf(const py::object& version) {
+/// Positions of one or more moments.
+struct PositionsType : python::ArrayLikeType {
+  static bool accepts(PyObject* object) {
+    return py::detail::make_caster<Positions>().load(object, true);
+  }
+};
+
+MotionLimits limitsOf(const python::Int& version) {
   using namespace franka_core::fci;
   const std::int64_t number = wholeNumber(version, "version");
   if (number < kOldestRobotVersion || number > kNewestRobotVersion) {
@@ -32,7 +40,9 @@ MotionLimits limitsOf(const py::object& version) {
   return franka_core::motionLimitsOfProtocol(static_cast<unsigned>(number));
 }
 
-py::tuple velocityRanges(const MotionLimits& limits, const Positions& q) {
+python::ArrayPair velocityRanges(const MotionLimits& limits,
+                                 const python::Object<PositionsType>& positions) {
+  const auto q = positions.cast<Positions>();
   if (q.ndim() < 1 || q.ndim() > 2 || q.shape(q.ndim() - 1) != 7) {
     throw std::invalid_argument("q must be 7 joint positions, or rows of 7.");
   }

@@ -13,6 +13,7 @@
 #include "arguments.h"
 #include "bindings.h"
 #include "other_names.h"
+#include "python_types.h"
 #include "sim_model.h"
 #ifdef PYFRANKA_IN_ROS
 #include <franka_hw/model_kdl.h>
@@ -88,7 +89,7 @@ void bindForState(py::class_<Model>& type) {
       py::arg("state"), "Gravity torques, 7 [Nm].\n\n>>> model.gravity(state).shape\n(7,)");
   defNamed(
       type, "gravity", kOfState,
-      [](const Model& self, const State& state, const py::object& gravity_earth) {
+      [](const Model& self, const State& state, const python::ArrayLike& gravity_earth) {
         return copy(self.gravity(state, finite<3>(gravity_earth, "gravity_earth")), Shape::kVector);
       },
       py::arg("state"), py::arg("gravity_earth"), "The same with another gravity in O, 3 [m/s^2].");
@@ -98,8 +99,8 @@ template <typename Model>
 void bindForArrays(py::class_<Model>& type) {
   type.def(
       "pose",
-      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
-         const py::object& EE_T_K) {
+      [](const Model& self, Frame frame, const python::ArrayLike& q,
+         const python::ArrayLike& F_T_EE, const python::ArrayLike& EE_T_K) {
         return copy(self.pose(frame, finite<7>(q, "q"), finite<16>(F_T_EE, "F_T_EE"),
                               finite<16>(EE_T_K, "EE_T_K")),
                     Shape::kMatrix4);
@@ -107,8 +108,8 @@ void bindForArrays(py::class_<Model>& type) {
       py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
   type.def(
       "zero_jacobian",
-      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
-         const py::object& EE_T_K) {
+      [](const Model& self, Frame frame, const python::ArrayLike& q,
+         const python::ArrayLike& F_T_EE, const python::ArrayLike& EE_T_K) {
         return copy(self.zeroJacobian(frame, finite<7>(q, "q"), finite<16>(F_T_EE, "F_T_EE"),
                                       finite<16>(EE_T_K, "EE_T_K")),
                     Shape::kJacobian);
@@ -116,8 +117,8 @@ void bindForArrays(py::class_<Model>& type) {
       py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
   type.def(
       "body_jacobian",
-      [](const Model& self, Frame frame, const py::object& q, const py::object& F_T_EE,
-         const py::object& EE_T_K) {
+      [](const Model& self, Frame frame, const python::ArrayLike& q,
+         const python::ArrayLike& F_T_EE, const python::ArrayLike& EE_T_K) {
         return copy(self.bodyJacobian(frame, finite<7>(q, "q"), finite<16>(F_T_EE, "F_T_EE"),
                                       finite<16>(EE_T_K, "EE_T_K")),
                     Shape::kJacobian);
@@ -125,8 +126,8 @@ void bindForArrays(py::class_<Model>& type) {
       py::arg("frame"), py::arg("q"), py::arg("F_T_EE"), py::arg("EE_T_K"), kOfPositions);
   type.def(
       "mass",
-      [](const Model& self, const py::object& q, const py::object& I_total,
-         const py::object& m_total, const py::object& F_x_Ctotal) {
+      [](const Model& self, const python::ArrayLike& q, const python::ArrayLike& I_total,
+         const python::Float& m_total, const python::ArrayLike& F_x_Ctotal) {
         return copy(self.mass(finite<7>(q, "q"), finite<9>(I_total, "I_total"),
                               number(m_total, "m_total"), finite<3>(F_x_Ctotal, "F_x_Ctotal")),
                     Shape::kMass);
@@ -134,8 +135,9 @@ void bindForArrays(py::class_<Model>& type) {
       py::arg("q"), py::arg("I_total"), py::arg("m_total"), py::arg("F_x_Ctotal"), kOfLoad);
   type.def(
       "coriolis",
-      [](const Model& self, const py::object& q, const py::object& dq, const py::object& I_total,
-         const py::object& m_total, const py::object& F_x_Ctotal) {
+      [](const Model& self, const python::ArrayLike& q, const python::ArrayLike& dq,
+         const python::ArrayLike& I_total, const python::Float& m_total,
+         const python::ArrayLike& F_x_Ctotal) {
         return copy(
             self.coriolis(finite<7>(q, "q"), finite<7>(dq, "dq"), finite<9>(I_total, "I_total"),
                           number(m_total, "m_total"), finite<3>(F_x_Ctotal, "F_x_Ctotal")),
@@ -146,8 +148,8 @@ void bindForArrays(py::class_<Model>& type) {
       "mass.");
   type.def(
       "gravity",
-      [](const Model& self, const py::object& q, const py::object& m_total,
-         const py::object& F_x_Ctotal, const py::object& gravity_earth) {
+      [](const Model& self, const python::ArrayLike& q, const python::Float& m_total,
+         const python::ArrayLike& F_x_Ctotal, const python::ArrayLike& gravity_earth) {
         return copy(self.gravity(finite<7>(q, "q"), number(m_total, "m_total"),
                                  finite<3>(F_x_Ctotal, "F_x_Ctotal"),
                                  finite<3>(gravity_earth, "gravity_earth")),
@@ -161,9 +163,9 @@ void bindForArrays(py::class_<Model>& type) {
 
 #ifdef PYFRANKA_IN_ROS
 
-std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const py::object& description,
-                                                   const py::object& root_link,
-                                                   const py::object& tip_link) {
+std::unique_ptr<franka_hw::ModelKDL> modelFromUrdf(const python::Str& description,
+                                                   const python::Str& root_link,
+                                                   const python::Str& tip_link) {
   const std::string root = text(root_link, "root");
   const std::string tip = text(tip_link, "tip");
   urdf::Model model;

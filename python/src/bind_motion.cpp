@@ -19,6 +19,7 @@
 #include "motion.h"
 #include "numbers.h"
 #include "other_names.h"
+#include "python_types.h"
 
 namespace pyfranka {
 
@@ -45,7 +46,7 @@ void bindCommand(py::module_& module, const char* name, const char* field, const
           [member, shape](const py::object& self) {
             return view(self.cast<const Command&>().*member, shape, self);
           },
-          [member, field](Command& self, const py::object& values) {
+          [member, field](Command& self, const python::ArrayLike& values) {
             self.*member = arrayOf<kSize>(values, field);
           },
           doc)
@@ -64,7 +65,8 @@ void bindCommand(py::module_& module, const char* name, const char* field, const
     withNames(
         others,
         [&](const auto&... extra) {
-          type.def(py::init([name](const py::object& values, const py::object& elbow) {
+          type.def(py::init([name](const python::ArrayLike& values,
+                                   const python::OptionalArrayLike& elbow) {
                      return cartesian<Command, kSize>(values, elbow, name);
                    }),
                    extra...);
@@ -75,13 +77,15 @@ void bindCommand(py::module_& module, const char* name, const char* field, const
         [](const py::object& self) {
           return view(self.cast<const Command&>().elbow, Shape::kVector, self);
         },
-        [](Command& self, const py::object& values) { self.elbow = arrayOf<2>(values, "elbow"); },
+        [](Command& self, const python::ArrayLike& values) {
+          self.elbow = arrayOf<2>(values, "elbow");
+        },
         "Joint 3 [rad], sign of joint 4; zeros when not commanded.");
   } else {
     withNames(
         others,
         [&](const auto&... extra) {
-          type.def(py::init([name](const py::object& values) {
+          type.def(py::init([name](const python::ArrayLike& values) {
                      return Command(arrayOf<kSize>(values, name));
                    }),
                    extra...);
@@ -105,11 +109,29 @@ void bindWrite(py::class_<Motion>& type) {
       "The same with a motion, which torques may go along with, 7 [Nm].");
 }
 
+/// A copy, which has the class of the command, also one that is derived in Python.
+template <typename Command>
+void bindFinished(py::module_& module) {
+  module.def(
+      "motion_finished",
+      [](const python::Exactly<Command>& command) {
+        python::Exactly<Command> copied = py::module_::import("copy").attr("copy")(command);
+        copied.attr("motion_finished") = true;
+        return copied;
+      },
+      py::arg("command"),
+      "The same command, marked as the last one of its motion. Raises TypeError for anything "
+      "else.\n\n>>> "
+      "pyfranka.motion_finished(pyfranka.Torques([0.0] * 7))\nTorques([0, 0, 0, 0, 0, 0, 0]), the "
+      "last one of its motion");
+}
+
 void bindTools(py::module_& module) {
   module.attr("MAX_TORQUE_RATE") = py::cast(franka::kMaxTorqueRate);
   module.def(
       "limit_rate",
-      [](const py::object& max_derivatives, const py::object& commanded, const py::object& last) {
+      [](const python::ArrayLike& max_derivatives, const python::ArrayLike& commanded,
+         const python::ArrayLike& last) {
         const auto derivatives = arrayOf<7>(max_derivatives, "max_derivatives");
         if (!std::all_of(derivatives.begin(), derivatives.end(),
                          [](double value) { return value >= 0.0; })) {  // not NaN either
@@ -127,14 +149,16 @@ void bindTools(py::module_& module) {
       "7).round(3).tolist()\n[1.0, 1.0, 1.0, 1.0, 1.0, 1.0, 1.0]");
   module.def(
       "is_valid_elbow",
-      [](const py::object& elbow) { return franka::isValidElbow(arrayOf<2>(elbow, "elbow")); },
+      [](const python::ArrayLike& elbow) {
+        return franka::isValidElbow(arrayOf<2>(elbow, "elbow"));
+      },
       py::arg("elbow"),
       "Whether the sign of joint 4, the second number, is exactly +1 or -1. Raises ValueError for "
       "another number of values.\n\n>>> "
       "pyfranka.is_valid_elbow([0.3, -1.0])\nTrue");
   module.def(
       "is_homogeneous_transformation",
-      [](const py::object& transform) {
+      [](const python::ArrayLike& transform) {
         return franka::isHomogeneousTransformation(arrayOf<16>(transform, "transform"));
       },
       py::arg("transform"),
@@ -184,22 +208,11 @@ void bindMotion(py::module_& module) {
                                    ">>> pyfranka.CartesianVelocities([0.0] * 6).O_dP_EE.shape\n"
                                    "(6,)");
 
-  module.def(
-      "motion_finished",
-      [](const py::object& command) {
-        if (!py::hasattr(command, "motion_finished")) {
-          throw py::type_error("command must be a command such as Torques([...]), not " +
-                               std::string(py::repr(command)) + ".");
-        }
-        py::object copied = py::module_::import("copy").attr("copy")(command);
-        copied.attr("motion_finished") = true;
-        return copied;
-      },
-      py::arg("command"),
-      "The same command, marked as the last one of its motion. Raises TypeError for anything "
-      "else.\n\n>>> "
-      "pyfranka.motion_finished(pyfranka.Torques([0.0] * 7))\nTorques([0, 0, 0, 0, 0, 0, 0]), the "
-      "last one of its motion");
+  bindFinished<Torques>(module);
+  bindFinished<JointPositions>(module);
+  bindFinished<JointVelocities>(module);
+  bindFinished<CartesianPose>(module);
+  bindFinished<CartesianVelocities>(module);
 
   py::class_<Motion> motion(
       module, "ActiveControl", py::module_local(),
@@ -219,7 +232,7 @@ void bindMotion(py::module_& module) {
               const py::gil_scoped_release release;
               read = self.get().readOnce();
             }
-            return py::make_tuple(read.first, seconds(read.second));
+            return python::StateAndPeriod(py::make_tuple(read.first, seconds(read.second)));
           },
           "Waits for the next state. Returns it and the time since the one before, a Duration "
           "[s].\n\n"
@@ -229,7 +242,8 @@ void bindMotion(py::module_& module) {
            "Ends the motion; the robot brakes if it still moves. Never raises.\n\n>>> motion = "
            "robot.start_torque_control()\n>>> motion.close()")
       .def(
-          "__enter__", [](const py::object& self) { return self; }, "The motion itself.")
+          "__enter__", [](const python::Exactly<Motion>& self) { return self; },
+          "The motion itself.")
       .def(
           "__exit__",
           [](Motion& self, const py::args&) {

@@ -67,8 +67,10 @@ std::int64_t milliseconds(const py::object& value) {
                        std::string(py::str(py::type::of(value))) + ".");
 }
 
-py::object newDuration(py::handle type, const py::object& time, const py::object& duration) {
-  const std::int64_t length = milliseconds(duration.is_none() ? time : duration);
+python::Duration newDuration(py::handle type, const python::DurationValue& time,
+                             const python::OptionalTimedelta& duration) {
+  const py::object& given = duration.is_none() ? static_cast<const py::object&>(time) : duration;
+  const std::int64_t length = milliseconds(given);
   if (length < 0) {
     throw std::invalid_argument("A Duration cannot be negative.");
   }
@@ -81,7 +83,7 @@ std::int64_t toMilliseconds(const py::object& self) {
 
 }  // namespace
 
-py::object seconds(franka::Duration time) { return makeSeconds(duration_type, time.toSec()); }
+python::Duration seconds(franka::Duration time) { return makeSeconds(duration_type, time.toSec()); }
 
 franka::Duration durationOf(double seconds) {
   if (!(seconds >= 0.0 && seconds <= kMaxTime)) {
@@ -90,7 +92,7 @@ franka::Duration durationOf(double seconds) {
   return franka::Duration(static_cast<std::uint64_t>(std::llround(seconds * 1e3)));
 }
 
-py::object version(std::uint16_t number) {
+python::Version version(std::uint16_t number) {
   return py::reinterpret_borrow<py::object>(version_type)(number);
 }
 

@@ -21,6 +21,7 @@
 #include "motion.h"
 #include "numbers.h"
 #include "other_names.h"
+#include "python_types.h"
 
 namespace pyfranka {
 
@@ -54,16 +55,16 @@ std::function<Command(const RobotState&, Duration)> callback(py::function functi
 }
 
 template <typename Command>
-void runMotion(Robot& robot, const py::function& motion_callback, ControllerMode controller_mode,
-               bool limit_rate, double cutoff_frequency) {
+void runMotion(Robot& robot, const python::Callback<Command>& motion_callback,
+               ControllerMode controller_mode, bool limit_rate, double cutoff_frequency) {
   const auto motion = callback<Command>(motion_callback);
   const py::gil_scoped_release release;
   robot.control(motion, controller_mode, limit_rate, cutoff_frequency);
 }
 
 template <typename Command>
-void runMotionWithTorques(Robot& robot, const py::function& torque_callback,
-                          const py::function& motion_callback, bool limit_rate,
+void runMotionWithTorques(Robot& robot, const python::Callback<Torques>& torque_callback,
+                          const python::Callback<Command>& motion_callback, bool limit_rate,
                           double cutoff_frequency) {
   const auto torques = callback<Torques>(torque_callback);
   const auto motion = callback<Command>(motion_callback);
@@ -93,9 +94,9 @@ void bindGenerator(py::class_<Robot>& robot, const std::string& name, const std:
   const auto controller_mode = py::arg("controller_mode") = ControllerMode::kJointImpedance;
   robot.def(
       ("control_" + name).c_str(),
-      [](Robot& self, const py::function& motion_callback,
-         const std::optional<py::function>& torque_callback, ControllerMode mode, bool limit,
-         double cutoff) {
+      [](Robot& self, const python::Callback<Command>& motion_callback,
+         const std::optional<python::Callback<Torques>>& torque_callback, ControllerMode mode,
+         bool limit, double cutoff) {
         if (torque_callback) {
           runMotionWithTorques<Command>(self, *torque_callback, motion_callback, limit, cutoff);
         } else {
@@ -133,7 +134,8 @@ void bindStart(py::class_<Robot>& robot, const char* name, const std::string& co
 void bindControl(py::class_<Robot>& robot) {
   defNamed(
       robot, "control_torques", {{{"callback", "control_callback"}}},
-      [](Robot& self, const py::function& function, bool limit_rate, double cutoff_frequency) {
+      [](Robot& self, const python::Callback<Torques>& function, bool limit_rate,
+         double cutoff_frequency) {
         const auto torques = callback<Torques>(function);
         const py::gil_scoped_release release;
         self.control(torques, limit_rate, cutoff_frequency);
@@ -171,11 +173,12 @@ void bindControl(py::class_<Robot>& robot) {
                                                    "pyfranka.CartesianVelocities([0.0] * 6)");
   robot.def(
       "start_async_joint_position_control",
-      [](Robot& self, const std::vector<double>& maximum_velocities, ControllerMode mode) {
-        return Motion(self.startAsyncJointPositionControl(moveMode(mode), maximum_velocities));
+      [](Robot& self, const python::Sequence<double>& maximum_velocities, ControllerMode mode) {
+        const auto velocities = maximum_velocities.cast<std::vector<double>>();
+        const py::gil_scoped_release release;
+        return Motion(self.startAsyncJointPositionControl(moveMode(mode), velocities));
       },
       py::arg("maximum_velocities"), py::arg("controller_mode") = ControllerMode::kJointImpedance,
-      py::call_guard<py::gil_scoped_release>(),
       "Starts a motion whose way to each commanded position the robot plans itself (FR3, protocol "
       "10), no joint faster than allowed, 7 [rad/s]; returns an ActiveControl. Commands need not "
       "come every millisecond.\n\nRaises CommandException where the robot has no such "
@@ -212,8 +215,8 @@ void bindSetters(py::class_<Robot>& robot) {
   using release = py::gil_scoped_release;
   defNamed(
       robot, "set_collision_behavior", {kThresholds},
-      [](Robot& self, const py::object& lower_torque, const py::object& upper_torque,
-         const py::object& lower_force, const py::object& upper_force) {
+      [](Robot& self, const python::ArrayLike& lower_torque, const python::ArrayLike& upper_torque,
+         const python::ArrayLike& lower_force, const python::ArrayLike& upper_force) {
         const auto a = finite<7>(lower_torque, "lower_torque");
         const auto b = finite<7>(upper_torque, "upper_torque");
         const auto c = finite<6>(lower_force, "lower_force");
@@ -227,11 +230,14 @@ void bindSetters(py::class_<Robot>& robot) {
       "robot.set_collision_behavior([20.0] * 7, [40.0] * 7, [20.0] * 6, [40.0] * 6)");
   defNamed(
       robot, "set_collision_behavior", {kThresholds},
-      [](Robot& self, const py::object& lower_torque_acceleration,
-         const py::object& upper_torque_acceleration, const py::object& lower_torque_nominal,
-         const py::object& upper_torque_nominal, const py::object& lower_force_acceleration,
-         const py::object& upper_force_acceleration, const py::object& lower_force_nominal,
-         const py::object& upper_force_nominal) {
+      [](Robot& self, const python::ArrayLike& lower_torque_acceleration,
+         const python::ArrayLike& upper_torque_acceleration,
+         const python::ArrayLike& lower_torque_nominal,
+         const python::ArrayLike& upper_torque_nominal,
+         const python::ArrayLike& lower_force_acceleration,
+         const python::ArrayLike& upper_force_acceleration,
+         const python::ArrayLike& lower_force_nominal,
+         const python::ArrayLike& upper_force_nominal) {
         const auto a = finite<7>(lower_torque_acceleration, "lower_torque_acceleration");
         const auto b = finite<7>(upper_torque_acceleration, "upper_torque_acceleration");
         const auto c = finite<7>(lower_torque_nominal, "lower_torque_nominal");
@@ -251,7 +257,7 @@ void bindSetters(py::class_<Robot>& robot) {
   robot
       .def(
           "set_joint_impedance",
-          [](Robot& self, const py::object& K_theta) {
+          [](Robot& self, const python::ArrayLike& K_theta) {
             const auto stiffness = finite<7>(K_theta, "K_theta");
             const release free;
             self.setJointImpedance(stiffness);
@@ -261,7 +267,7 @@ void bindSetters(py::class_<Robot>& robot) {
           "robot.set_joint_impedance([3000.0] * 4 + [2500.0, 2000.0, 2000.0])")
       .def(
           "set_cartesian_impedance",
-          [](Robot& self, const py::object& K_x) {
+          [](Robot& self, const python::ArrayLike& K_x) {
             const auto stiffness = finite<6>(K_x, "K_x");
             const release free;
             self.setCartesianImpedance(stiffness);
@@ -271,7 +277,7 @@ void bindSetters(py::class_<Robot>& robot) {
           "robot.set_cartesian_impedance([3000.0] * 3 + [300.0] * 3)")
       .def(
           "set_guiding_mode",
-          [](Robot& self, const py::object& guiding_mode, const py::object& elbow) {
+          [](Robot& self, const python::BoolSequence& guiding_mode, const python::Bool& elbow) {
             const auto axes = switches<6>(guiding_mode, "guiding_mode");
             const bool free_elbow = yesOrNo(elbow, "elbow");
             const release free;
@@ -282,7 +288,7 @@ void bindSetters(py::class_<Robot>& robot) {
           "robot.set_guiding_mode([True, True, True, False, False, False], False)")
       .def(
           "set_K",
-          [](Robot& self, const py::object& EE_T_K) {
+          [](Robot& self, const python::ArrayLike& EE_T_K) {
             const auto pose = numbersOfFrame(EE_T_K, "EE_T_K");
             const release free;
             self.setK(pose);
@@ -291,7 +297,7 @@ void bindSetters(py::class_<Robot>& robot) {
           "Pose of the stiffness frame in EE, 4x4.\n\n>>> robot.set_K(numpy.eye(4))")
       .def(
           "set_EE",
-          [](Robot& self, const py::object& NE_T_EE) {
+          [](Robot& self, const python::ArrayLike& NE_T_EE) {
             const auto pose = numbersOfFrame(NE_T_EE, "NE_T_EE");
             const release free;
             self.setEE(pose);
@@ -300,8 +306,8 @@ void bindSetters(py::class_<Robot>& robot) {
           "Pose of the end effector in NE, 4x4.\n\n>>> robot.set_EE(numpy.eye(4))");
   defNamed(
       robot, "set_load", {{{"mass", "load_mass"}}},
-      [](Robot& self, const py::object& load_mass, const py::object& F_x_Cload,
-         const py::object& inertia) {
+      [](Robot& self, const python::Float& load_mass, const python::ArrayLike& F_x_Cload,
+         const python::ArrayLike& inertia) {
         const double mass = number(load_mass, "mass");
         const auto com = finite<3>(F_x_Cload, "F_x_Cload");
         const auto load_inertia = finite<9>(inertia, "load_inertia");
@@ -372,7 +378,7 @@ void bindReading(py::module_& module, py::class_<Robot>& robot) {
            "robot.get_virtual_wall(0).active\nFalse")
       .def(
           "get_upper_joint_velocity_limits",
-          [](const Robot& self, const py::object& q) {
+          [](const Robot& self, const python::ArrayLike& q) {
             return copy(self.getUpperJointVelocityLimits(finite<7>(q, "q")), Shape::kVector);
           },
           py::arg("q"),
@@ -380,7 +386,7 @@ void bindReading(py::module_& module, py::class_<Robot>& robot) {
           "robot.get_upper_joint_velocity_limits(robot.read_once().q).shape\n(7,)")
       .def(
           "get_lower_joint_velocity_limits",
-          [](const Robot& self, const py::object& q) {
+          [](const Robot& self, const python::ArrayLike& q) {
             return copy(self.getLowerJointVelocityLimits(finite<7>(q, "q")), Shape::kVector);
           },
           py::arg("q"),
@@ -414,8 +420,9 @@ void bindRobot(py::module_& module) {
   withNames(
       {{{"address", "franka_address"}}, {{"address", "robot_ip_address"}}},
       [&](const auto&... extra) {
-        robot.def(py::init([](const py::object& address, const py::object& realtime_config,
-                              const py::object& log_size) {
+        robot.def(py::init([](const python::Str& address,
+                              const python::ObjectOf<RealtimeConfig>& realtime_config,
+                              const python::Int& log_size) {
                     const std::string where = text(address, "address");
                     const auto config = objectOf<RealtimeConfig>(realtime_config, "realtime_config",
                                                                  "a RealtimeConfig");
@@ -455,7 +462,7 @@ void bindRobot(py::module_& module) {
            "pyfranka.RobotMode.Idle\nTrue")
       .def(
           "read",
-          [](Robot& self, py::function function) {
+          [](Robot& self, const python::Reader& function) {
             const py::gil_scoped_release free;
             self.read([&function](const RobotState& state) {
               const py::gil_scoped_acquire acquire;

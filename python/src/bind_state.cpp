@@ -17,6 +17,7 @@
 #include "bindings.h"
 #include "numbers.h"
 #include "other_names.h"
+#include "python_types.h"
 
 namespace pyfranka {
 
@@ -34,7 +35,7 @@ void field(py::class_<State>& type, const char* name, std::array<double, size> S
   if constexpr (std::is_same_v<State, RobotState>) {
     type.def_property(
         name, get,
-        [member, name](State& self, const py::object& values) {
+        [member, name](State& self, const python::ArrayLike& values) {
           self.*member = arrayOf<size>(values, name);
         },
         doc);
@@ -258,7 +259,7 @@ bool isEqual(const RobotState& one, const RobotState& other) {
   return states.equal;
 }
 
-py::dict valuesOf(const RobotState& state) {
+python::AnyDict valuesOf(const RobotState& state) {
   ValueDict dict{state, {}};
   dict.values["time"] = state.time.toSec();
   listAllFields(dict);
@@ -266,7 +267,9 @@ py::dict valuesOf(const RobotState& state) {
 }
 
 /// Of a state's own class, which may be derived in Python.
-py::object copyOf(const py::object& state) { return py::type::of(state)(state); }
+python::Exactly<RobotState> copyOf(const python::Exactly<RobotState>& state) {
+  return py::type::of(state)(state);
+}
 
 RobotState snapshotOf(const franka_core::RobotState& state) {
   RobotState snapshot;
@@ -330,7 +333,9 @@ void bindState(py::module_& module) {
       .def("__copy__", &copyOf)
       .def(
           "__deepcopy__",
-          [](const py::object& self, const py::object& /* memo */) { return copyOf(self); },
+          [](const python::Exactly<RobotState>& self, const py::object& /* memo */) {
+            return copyOf(self);
+          },
           py::arg("memo"))
       .def(
           "__eq__",
@@ -381,10 +386,15 @@ void bindState(py::module_& module) {
         return "<Record of the state at " + franka_core::numberText(self.state.time.toSec(), 9) +
                " s>";
       });
-  module.def("log_to_csv", &franka::logToCSV, py::arg("log"),
-             "The records of a ControlException as comma separated values. Raises TypeError for "
-             "anything else.\n\n>>> "
-             "len(pyfranka.log_to_csv(error.log).splitlines()) > len(error.log)\nTrue");
+  module.def(
+      "log_to_csv",
+      [](const python::Sequence<franka::Record>& log) {
+        return franka::logToCSV(log.cast<std::vector<franka::Record>>());
+      },
+      py::arg("log"),
+      "The records of a ControlException as comma separated values. Raises TypeError for "
+      "anything else.\n\n>>> "
+      "len(pyfranka.log_to_csv(error.log).splitlines()) > len(error.log)\nTrue");
 }
 
 void bindSimState(py::module_& module) {

@@ -56,5 +56,6 @@ PYBIND11_MODULE(_pyfranka, module) {
   franka::allowUseAfterFork(false);
   bindClient(module);
   pybind11::module_ sim = module.def_submodule("_sim", "Simulations; import pyfranka.sim instead.");
+  sim.attr("Duration") = module.attr("Duration");  // which signatures show
   bindSimulations(sim, module.attr("CommandException"));
 }

@@ -7,6 +7,8 @@
 
 #include <cstdint>
 
+#include "python_types.h"
+
 /// @file
 /// Numbers that can also be used as the objects that they are in pylibfranka and panda-python. Call
 /// with the interpreter's lock held, after bindNumbers.
@@ -14,12 +16,12 @@
 namespace pyfranka {
 
 /// A time as a float [s] that has Duration's functions.
-pybind11::object seconds(franka::Duration time);
+python::Duration seconds(franka::Duration time);
 
 /// A time [s] as whole milliseconds. @throws std::invalid_argument unless it is 0 to 1e12
 franka::Duration durationOf(double seconds);
 
 /// The version of a protocol as an int that may be called, which returns it.
-pybind11::object version(std::uint16_t number);
+python::Version version(std::uint16_t number);
 
 }  // namespace pyfranka

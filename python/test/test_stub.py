@@ -1,56 +1,24 @@
 # Copyright (c) 2026 the franka_ros for Debian authors
 # SPDX-License-Identifier: Apache-2.0
-"""Every public name is in the type stub with its arguments, and the stub names nothing else."""
+"""Names of the module in C++ as users import them, and its types, which a build makes."""
 
-import ast
 import builtins
 import inspect
+import os
 import pickle
 import re
-import runpy
 import subprocess
 import sys
-import typing
-from functools import reduce
 from pathlib import Path
-from unittest.mock import patch
 
 import _pyfranka
 import pyfranka
 import pyfranka.libfranka
 import pyfranka.sim
 import pytest
-from signatures import signature
 
-STUB = Path(__file__).resolve().parent.parent / "src" / "pyfranka" / "__init__.pyi"
-# Set on the instances that are raised.
-RAISED = {"ControlException": {"log"}, "IncompatibleVersionException": {"server_version", "library_version"}}
-HELPERS = {"Array", "Command"}  # used only within the stub
-
-
-def public(names):
-    """Public names, without submodules: those carry their types themselves."""
-    return {name for name in names if not name.startswith("_") and not is_submodule(name)}
-
-
-def is_submodule(name):
-    return inspect.ismodule(getattr(pyfranka, name, None))
-
-
-def stub_names(body):
-    """Names that a stub's module or class declares, with the classes' bodies."""
-    found = {}
-    for node in body:
-        if isinstance(node, (ast.ClassDef, ast.FunctionDef)):
-            found[node.name] = node
-        elif isinstance(node, ast.AnnAssign):
-            found[node.target.id] = node
-        elif isinstance(node, ast.Assign):
-            found[node.targets[0].id] = node
-    return found
-
-
-TREE = stub_names(ast.parse(STUB.read_text()).body)
+PACKAGE = Path(__file__).resolve().parents[1]
+WRITE_TYPES, SOURCES = PACKAGE / "write_types.py", PACKAGE / "src"
 
 
 def members(owner):
@@ -126,123 +94,90 @@ def test_all_modules_can_be_imported_with_optimization(options):
     assert done.returncode == 0, done.stderr
 
 
-def names_of(cls):
-    return public(vars(cls))
-
-
-def test_the_module_and_its_stub_have_the_same_names():
-    assert public(set(TREE) - HELPERS) == public(members(pyfranka))
-
-
-@pytest.mark.parametrize("path, cls", list(classes()), ids=lambda value: str(value))
-def test_classes_and_their_stubs_have_the_same_names(path, cls):
-    body = TREE
-    for name in path:
-        node = body[name]
-        body = stub_names(node.body)
-    assert public(body) == names_of(cls) | RAISED.get(path[-1], set())
-
-
-def overload(function, registered=typing.overload):
-    registered(function)
-    return function  # the result of typing's has no arguments
-
-
-with patch("typing.overload", overload):
-    DECLARED = runpy.run_path(str(STUB))
-
-
-def is_function(value):
-    return inspect.isroutine(getattr(value, "__func__", value))
-
-
-def typed_overloads(function):
-    """The signature of each overload."""
-    function = getattr(function, "__func__", function)
-    # Of a property's function, which has no name, the arguments are the beginning.
-    name = getattr(function, "__name__", "")
-    text = getattr(function, "__doc__", "") or ""
-    if inspect.isfunction(function):
-        each = typing.get_overloads(function) or [function]
-        text = "\n".join(
-            re.sub(r"(: |> )'(.*?)'", r"\1\2", f"{name}{inspect.signature(one)}") for one in each
-        )
-    found = re.findall(rf"^(?:\d+\. )?(?:{name})?\((.*)\) -> (.*)$", text, re.MULTILINE)
-    return [signature(arguments).replace(return_annotation=result) for arguments, result in found]
-
-
-def overloads(function):
-    """Arguments and defaults of each overload. A default without a literal is Ellipsis."""
-    return [re.sub("'<.*?>'", "'Ellipsis'", str(without_types(each))) for each in typed_overloads(function)]
-
-
-def without_self(signature):
-    return [each for each in signature.parameters.values() if each.name not in ("self", "cls", "type")]
-
-
-def without_types(signature):
-    kept = without_self(signature)
-    kept = [each.replace(annotation=each.empty) for each in kept]
-    return signature.replace(parameters=kept, return_annotation=signature.empty)
-
-
-def declared_as(native, wanted):
-    """Whether a type of the stub is what pybind11 shows; of functions, tuples and
-    `object` it shows no more."""
-    native = re.sub(r"\b(_?pyfranka\.)+", "", native).replace("[3]", "")
-    optional = re.fullmatch(r"Optional\[(.*)\]", native)
-    if optional:
-        return wanted.endswith(" | None") and declared_as(optional[1], wanted.removesuffix(" | None"))
-    if native == "object":
-        return True
-    if native == "AsyncPositionControlHandler":  # a pointer
-        return wanted.removesuffix(" | None") == native
-    if native in ("function", "tuple", "dict"):
-        return wanted.startswith({"function": "typing.Callable["}.get(native, native + "["))
-    if native.startswith("numpy.ndarray[numpy.float64]"):
-        return wanted in ("Array", "ArrayLike")
-    return wanted in (native, native.replace("List", "list"), native.replace("List", "typing.Sequence"))
-
-
-@pytest.mark.parametrize("path, owner", [((), pyfranka), *classes()], ids=lambda value: str(value))
-def test_functions_and_properties_have_the_types_of_the_module(path, owner):
-    stub, actual = reduce(lambda body, name: vars(body[name]), path, DECLARED), members(owner)
-    for name in public({*actual, *stub}) - {"sweep"}:
-        declared, value = stub.get(name), actual.get(name)
-        if isinstance(value, property) and type(owner).__name__ == "pybind11_type":
-            (native,) = typed_overloads(value.fget)
-            own = stub.get("__annotations__", {}).get(name)
-            own = own or inspect.signature(declared.fget).return_annotation
-            assert declared_as(native.return_annotation, own), name
-        elif is_function(declared) and is_function(value) and not inspect.isfunction(value):
-            for own, native in zip(typed_overloads(declared), typed_overloads(value), strict=True):
-                assert declared_as(native.return_annotation, own.return_annotation), name
-                shown = {each.name: each.annotation for each in native.parameters.values()}
-                for each in without_self(own):
-                    assert declared_as(shown[each.name], each.annotation), (name, each)
-
-
-@pytest.mark.parametrize("path, owner", [((), pyfranka), *classes()], ids=lambda value: str(value))
-def test_functions_and_their_stubs_have_the_same_arguments(path, owner):
-    stub, actual = reduce(lambda body, name: vars(body[name]), path, DECLARED), members(owner)
-    for name in {*actual, *stub} - {"sweep"}:
-        declared, value = stub.get(name), actual.get(name)
-        if isinstance(value, property):
-            variable = "ClassVar" not in stub.get("__annotations__", {}).get(name, "ClassVar")
-            assert (variable or getattr(declared, "fset", None) is not None) == (value.fset is not None), name
-        elif is_function(declared) or is_function(value) and (name == "__init__" or name[0] != "_"):
-            assert overloads(declared) == overloads(value), name
-
-
-def test_stubs_of_the_module_are_made_without_the_package(tmp_path):
-    """As in the build of the wheel, where pyfranka cannot be imported yet."""
+@pytest.fixture(scope="module")
+def types(tmp_path_factory):
+    """Of the module, made as in a build, where pyfranka cannot be imported yet."""
+    folder = tmp_path_factory.mktemp("types")
     code = (
         "import runpy, sys\n"
         "sys.modules['pyfranka'] = None\n"
-        "runpy.run_module('pybind11_stubgen', run_name='__main__', alter_sys=True)"
+        f"sys.argv = [{str(WRITE_TYPES)!r}, {str(folder)!r}]\n"
+        "runpy.run_path(sys.argv[0], run_name='__main__')"
     )
-    options = ["_pyfranka", "--exit-code", "--output-dir", tmp_path, "--numpy-array-wrap-with-annotated"]
-    options += ["--enum-class-locations", "[A-Z].*:_pyfranka"]
-    made = subprocess.run([sys.executable, "-c", code, *options], text=True, capture_output=True, timeout=120)
+    made = subprocess.run([sys.executable, "-c", code], text=True, capture_output=True, timeout=120)
     assert made.returncode == 0, made.stderr
-    assert "-> None" in (tmp_path / "_pyfranka" / "__init__.pyi").read_text()
+    return folder
+
+
+PROGRAM = """
+import datetime
+from typing import Any, assert_type
+import numpy, numpy.typing
+import pyfranka, pyfranka.sweeps
+
+Array = numpy.typing.NDArray[numpy.float64]
+robot = pyfranka.Robot("172.16.0.2", pyfranka.RealtimeConfig.Ignore)
+model = robot.load_model()
+
+def hold(state: pyfranka.RobotState, period: pyfranka.Duration) -> pyfranka.Torques:
+    command = pyfranka.Torques(model.coriolis(state))
+    return pyfranka.motion_finished(command) if period.to_sec() > state.time else command
+
+try:
+    robot.control_torques(hold, cutoff_frequency=100.0)
+    robot.control(hold)
+except pyfranka.ControlException as error:
+    assert_type(error.log, list[pyfranka.Record])
+    print(pyfranka.log_to_csv(error.log), error.log[0].state.q)
+with robot.start_joint_position_control() as motion:
+    assert_type(motion.readOnce(), tuple[pyfranka.RobotState, pyfranka.Duration])
+robot.set_ee(numpy.eye(4))
+robot.set_load(0.5, [0.0, 0.0, 0.05], 0.001 * numpy.eye(3))
+state = robot.read_once()
+state.q = [0.0] * 7
+assert_type(state.q, Array)
+assert_type(state.copy(), pyfranka.RobotState)
+assert_type(state.to_dict(), dict[str, Any])
+assert_type(robot.server_version(), int)
+assert_type(pyfranka.Duration(datetime.timedelta(seconds=1)), pyfranka.Duration)
+assert_type(pyfranka.MAX_TORQUE_RATE, list[float])
+assert_type(pyfranka.ArmLimits(robot.server_version).velocity_range(state.q), tuple[Array, Array])
+assert_type(pyfranka.sweep(lambda case, seed: case, 3), pyfranka.sweeps.Sweep)
+"""
+WRONG = {
+    "robot.control_torques(pyfranka.JointPositions)": "arg-type",
+    "robot.grasp(0.01, 0.1, 10.0)": "attr-defined",
+    "pyfranka.Robto": "attr-defined",
+    "pyfranka.Torques(object())": "call-overload",
+    'robot.set_load("heavy")': "call-overload",
+}
+
+
+def checked_types(types, file):
+    """What mypy says of a program, not of packages, which it would not report if they were installed."""
+    settings = file.with_suffix(".ini")
+    settings.write_text("[mypy]\nstrict = True\nfollow_imports = silent\nignore_missing_imports = True\n")
+    command = [sys.executable, "-m", "mypy", "--config-file", settings, "--cache-dir", os.devnull, file]
+    path = os.pathsep.join([str(types), str(SOURCES)])
+    environment = {**os.environ, "MYPYPATH": path}
+    ran = subprocess.run(
+        command, cwd=file.parent, env=environment, text=True, capture_output=True, timeout=500
+    )
+    assert ran.returncode < 2, ran.stdout + ran.stderr
+    return "\n".join(line for line in ran.stdout.splitlines() if line.startswith(file.name))
+
+
+def test_a_type_checker_knows_the_types_of_the_module(types, tmp_path):
+    file = tmp_path / "program.py"
+    file.write_text(PROGRAM)
+    said = checked_types(types, file)
+    assert "error:" not in said, said
+
+
+def test_a_type_checker_finds_what_the_module_would_refuse(types, tmp_path):
+    file = tmp_path / "program.py"
+    head = "import pyfranka\nrobot = pyfranka.Robot('172.16.0.2')\n"
+    file.write_text(head + "\n".join(WRONG) + "\n")
+    said = checked_types(types, file)
+    found = re.findall(r":(\d+): error: .*\[(.*)\]$", said, re.MULTILINE)
+    assert set(found) == {(str(3 + i), code) for i, code in enumerate(WRONG.values())}, said

@@ -201,7 +201,7 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
         resting = self._ended.copy()  # these are reset in place of a step
         self._advance(values, resting)
         natives = [episode.native for episode in self._episodes]
-        _sim.observe_episodes(natives, resting, 1e-3 * self.options.ticks, self._rows)
+        _sim.observe_episodes(natives, resting.tolist(), 1e-3 * self.options.ticks, self._rows)
         seen = {**self._view.observation(self._rows), "desired_goal": self._desired.copy()}
         success = self.options.kind.success(seen["achieved_goal"], self._desired)
         infos = {
@@ -254,7 +254,7 @@ class VectorEnvironment(VectorEnv[dict[str, Any], Any, Any]):
     def _advance(self, values: Values, resting: Values) -> None:
         natives = [episode.native for episode in self._episodes]
         for ticks in self._parts:
-            _sim.apply_actions(natives, resting, values, 1e-3 * ticks)
+            _sim.apply_actions(natives, resting.tolist(), values, 1e-3 * ticks)
             step_worlds(self._episodes, self._batch.step, ticks)
 
     def _observed(self, i: int, seconds: float) -> tuple[dict[str, Values], dict[str, Any]]:

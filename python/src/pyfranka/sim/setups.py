@@ -125,11 +125,11 @@ class _Setup:
         return _sim.RobotSetup(
             robot=self.kind,
             name=self.name,
-            urdf=self.urdf,
+            urdf=os.fspath(self.urdf),
             base=self.base[:3],
             yaw=self.base[3] if len(self.base) == 4 else 0.0,
             realism=self.realism,
-            hand=self.hand,
+            hand=self.hand is True,
         )
 
 
