@@ -152,13 +152,13 @@ def operator_lines() -> Iterator[str]:
 
 
 def names_of_cpp() -> Iterator[str]:
-    """Installed headers, and the public names of those that the site's reference shows."""
-    for package in packages():
-        for path in package.files("include/**/*"):
-            if path.is_file():
-                yield f"header {path.relative_to(package.folder / 'include')}"
+    """Installed headers, and the public names that are in them."""
+    headers = [path for each in packages() for path in each.files("include/**/*") if path.is_file()]
+    for path in headers:
+        yield f"header {str(path).rpartition('/include/')[2]}"
     cpp_api.run_doxygen()
-    yield from (f"c++ {each.name}" for each in cpp_comments.public_names())
+    names = cpp_comments.names_in(cpp_api.XML, {str(path.resolve().relative_to(TOP)) for path in headers})
+    yield from (f"c++ {each.name}" for each in names)
 
 
 def names_of_cmake() -> Iterator[str]:
