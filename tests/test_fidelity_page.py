@@ -29,7 +29,12 @@ CONSTANTS = [
     # State
     ("# Hz low-pass", f"{HEADERS}/plant.h", "kSignalCutoff = #;", 1),
     ("q + tau_J/#, dq + dtau_J/#", f"{ROBOT}/estimator/state_estimator.cpp", "kJointElasticity = #;", 1),
-    ("without gravity; # in Idle", f"{ROBOT}/supervisor/motion_supervisor.cpp", "state_->tau_J_d.fill(#);", 1),
+    (
+        "without gravity; # in Idle",
+        f"{ROBOT}/supervisor/motion_supervisor.cpp",
+        "state_->tau_J_d.fill(#);",
+        1,
+    ),
     ("singular value is below #", f"{ROBOT}/estimator/external_wrench.cpp", "kMinSingularValue = #;", 1),
     ("the last # commands", f"{ROBOT}/safety/command_window.h", "kSlots = #;", 1),
     (

@@ -51,7 +51,7 @@ struct Parameter {
 /// One of two words; true for the first.
 Parameter<bool> either(const std::string& first, const std::string& second);
 inline Parameter<bool> onOff() { return either("on", "off"); }
-/// One of several words; the index of the word. @param name if the words are too many for a usage
+/// One of several words; the index of the word. In a usage a name can replace many words.
 Parameter<std::uint64_t> choice(std::vector<std::string> choices, const std::string& name = "");
 template <std::size_t kCount>
 Parameter<std::uint64_t> choice(const std::array<std::string_view, kCount>& choices) {
