@@ -25,8 +25,9 @@ XML = OUT / "doxygen" / "xml"
 # Public parts of packages whose other headers are internal.
 PARTS = {
     "libfranka": r"/franka/|/franka_core/[^/]+\.h$",
-    "franka_sim": r"/simulation/|/physics/(world|physics_config)\.h|/robot/(plant|realism|"
-    r"control_unit|control_unit_parameters)\.h",
+    "franka_sim": r"/simulation/|/physics/(world|physics_config)\.h|/robot/(plant|realism|sensor_physics|"
+    r"control_unit|control_unit_parameters|interface_rules|protocol_range|unit_request|unit_status)\.h|"
+    r"/robot/safety/(collision|collision_thresholds|link_pair)\.h",
     "franka_sim_mujoco": r"/(robot_hw_sim|franka_hw_sim|default_robot_hw_sim)\.h",
 }
 # Forwarding headers of other names, and a package whose headers are for itself.
