@@ -13,15 +13,22 @@
 /// @file
 /// The parts of the module.
 
+namespace franka {
+class Robot;
+}
+
 namespace pyfranka {
 
 class Shared;
+class SimulatedRobotHandle;
 
 void bindExceptions(py::module_& module);
 void bindNumbers(py::module_& module);
 void bindState(py::module_& module);
 void bindMotion(py::module_& module);
 void bindRobot(py::module_& module);
+/// Its motions.
+void bindControl(py::class_<franka::Robot>& robot);
 void bindAsync(py::module_& module);
 void bindGripper(py::module_& module);
 void bindModel(py::module_& module);
@@ -34,6 +41,9 @@ void bindSimModel(py::module_& module);
 void bindSimulation(py::module_& module, const py::object& refusal);
 void bindSimulatedRobot(py::module_& module,
                         py::class_<Shared, std::shared_ptr<Shared>>& simulation);
+/// Motions, laws and torques of its arm, and its hand.
+void bindSimulatedCommands(py::class_<SimulatedRobotHandle>& robot);
+void bindSimulatedHand(py::module_& module, py::class_<SimulatedRobotHandle>& robot);
 void bindWorld(py::class_<Shared, std::shared_ptr<Shared>>& simulation);
 void bindBatch(py::module_& module);
 void bindEpisode(py::module_& module);

@@ -18,7 +18,11 @@ class PublicName {
       module_.attr("__name__") = name;
     }
   }
-  ~PublicName() { module_.attr("__name__") = own_; }
+  ~PublicName() {
+    if (PyObject_SetAttrString(module_.ptr(), "__name__", own_.ptr()) != 0) {
+      PyErr_Clear();  // a destructor must not throw
+    }
+  }
 
   PublicName(const PublicName&) = delete;
   PublicName& operator=(const PublicName&) = delete;

@@ -15,7 +15,7 @@
 
 namespace pyfranka::python {
 
-/// @tparam Type with the type's `name`, and whether an object can be one, `accepts`
+/// @tparam Type with the type's `kName`, and whether an object can be one, `accepts`
 template <typename Type>
 class Object : public pybind11::object {
   PYBIND11_OBJECT(Object, pybind11::object, Type::accepts)
@@ -26,57 +26,57 @@ struct Unchecked {
 };
 
 struct ArrayLikeType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("numpy.typing.ArrayLike");
+  static constexpr auto kName = pybind11::detail::const_name("numpy.typing.ArrayLike");
 };
 struct OptionalArrayLikeType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("Optional[numpy.typing.ArrayLike]");
+  static constexpr auto kName = pybind11::detail::const_name("Optional[numpy.typing.ArrayLike]");
 };
 struct FloatType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("float");
+  static constexpr auto kName = pybind11::detail::const_name("float");
 };
 struct IntType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("int");
+  static constexpr auto kName = pybind11::detail::const_name("int");
 };
 struct BoolType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("bool");
+  static constexpr auto kName = pybind11::detail::const_name("bool");
 };
 struct BoolSequenceType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("Sequence[bool]");
+  static constexpr auto kName = pybind11::detail::const_name("Sequence[bool]");
 };
 struct StrType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("str");
+  static constexpr auto kName = pybind11::detail::const_name("str");
 };
 struct AnyDictType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("dict[str, typing.Any]");
+  static constexpr auto kName = pybind11::detail::const_name("dict[str, typing.Any]");
 };
 struct DurationType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("Duration");
+  static constexpr auto kName = pybind11::detail::const_name("Duration");
 };
 struct DurationValueType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("Union[int, datetime.timedelta]");
+  static constexpr auto kName = pybind11::detail::const_name("Union[int, datetime.timedelta]");
 };
 struct OptionalTimedeltaType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("Optional[datetime.timedelta]");
+  static constexpr auto kName = pybind11::detail::const_name("Optional[datetime.timedelta]");
 };
 struct VersionType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("_Version");
+  static constexpr auto kName = pybind11::detail::const_name("_Version");
 };
 struct ArrayPairType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name(
+  static constexpr auto kName = pybind11::detail::const_name(
       "tuple[numpy.ndarray[numpy.float64], numpy.ndarray[numpy.float64]]");
 };
 struct StateAndPeriodType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("tuple[") +
-                               pybind11::detail::make_caster<franka::RobotState>::name +
-                               pybind11::detail::const_name(", Duration]");
+  static constexpr auto kName = pybind11::detail::const_name("tuple[") +
+                                pybind11::detail::make_caster<franka::RobotState>::name +
+                                pybind11::detail::const_name(", Duration]");
 };
 
 /// Whatever a std::vector can be made of.
 template <typename Value>
 struct SequenceType {
-  static constexpr auto name = pybind11::detail::const_name("Sequence[") +
-                               pybind11::detail::make_caster<Value>::name +
-                               pybind11::detail::const_name("]");
+  static constexpr auto kName = pybind11::detail::const_name("Sequence[") +
+                                pybind11::detail::make_caster<Value>::name +
+                                pybind11::detail::const_name("]");
   static bool accepts(PyObject* object) {
     return pybind11::detail::make_caster<std::vector<Value>>().load(object, true);
   }
@@ -85,13 +85,13 @@ struct SequenceType {
 /// An object of a class of C++, as it is in Python.
 template <typename Class>
 struct ClassType : Unchecked {
-  static constexpr auto name = pybind11::detail::make_caster<Class>::name;
+  static constexpr auto kName = pybind11::detail::make_caster<Class>::name;
 };
 template <typename Class>
 struct OptionalClassType : Unchecked {
-  static constexpr auto name = pybind11::detail::const_name("Optional[") +
-                               pybind11::detail::make_caster<Class>::name +
-                               pybind11::detail::const_name("]");
+  static constexpr auto kName = pybind11::detail::const_name("Optional[") +
+                                pybind11::detail::make_caster<Class>::name +
+                                pybind11::detail::const_name("]");
 };
 template <typename Class>
 struct ExactClassType : ClassType<Class> {
@@ -101,17 +101,17 @@ struct ExactClassType : ClassType<Class> {
 /// A function of a state that returns something, called once a millisecond.
 template <typename Command>
 struct CallbackType {
-  static constexpr auto name = pybind11::detail::const_name("Callable[[") +
-                               pybind11::detail::make_caster<franka::RobotState>::name +
-                               pybind11::detail::const_name(", Duration], ") +
-                               pybind11::detail::make_caster<Command>::name +
-                               pybind11::detail::const_name("]");
+  static constexpr auto kName = pybind11::detail::const_name("Callable[[") +
+                                pybind11::detail::make_caster<franka::RobotState>::name +
+                                pybind11::detail::const_name(", Duration], ") +
+                                pybind11::detail::make_caster<Command>::name +
+                                pybind11::detail::const_name("]");
   static bool accepts(PyObject* object) { return PyCallable_Check(object) != 0; }
 };
 struct ReaderType {
-  static constexpr auto name = pybind11::detail::const_name("Callable[[") +
-                               pybind11::detail::make_caster<franka::RobotState>::name +
-                               pybind11::detail::const_name("], object]");
+  static constexpr auto kName = pybind11::detail::const_name("Callable[[") +
+                                pybind11::detail::make_caster<franka::RobotState>::name +
+                                pybind11::detail::const_name("], object]");
   static bool accepts(PyObject* object) { return PyCallable_Check(object) != 0; }
 };
 
@@ -147,7 +147,7 @@ namespace pybind11::detail {
 
 template <typename Type>
 struct handle_type_name<pyfranka::python::Object<Type>> {
-  static constexpr auto name = Type::name;
+  static constexpr auto name = Type::kName;  // NOLINT(readability-identifier-naming)  pybind11's
 };
 
 }  // namespace pybind11::detail
