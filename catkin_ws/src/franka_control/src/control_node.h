@@ -3,6 +3,7 @@
 #pragma once
 
 #include <controller_manager/controller_manager.h>
+#include <franka_hw/arm_connection.h>
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/thrown_report.h>
 #include <ros/node_handle.h>

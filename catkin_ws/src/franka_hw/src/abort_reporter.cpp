@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_hw/abort_reporter.h>
+#include "abort_reporter.h"
+
 #include <ros/console.h>
 #include <ros/file_log.h>
 #include <std_msgs/String.h>

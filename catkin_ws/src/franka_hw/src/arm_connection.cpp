@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <franka/exception.h>
 #include <franka_core/fci/texts.h>
-#include <franka_hw/abort_reporter.h>
 #include <franka_hw/arm_connection.h>
 #include <franka_hw/goal_server.h>
 #include <franka_hw/services.h>
@@ -14,6 +13,9 @@
 
 #include <chrono>
 #include <utility>
+
+#include "abort_reporter.h"
+#include "reconnection.h"
 
 namespace franka_hw {
 
@@ -54,9 +56,12 @@ struct ArmConnection::Offer {
   std::unique_ptr<RecoveryServer> recovery;
 };
 
-ArmConnection::ArmConnection(Owner& owner) : owner_(owner) {}
+ArmConnection::ArmConnection(Owner& owner)
+    : owner_(owner), reconnection_(std::make_unique<Reconnection>()) {}
 
 ArmConnection::~ArmConnection() { close(); }
+
+bool ArmConnection::init(const ros::NodeHandle& nh) { return reconnection_->init(nh); }
 
 // --- the connection ------------------------------------------------------------------------------
 
@@ -93,7 +98,7 @@ void ArmConnection::lose(const std::string& what) {
   if (!connected()) {
     return;  // given up in the meantime
   }
-  ROS_ERROR_STREAM((offer_ ? offer_->arm_id : "FrankaHW") << ": " << reconnection_.report(what));
+  ROS_ERROR_STREAM((offer_ ? offer_->arm_id : "FrankaHW") << ": " << reconnection_->report(what));
   state_.handle(ArmEvent::kLost);
   if (owner_.lossIsError()) {
     fail();
@@ -123,7 +128,7 @@ void ArmConnection::awaitDrop() {
 
 void ArmConnection::reconnect() {
   if (offer_ && isLost(state()) && !dropping_) {
-    reconnection_.attempt(offer_->arm_id, [this] { owner_.connect(); });
+    reconnection_->attempt(offer_->arm_id, [this] { owner_.connect(); });
   }
 }
 

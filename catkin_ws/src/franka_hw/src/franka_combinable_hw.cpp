@@ -1,5 +1,6 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
+#include <franka_hw/arm_connection.h>
 #include <franka_hw/franka_combinable_hw.h>
 #include <franka_hw/resource_helpers.h>
 #include <pluginlib/class_list_macros.h>
@@ -26,14 +27,14 @@ FrankaCombinableHW::~FrankaCombinableHW() {
   if (control_loop_thread_.joinable()) {
     control_loop_thread_.join();
   }
-  connection_.close();
+  connection_->close();
 }
 
 bool FrankaCombinableHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
-  if (!connection_.init(robot_hw_nh) || !FrankaHW::init(root_nh, robot_hw_nh)) {
+  if (!connection_->init(robot_hw_nh) || !FrankaHW::init(root_nh, robot_hw_nh)) {
     return false;
   }
-  connection_.offer(robot_hw_nh, arm_id_);
+  connection_->offer(robot_hw_nh, arm_id_);
   control_loop_thread_ = std::thread(&FrankaCombinableHW::controlLoop, this);
   return true;
 }
@@ -54,14 +55,14 @@ void FrankaCombinableHW::initROSInterfaces(ros::NodeHandle& /*robot_hw_nh*/) {
 
 // --- errors --------------------------------------------------------------------------------------
 
-void FrankaCombinableHW::resetError() { connection_.recover(); }
+void FrankaCombinableHW::resetError() { connection_->recover(); }
 
-void FrankaCombinableHW::triggerError() { connection_.fail(); }
+void FrankaCombinableHW::triggerError() { connection_->fail(); }
 
-bool FrankaCombinableHW::hasError() const noexcept { return connection_.hasError(); }
+bool FrankaCombinableHW::hasError() const noexcept { return connection_->hasError(); }
 
 void FrankaCombinableHW::waitForOthers(bool waits) {
-  if (connection_.waitForOthers(waits) && !waits) {
+  if (connection_->waitForOthers(waits) && !waits) {
     error_recovered_ = true;
   }
 }
@@ -74,9 +75,9 @@ std::string FrankaCombinableHW::getArmID() const noexcept { return arm_id_; }
 
 void FrankaCombinableHW::controlLoop() {
   while (ros::ok() && !ending_) {
-    connection_.publishError();
+    connection_->publishError();
     if (controllerActive() && !hasError() && connected()) {
-      connection_.move([this] { control(); });
+      connection_->move([this] { control(); });
       motion_ended_ = ResponseTimes::Clock::now();
     } else {
       watchRobot();
@@ -88,13 +89,13 @@ void FrankaCombinableHW::controlLoop() {
 
 void FrankaCombinableHW::watchRobot() {
   franka::RobotState state;
-  if (connection_.readAtRest(state)) {
+  if (connection_->readAtRest(state)) {
     states_.write({state, ResponseTimes::Clock::now()});
   } else {
     if (controllerActive()) {
-      connection_.fail();  // it was given up while a controller started
+      connection_->fail();  // it was given up while a controller started
     }
-    connection_.reconnect();
+    connection_->reconnect();
   }
 }
 
@@ -104,7 +105,7 @@ void FrankaCombinableHW::control(
   if (!controllerActive()) {
     return;
   }
-  const ArmConnection::Motion motion(connection_);
+  const ArmConnection::Motion motion(*connection_);
   if (!motion) {
     return;
   }
@@ -206,7 +207,7 @@ bool FrankaCombinableHW::acceptsSwitch(
   }
   ResourceWithClaimsMap resources = getResourceMap(start_list);
   ArmClaimedMap claims;
-  if (initialized_ && !connection_.connected() && !takesBack(start_list, stop_list) &&
+  if (initialized_ && !connection_->connected() && !takesBack(start_list, stop_list) &&
       getArmClaimedMap(resources, claims) && getControlMode(arm_id_, claims) != ControlMode::None) {
     ROS_ERROR_STREAM("FrankaCombinableHW: no controller can command '"
                      << arm_id_ << "', which is not connected. Call its service connect first.");

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // FrankaHW: set-up, connection, interfaces and state.
 #include <franka/exception.h>
+#include <franka_hw/arm_connection.h>
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/model.h>
 #include <franka_hw/robot_mismatch.h>
@@ -31,6 +32,21 @@ constexpr char kNoRobot[] =
 
 }  // namespace
 
+class FrankaHW::ConnectionOwner final : public ArmConnection::Owner {
+ public:
+  explicit ConnectionOwner(FrankaHW& hw) : hw_(hw) {}
+
+  std::unique_ptr<franka::Robot> openRobot() override { return hw_.openRobot(); }
+  void connect() override { hw_.connect(); }
+  bool disconnect() override { return hw_.disconnect(); }
+  franka::RobotMode robotMode() const override { return hw_.robotMode(); }
+  bool lossIsError() const override { return hw_.lossIsError(); }
+  void errorEnds() override { hw_.errorEnds(); }
+
+ private:
+  FrankaHW& hw_;
+};
+
 FrankaHW::FrankaHW()
     : position_joint_command_libfranka_({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}),
       velocity_joint_command_libfranka_({0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0}),
@@ -43,10 +59,14 @@ FrankaHW::FrankaHW()
       effort_joint_command_ros_(effort_joint_command_libfranka_),
       pose_cartesian_command_ros_(pose_cartesian_command_libfranka_),
       velocity_cartesian_command_ros_(velocity_cartesian_command_libfranka_),
+      connection_owner_(std::make_unique<ConnectionOwner>(*this)),
+      connection_(std::make_unique<ArmConnection>(*connection_owner_)),
+      robot_mutex_(connection_->mutex()),
+      robot_(connection_->robot()),
       command_permission_(std::make_unique<CommandPermission>(arm_id_, robot_ip_, joint_names_,
                                                               urdf_model_, realtime_config_)) {}
 
-FrankaHW::~FrankaHW() { connection_.close(); }
+FrankaHW::~FrankaHW() { connection_->close(); }
 
 bool FrankaHW::init(ros::NodeHandle& root_nh, ros::NodeHandle& robot_hw_nh) {
   if (initialized_) {
@@ -97,7 +117,7 @@ void FrankaHW::connectInTime() {
   }
 }
 
-void FrankaHW::connect() { connection_.connect(); }
+void FrankaHW::connect() { connection_->connect(); }
 
 std::unique_ptr<franka::Robot> FrankaHW::openRobot() {
   auto robot = std::make_unique<franka::Robot>(robot_ip_, realtime_config_);
@@ -129,11 +149,11 @@ bool FrankaHW::disconnect() {
     ROS_ERROR("FrankaHW: the connection cannot be ended while a controller is active.");
     return false;
   }
-  connection_.disconnect();
+  connection_->disconnect();
   return !connected();
 }
 
-bool FrankaHW::connected() { return connection_.connected(); }
+bool FrankaHW::connected() { return connection_->connected(); }
 
 franka::Robot& FrankaHW::robot() const {
   if (!initialized_ || !robot_) {
@@ -173,7 +193,7 @@ void FrankaHW::setupJointStateInterface(franka::RobotState& robot_state) {
         joint_names_[i], &robot_state.q[i], &robot_state.dq[i], &robot_state.tau_J[i]));
 #if __has_include(<hardware_interface/command_effect_interface.h>)
     command_effect_interface_.registerHandle(hardware_interface::CommandEffectHandle(
-        joint_names_[i], [this] { return connection_.reasonWithoutEffect(); }));
+        joint_names_[i], [this] { return connection_->reasonWithoutEffect(); }));
   }
   registerInterface(&command_effect_interface_);
 #else

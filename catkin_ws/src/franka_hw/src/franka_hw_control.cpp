@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
 // FrankaHW: the switch of controllers, and the motion.
+#include <franka_hw/arm_connection.h>
 #include <franka_hw/franka_hw.h>
 #include <franka_hw/resource_helpers.h>
 #include <ros/console.h>
@@ -121,7 +122,7 @@ bool FrankaHW::prepareSwitch(const std::list<hardware_interface::ControllerInfo>
     return true;
   }
   if (start_mode != ControlMode::None) {
-    const std::string reason = connection_.reasonWithoutEffect();
+    const std::string reason = connection_->reasonWithoutEffect();
     if (!reason.empty()) {
       ROS_WARN_STREAM("FrankaHW: " << reason);
     }
@@ -234,7 +235,7 @@ void FrankaHW::control(
     return ros_callback(time, ros::Duration(time_step.toSec()));
   };
 
-  const ArmConnection::Motion motion(connection_);
+  const ArmConnection::Motion motion(*connection_);
   franka::Robot& connected_robot = robot();
   if (!motion) {
     return;

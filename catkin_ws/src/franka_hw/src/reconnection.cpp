@@ -1,6 +1,7 @@
 // Copyright (c) 2026 the franka_ros for Debian authors
 // SPDX-License-Identifier: Apache-2.0
-#include <franka_hw/reconnection.h>
+#include "reconnection.h"
+
 #include <ros/console.h>
 
 #include <exception>

@@ -6,7 +6,6 @@
 #include <franka/robot.h>
 #include <franka/robot_state.h>
 #include <franka_hw/arm_state.h>
-#include <franka_hw/reconnection.h>
 #include <franka_hw/robot_mutex.h>
 #include <ros/node_handle.h>
 
@@ -21,6 +20,8 @@
 #include <vector>
 
 namespace franka_hw {
+
+class Reconnection;
 
 /// The connection to one robot: the robot, its mutex, the state of the connection (arm_state.h),
 /// recovery, reconnection, and reports of aborts and losses.
@@ -147,7 +148,7 @@ class ArmConnection {
   /// @name Set-up, in this order
   /// @{
   /// Reads the parameter `reconnect`. @returns false, after logging the reason, if it is wrong
-  bool init(const ros::NodeHandle& nh) { return reconnection_.init(nh); }
+  bool init(const ros::NodeHandle& nh);
   /// Offers services, action and topics in this namespace. `arm_id` is for messages.
   void offer(const ros::NodeHandle& nh, const std::string& arm_id);
   /// Withdraws what was offered, and waits for calls under way. Called after the robot's thread has
@@ -176,7 +177,7 @@ class ArmConnection {
   std::atomic_bool dropping_{false};
   std::unique_ptr<Offer> offer_;
   std::function<void()> before_recovery_;
-  Reconnection reconnection_;
+  std::unique_ptr<Reconnection> reconnection_;
 };
 
 }  // namespace franka_hw

@@ -6,7 +6,6 @@
 #include <franka/duration.h>
 #include <franka/robot.h>
 #include <franka/robot_state.h>
-#include <franka_hw/arm_connection.h>
 #include <franka_hw/control_mode.h>
 #include <franka_hw/franka_cartesian_command_interface.h>
 #include <franka_hw/franka_model_interface.h>
@@ -43,8 +42,10 @@
 
 namespace franka_hw {
 
+class ArmConnection;
 class CommandPermission;
 class JointLimitMonitor;
+class RobotMutex;
 
 /// A Franka arm as hardware of ros_control, connected over the Franka Control Interface.
 ///
@@ -58,7 +59,7 @@ class JointLimitMonitor;
 /// checkJointLimits, reset, the callbacks). Real-time safe. Other threads call prepareSwitch,
 /// connect, disconnect and the services. A thread that communicates with the robot holds
 /// robotMutex(); control() holds it during a motion.
-class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owner {
+class FrankaHW : public hardware_interface::RobotHW {
  public:
   /// Thresholds of contact and collision, [Nm] and [N, Nm].
   struct CollisionConfig {
@@ -92,16 +93,16 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
 
   /// Connects to the robot and sets its collision behavior; does nothing when connected.
   /// @throws franka::Exception if the robot cannot be reached or refuses
-  void connect() override;
+  virtual void connect();
   /// Ends the connection. @returns false, after logging the reason, while a controller commands the
   /// robot
-  bool disconnect() override;
+  virtual bool disconnect();
   /// Whether there is a connection.
   virtual bool connected();
-  /// The connection: its state, its errors and its services. Its disconnect() ends it even if
-  /// controllers are active, but not within a motion.
-  ArmConnection& armConnection() noexcept { return connection_; }
-  const ArmConnection& armConnection() const noexcept { return connection_; }
+  /// The connection (franka_hw/arm_connection.h): its state, its errors and its services. Its
+  /// disconnect() ends it even if controllers are active, but not within a motion.
+  ArmConnection& armConnection() noexcept { return *connection_; }
+  const ArmConnection& armConnection() const noexcept { return *connection_; }
 
   /// Moves the robot until the controllers that command it are stopped; returns at once if there
   /// are none, or if armConnection() has an error. Holds robotMutex() during this time.
@@ -163,7 +164,7 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   /// armConnection().mutex(), held by the thread that communicates with the robot.
   virtual std::mutex& robotMutex();
   /// The mode in the last state.
-  franka::RobotMode robotMode() const override;
+  virtual franka::RobotMode robotMode() const;
   /// The time of measurement of the last state, on the clock of ROS. It is the time for the
   /// controllers and never goes back.
   const ros::Time& stateTime() const noexcept { return clock_.time(); }
@@ -291,10 +292,11 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   /// @name Functions that armConnection() calls
   /// @{
   /// Connects, sets the collision behavior, and warns about controllers that would be refused.
-  std::unique_ptr<franka::Robot> openRobot() override;
-  /// True while a controller commands the robot.
-  bool lossIsError() const override { return controllerActive(); }
-  void errorEnds() override {}
+  virtual std::unique_ptr<franka::Robot> openRobot();
+  /// Whether a loss of the robot now requires a recovery: while a controller commands it.
+  virtual bool lossIsError() const { return controllerActive(); }
+  /// Called before a recovery ends an error. The robot is then Idle.
+  virtual void errorEnds() {}
   /// @}
 
   /// Whether these lists cancel the preparation under way.
@@ -357,9 +359,11 @@ class FrankaHW : public hardware_interface::RobotHW, private ArmConnection::Owne
   std::mutex libfranka_cmd_mutex_;
   std::mutex ros_cmd_mutex_;
 
-  ArmConnection connection_{*this};
-  RobotMutex& robot_mutex_{connection_.mutex()};
-  const std::unique_ptr<franka::Robot>& robot_{connection_.robot()};
+  class ConnectionOwner;  // calls the functions of this class for armConnection()
+  std::unique_ptr<ConnectionOwner> connection_owner_;
+  std::unique_ptr<ArmConnection> connection_;
+  RobotMutex& robot_mutex_;
+  const std::unique_ptr<franka::Robot>& robot_;
   std::unique_ptr<franka_hw::ModelBase> model_{};
 
   std::array<std::string, 7> joint_names_;

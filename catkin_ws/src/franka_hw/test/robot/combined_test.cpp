@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Several arms as one robot: FrankaCombinedHW and the FrankaCombinableHW that it loads.
 #include <franka/extensions.h>
+#include <franka_hw/arm_connection.h>
 #include <franka_hw/franka_combined_hw.h>
 #include <franka_msgs/SetLoad.h>
 #include <gtest/gtest.h>

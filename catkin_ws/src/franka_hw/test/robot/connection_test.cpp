@@ -3,6 +3,7 @@
 // The connection, and the services of a robot that rests or moves.
 #include <franka/exception.h>
 #include <franka/extensions.h>
+#include <franka_hw/arm_connection.h>
 #include <franka_hw/services.h>
 #include <franka_msgs/ErrorRecoveryActionGoal.h>
 #include <franka_msgs/SetJointImpedance.h>

@@ -3,6 +3,7 @@
 #include "support.h"
 
 #include <franka_core/arm_model.h>
+#include <franka_hw/arm_connection.h>
 #include <gtest/gtest.h>
 #include <source_file.h>
 
