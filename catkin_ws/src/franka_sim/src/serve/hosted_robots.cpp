@@ -147,14 +147,12 @@ bool HostedRobots::isStartDue(Entry& entry, Clock::time_point now, Clock::durati
          entry.robot->clientHasReadStates().value_or(false) && entry.isMissing();
 }
 
-// A client in a motion, or at its start, gets the states that it would get without the wait.
+// The client of a motion gets no new state; the last one, repeated, keeps it waiting.
 bool HostedRobots::publishToOthers(Clock::time_point now) {
   bool exist = false;
   for (Entry& entry : entries_) {
-    if (!entry.robot->expectsCommand()) {
-      exist = true;
-      repeatIfDue(entry, now);
-    }
+    exist = exist || !entry.robot->expectsCommand();
+    repeatIfDue(entry, now);
   }
   return exist;
 }

@@ -38,8 +38,8 @@ class HostedRobots {
   /// While a tick waits for the clients of motions.
   /// @param waited for clients in this tick, without the time in which this process did not run
   void publishWhileWaiting(Clock::time_point now, Clock::duration waited);
-  /// While a tick waits for something else: to clients that need not answer.
-  /// @returns whether there are any
+  /// While a tick waits for something else: to clients that need not answer, and the last state
+  /// again to those of motions. @returns whether there are any of the former
   bool publishToOthers(Clock::time_point now);
   void reportPublished();  ///< to the services
   Clock::time_point publishedAt() const noexcept { return published_at_; }
