@@ -104,7 +104,8 @@ class PileSolverTest : public ::testing::Test {
     for (int layer = 0; layer < side; ++layer) {
       const int length = side - layer;
       for (int i = 0; i < length * length; ++i) {
-        addCube(kPitch * (i % length + 0.5 * layer), kPitch * (i / length + 0.5 * layer),
+        const int row = i / length;
+        addCube(kPitch * (i % length + 0.5 * layer), kPitch * (row + 0.5 * layer),
                 0.0199 + kPitch * layer);
       }
     }

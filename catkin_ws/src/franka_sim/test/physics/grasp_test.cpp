@@ -97,8 +97,9 @@ TEST_P(GraspTest, GraspHoldsBesideAPile) {
   for (int layer = 0; layer < 4; ++layer) {
     const int side = 4 - layer;
     for (int i = 0; i < side * side; ++i) {
+      const int row = i / side;
       const double x = 2 + 0.041 * (i % side + 0.5 * layer);
-      const double y = 0.041 * (i / side + 0.5 * layer);
+      const double y = 0.041 * (row + 0.5 * layer);
       const Pose pose{{x, y, 0.02 + 0.041 * layer}};
       world_.addObject(
           "cube" + std::to_string(cubes++),
